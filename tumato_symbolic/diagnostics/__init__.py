@@ -1,0 +1,6 @@
+"""Messages for users: codes, spans, rendering."""
+
+from tumato_symbolic.diagnostics.codes import Code
+from tumato_symbolic.diagnostics.model import Diagnostic, Note, Severity, Source, Span, UserError
+
+__all__ = ["Code", "Diagnostic", "Note", "Severity", "Source", "Span", "UserError"]

@@ -1,0 +1,67 @@
+"""What a user is told: a coded message at a place in a source text."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+from tumato_symbolic.diagnostics.codes import Code
+
+Severity = Literal["error", "warning"]
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """A range of a source text: 1-based lines and columns (in characters); the end is exclusive."""
+
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """A text and the name it is shown under (usually its path as the user typed it)."""
+
+    name: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Note:
+    """A second place that explains a diagnostic, such as the first of two declarations."""
+
+    message: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """One finding.
+
+    `help` is the way out ("did you mean `S_Battery`?"); `span` is None where no place in a text is to blame.
+    """
+
+    code: Code
+    message: str
+    span: Span | None = None
+    help: str | None = None
+    notes: tuple[Note, ...] = field(default=())
+
+    @property
+    def severity(self) -> Severity:
+        """Whether the finding stops the work."""
+        return self.code.severity
+
+
+class UserError(Exception):
+    """Input that cannot be used: carries the diagnostics and the source they point into (if any).
+
+    Raised by the public API and caught at the rim of the command line (exit code 2).
+    """
+
+    def __init__(self, diagnostics: tuple[Diagnostic, ...], source: Source | None = None) -> None:
+        super().__init__("; ".join(f"{d.code.name}: {d.message}" for d in diagnostics))
+        self.diagnostics = diagnostics
+        self.source = source

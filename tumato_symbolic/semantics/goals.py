@@ -1,0 +1,60 @@
+"""Which goals are active, and what is left of them once a set is chosen (`docs/semantics.md`, section 4)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from tumato_symbolic.semantics.states import ActionSet, State, holds
+from tumato_symbolic.spec import ConditionalGoal, Goal, SimpleGoal, Spec, executing_atoms
+
+ActiveGoals: TypeAlias = frozenset[int]
+"""`Γ(s)`: numbers of goal bodies (`Spec.bodies`)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Residual:
+    """A residual goal: active bodies whose `executing` atoms are settled by the first set.
+
+    `executed` holds those actions of the first set that the bodies speak of; every other atom `executing a` is false.
+    """
+
+    bodies: ActiveGoals
+    executed: ActionSet
+
+
+def active_goals(spec: Spec, state: State) -> ActiveGoals:
+    """`Γ(s)`."""
+    if spec.goals is None:
+        return frozenset()
+    entered, found = _walk(spec.goals, state)
+    return found if entered else frozenset()
+
+
+def _walk(goal: Goal, state: State) -> tuple[bool, ActiveGoals]:
+    """Whether `goal` is entered in `state`, and the simple goals that it makes active there."""
+    if isinstance(goal, SimpleGoal):
+        return True, frozenset((goal.body,))
+    if isinstance(goal, ConditionalGoal):
+        if not holds(goal.condition.formula, state):
+            return False, frozenset()
+        return True, _walk(goal.goal, state)[1]
+    found: ActiveGoals = frozenset()
+    for member in goal.members:
+        entered, active = _walk(member, state)
+        found |= active
+        if entered and goal.kind == "priority":
+            break
+    return True, found
+
+
+def residual_goal(spec: Spec, state: State, chosen: ActionSet) -> Residual:
+    """The residual goal of `state` when `chosen` is the first set."""
+    bodies = active_goals(spec, state)
+    spoken_of = frozenset[int]().union(*(executing_atoms(spec.bodies[body].formula) for body in bodies))
+    return Residual(bodies, chosen & spoken_of)
+
+
+def reached(spec: Spec, goal: Residual, state: State) -> bool:
+    """Whether the residual goal holds in `state`."""
+    return all(holds(spec.bodies[body].formula, state, goal.executed) for body in goal.bodies)

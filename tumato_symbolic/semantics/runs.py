@@ -1,0 +1,53 @@
+"""Nominal runs of a policy (`docs/semantics.md`, section 5)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+from tumato_symbolic.semantics.goals import reached, residual_goal
+from tumato_symbolic.semantics.states import ActionSet, State
+from tumato_symbolic.semantics.step import successor
+from tumato_symbolic.spec import Spec
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """The nominal run from `states[0]`, as far as it matters.
+
+    `end` tells how it ended: in the goal, at the plan bound, in a loop (the last state was met before), or in a state
+    without a decision. `decisions` has one entry for every step taken.
+    """
+
+    states: tuple[State, ...]
+    decisions: tuple[ActionSet, ...]
+    end: Literal["goal", "bound", "loop", "undefined"]
+
+    @property
+    def steps(self) -> int:
+        """How many steps the run has."""
+        return len(self.decisions)
+
+
+def follow(spec: Spec, policy: Mapping[State, ActionSet], start: State, first: ActionSet) -> Run:
+    """Execute `first` in `start`, then the policy, until the residual goal of the first step is reached or cannot be.
+
+    The first step may differ from what the policy says of `start`; a loop is one of the later states.
+    """
+    goal = residual_goal(spec, start, first)
+    states, decisions = [start], [first]
+    met: set[State] = set()
+    while True:
+        here = successor(spec, states[-1], decisions[-1])
+        states.append(here)
+        if reached(spec, goal, here):
+            return Run(tuple(states), tuple(decisions), "goal")
+        if len(decisions) == spec.max_plan_length:
+            return Run(tuple(states), tuple(decisions), "bound")
+        if here in met:
+            return Run(tuple(states), tuple(decisions), "loop")
+        if here not in policy:
+            return Run(tuple(states), tuple(decisions), "undefined")
+        met.add(here)
+        decisions.append(policy[here])

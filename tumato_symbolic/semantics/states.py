@@ -1,0 +1,82 @@
+"""States and the truth of predicates (`docs/semantics.md`, sections 1 and 2)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import product
+from math import prod
+from typing import TypeAlias
+
+from tumato_symbolic.spec import And, Assignment, Constant, Executing, Formula, Iff, Is, Not, Or, Spec
+
+State: TypeAlias = tuple[int, ...]
+"""One value number for every variable, in the order of declaration."""
+
+ActionSet: TypeAlias = frozenset[int]
+"""The numbers of the actions executed at the same time."""
+
+NOTHING: ActionSet = frozenset()
+
+
+def holds(formula: Formula, state: State, executed: ActionSet = NOTHING) -> bool:
+    """Whether `formula` is true in `state` while the actions `executed` run."""
+    match formula:
+        case Constant(value):
+            return value
+        case Is(variable, value):
+            return state[variable] == value
+        case Executing(action):
+            return action in executed
+        case Not(operand):
+            return not holds(operand, state, executed)
+        case And(operands):
+            return all(holds(part, state, executed) for part in operands)
+        case Or(operands):
+            return any(holds(part, state, executed) for part in operands)
+        case Iff(left, right):
+            return holds(left, state, executed) == holds(right, state, executed)
+
+
+def apply(assignment: Assignment, state: State) -> State:
+    """`state` after an effect: the assigned variables change, every other one keeps its value."""
+    after = list(state)
+    for variable, value in assignment:
+        after[variable] = value
+    return tuple(after)
+
+
+def count_states(spec: Spec) -> int:
+    """How many states there are, valid or not."""
+    return prod(len(variable.values) for variable in spec.variables)
+
+
+def all_states(spec: Spec) -> Iterator[State]:
+    """Every state; the last variable changes fastest."""
+    return product(*(range(len(variable.values)) for variable in spec.variables))
+
+
+def is_valid(spec: Spec, state: State) -> bool:
+    """`state ∈ V`: it satisfies every assumption."""
+    return all(holds(rule.formula, state) for rule in spec.assumptions)
+
+
+def is_safe(spec: Spec, state: State) -> bool:
+    """`state ∈ S`: it is valid and satisfies every state rule."""
+    return is_valid(spec, state) and all(holds(rule.formula, state) for rule in spec.state_rules)
+
+
+def named(spec: Spec, state: State) -> dict[str, str]:
+    """A state as the user writes it: value by variable."""
+    return {
+        variable.name: variable.values[value] for variable, value in zip(spec.variables, state, strict=True)
+    }
+
+
+def action_names(spec: Spec, chosen: ActionSet) -> tuple[str, ...]:
+    """The names of a set of actions, in the order of declaration."""
+    return tuple(spec.actions[number].name for number in sorted(chosen))
+
+
+def duration(spec: Spec, chosen: ActionSet) -> int:
+    """The duration of a set: the sum of its actions' durations (`docs/semantics.md`, section 5)."""
+    return sum(spec.actions[number].duration for number in chosen)

@@ -1,0 +1,130 @@
+"""What may be executed together, and where it leads (`docs/semantics.md`, section 3)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Literal, TypeAlias
+
+from tumato_symbolic.semantics.states import ActionSet, State, apply, holds, is_safe
+from tumato_symbolic.spec import Assignment, Ordering, Rule, Spec
+
+
+@dataclass(frozen=True, slots=True)
+class Effectuation:
+    """One action taking one of its effects, and the state after it."""
+
+    action: int
+    effect: Assignment
+    after: State
+
+
+Outcome: TypeAlias = tuple[Effectuation, ...]
+"""How a state was reached: effects in the order in which they struck. Empty for the empty set of actions."""
+
+
+def outcomes(spec: Spec, state: State, chosen: ActionSet, ordering: Ordering) -> dict[State, Outcome]:
+    """`Out(s, A)`: every state that the step can lead to, each with one shortest way of getting there.
+
+    Under `any`: after every non-empty sequence of distinct actions of `chosen`, each with any one of its effects.
+    Under `first`: after one action with any one of its effects. The empty set leads to `state` itself.
+    """
+    if not chosen:
+        return {state: ()}
+    reached: dict[State, Outcome] = {}
+    seen: set[tuple[State, ActionSet]] = set()
+    frontier: list[tuple[State, ActionSet, Outcome]] = [(state, chosen, ())]
+    while frontier:
+        following: list[tuple[State, ActionSet, Outcome]] = []
+        for here, waiting, past in frontier:
+            for action in sorted(waiting):
+                for effect in spec.actions[action].effects:
+                    there = apply(effect, here)
+                    way = (*past, Effectuation(action, effect, there))
+                    reached.setdefault(there, way)
+                    rest = waiting - {action}
+                    if (there, rest) not in seen:
+                        seen.add((there, rest))
+                        following.append((there, rest, way))
+        frontier = following if ordering == "any" else []
+    return reached
+
+
+def nominal_agrees(spec: Spec, chosen: ActionSet) -> bool:
+    """Whether no variable is given two different values by the nominal effects of `chosen`."""
+    given: dict[int, int] = {}
+    return all(
+        given.setdefault(variable, value) == value
+        for action in chosen
+        for variable, value in spec.actions[action].nominal
+    )
+
+
+def successor(spec: Spec, state: State, chosen: ActionSet) -> State:
+    """`δ(s, A)`: all nominal effects of `chosen` at once; they must agree."""
+    for action in chosen:
+        state = apply(spec.actions[action].nominal, state)
+    return state
+
+
+@dataclass(frozen=True, slots=True)
+class Objection:
+    """Why a set is not allowed: the first condition of section 3 that fails, with what it fails on.
+
+    `actions` are those to blame, `rule` the user's precondition or rule that is broken, and `outcome` the way into
+    the unsafe state (kinds `unsafe` and `nominal-unsafe`; empty when it is the state itself that is unsafe).
+    """
+
+    kind: Literal["precondition", "resource", "nominal-conflict", "reaction-rule", "unsafe", "nominal-unsafe"]
+    actions: tuple[int, ...]
+    rule: Rule | None = None
+    outcome: Outcome = ()
+    state: State | None = None
+
+
+def objections(spec: Spec, state: State, chosen: ActionSet, ordering: Ordering) -> Iterator[Objection]:
+    """Every reason why `chosen` is not allowed in `state`, in the order of section 3; none when it is."""
+    for number in sorted(chosen):
+        for rule in spec.actions[number].preconditions:
+            if not holds(rule.formula, state):
+                yield Objection("precondition", (number,), rule)
+    for first, second in combinations(sorted(chosen), 2):
+        if spec.actions[first].resources & spec.actions[second].resources:
+            yield Objection("resource", (first, second))
+        if not nominal_agrees(spec, frozenset((first, second))):
+            yield Objection("nominal-conflict", (first, second))
+    for rule in spec.reaction_rules:
+        if not holds(rule.formula, state, chosen):
+            yield Objection("reaction-rule", tuple(sorted(chosen)), rule)
+    for reached, way in outcomes(spec, state, chosen, ordering).items():
+        if not is_safe(spec, reached):
+            yield Objection("unsafe", tuple(sorted(chosen)), broken_rule(spec, reached), way, reached)
+    if nominal_agrees(spec, chosen):
+        end = successor(spec, state, chosen)
+        if not is_safe(spec, end):
+            yield Objection("nominal-unsafe", tuple(sorted(chosen)), broken_rule(spec, end), (), end)
+
+
+def broken_rule(spec: Spec, state: State) -> Rule | None:
+    """The first assumption or state rule that `state` breaks; None in a safe state."""
+    rules = (*spec.assumptions, *spec.state_rules)
+    return next((rule for rule in rules if not holds(rule.formula, state)), None)
+
+
+def allowed(spec: Spec, state: State, chosen: ActionSet, ordering: Ordering) -> bool:
+    """`Ok(s, A)`."""
+    return next(objections(spec, state, chosen, ordering), None) is None
+
+
+def allowed_sets(spec: Spec, state: State, ordering: Ordering) -> Iterator[ActionSet]:
+    """Every allowed set of actions in `state`: smaller sets first, then as declared. Exponential, by definition."""
+    applicable = [
+        number
+        for number, action in enumerate(spec.actions)
+        if all(holds(rule.formula, state) for rule in action.preconditions)
+    ]
+    for size in range(len(applicable) + 1):
+        for chosen in combinations(applicable, size):
+            if allowed(spec, state, frozenset(chosen), ordering):
+                yield frozenset(chosen)

@@ -1,0 +1,99 @@
+"""Resolved predicates: names are numbers, aliases are gone, an implication is a disjunction.
+
+Formulas are plain frozen trees, compared by structure. Their size is bounded by the resolver, so that recursion
+over them is safe.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TypeAlias
+
+
+@dataclass(frozen=True, slots=True)
+class Constant:
+    """`true` or `false`."""
+
+    value: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Is:
+    """Variable number `variable` has its value number `value`."""
+
+    variable: int
+    value: int
+
+
+@dataclass(frozen=True, slots=True)
+class Executing:
+    """Action number `action` is in the set that is executed."""
+
+    action: int
+
+
+@dataclass(frozen=True, slots=True)
+class Not:
+    """Negation."""
+
+    operand: Formula
+
+
+@dataclass(frozen=True, slots=True)
+class And:
+    """Conjunction of two or more formulas."""
+
+    operands: tuple[Formula, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Or:
+    """Disjunction of two or more formulas; `IF p THEN q` is `Or((Not(p), q))`."""
+
+    operands: tuple[Formula, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Iff:
+    """Both sides have the same truth value."""
+
+    left: Formula
+    right: Formula
+
+
+Formula: TypeAlias = Constant | Is | Executing | Not | And | Or | Iff
+
+TRUE = Constant(True)
+FALSE = Constant(False)
+
+
+def children(formula: Formula) -> tuple[Formula, ...]:
+    """The direct parts of a formula."""
+    match formula:
+        case Not(operand):
+            return (operand,)
+        case And(operands) | Or(operands):
+            return operands
+        case Iff(left, right):
+            return (left, right)
+        case _:
+            return ()
+
+
+def atoms(formula: Formula) -> Iterator[Is | Executing]:
+    """Every atom of a formula, from left to right, repetitions included."""
+    if isinstance(formula, Is | Executing):
+        yield formula
+    for part in children(formula):
+        yield from atoms(part)
+
+
+def executing_atoms(formula: Formula) -> frozenset[int]:
+    """The actions whose execution a formula speaks of."""
+    return frozenset(atom.action for atom in atoms(formula) if isinstance(atom, Executing))
+
+
+def variables_of(formula: Formula) -> frozenset[int]:
+    """The state variables that a formula mentions."""
+    return frozenset(atom.variable for atom in atoms(formula) if isinstance(atom, Is))

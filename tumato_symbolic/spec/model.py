@@ -1,0 +1,110 @@
+"""A specification with every name resolved: the one record that all later rooms read."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from tumato_symbolic.diagnostics import Span
+from tumato_symbolic.spec.formula import Formula
+
+Ordering: TypeAlias = Literal["any", "first"]
+
+Assignment: TypeAlias = tuple[tuple[int, int], ...]
+"""What an effect writes: pairs (variable, value), sorted by variable, each variable once. Empty: no change."""
+
+
+@dataclass(frozen=True, slots=True)
+class Variable:
+    """A state variable and its values, in the order of declaration."""
+
+    name: str
+    values: tuple[str, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """A predicate that the user wrote: a rule, an assumption, or one comma-separated part of a precondition."""
+
+    formula: Formula
+    text: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Alternative:
+    """One `alternative effects:` entry: all assignments that it denotes, one or more."""
+
+    outcomes: tuple[Assignment, ...]
+    text: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Action:
+    """An action. `resources` are resource numbers; the preconditions are a conjunction."""
+
+    name: str
+    duration: int
+    resources: frozenset[int]
+    preconditions: tuple[Rule, ...]
+    nominal: Assignment
+    alternatives: tuple[Alternative, ...]
+    span: Span
+
+    @property
+    def effects(self) -> tuple[Assignment, ...]:
+        """The nominal assignment first, then every alternative one; each assignment once."""
+        found = [self.nominal, *(outcome for entry in self.alternatives for outcome in entry.outcomes)]
+        return tuple(dict.fromkeys(found))
+
+
+@dataclass(frozen=True, slots=True)
+class SimpleGoal:
+    """`goal: PREDICATE`; `body` indexes `Spec.bodies`."""
+
+    body: int
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class ConditionalGoal:
+    """`when PREDICATE then …`."""
+
+    condition: Rule
+    goal: SimpleGoal | GoalList
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class GoalList:
+    """`BEGIN GOALS goal type: … END GOALS`."""
+
+    kind: Literal["priority", "constraint"]
+    members: tuple[Goal, ...]
+    span: Span
+
+
+Goal: TypeAlias = SimpleGoal | ConditionalGoal | GoalList
+
+
+@dataclass(frozen=True, slots=True)
+class Spec:
+    """A whole specification.
+
+    Variables, resources and actions are known by their position. `bodies` holds the goal bodies, each structure
+    once (aliases expanded), so that two goals are the same exactly when their body numbers are. `max_plan_length`
+    is None where plans are unbounded, `effect_ordering` is None where the text does not say.
+    """
+
+    variables: tuple[Variable, ...]
+    resources: tuple[str, ...]
+    actions: tuple[Action, ...]
+    reaction_rules: tuple[Rule, ...]
+    state_rules: tuple[Rule, ...]
+    assumptions: tuple[Rule, ...]
+    goals: GoalList | None
+    bodies: tuple[Rule, ...]
+    max_plan_length: int | None
+    effect_ordering: Ordering | None
