@@ -62,9 +62,7 @@ class DiagramBuilder(Generic[Leaf]):
             self._nodes.append(key)
         return found
 
-    def from_table(
-        self, sizes: Sequence[int], table: Mapping[tuple[int, ...], Leaf], default: Leaf
-    ) -> Reference:
+    def from_table(self, sizes: Sequence[int], table: Mapping[tuple[int, ...], Leaf], default: Leaf) -> Reference:
         """The diagram of a finite function: `table`, and `default` elsewhere. `sizes` counts values per variable."""
 
         def build(level: int, rows: list[tuple[tuple[int, ...], Leaf]]) -> Reference:

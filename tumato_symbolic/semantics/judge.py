@@ -37,19 +37,13 @@ def judge(spec: Spec, policy: Mapping[State, ActionSet], ordering: Ordering) -> 
     valid = [state for state in all_states(spec) if is_valid(spec, state)]
     missing = tuple(state for state in valid if state not in policy)
     decided = {state: policy[state] for state in valid if state in policy}
-    bad = (
-        (state, next(objections(spec, state, chosen, ordering), None)) for state, chosen in decided.items()
-    )
+    bad = ((state, next(objections(spec, state, chosen, ordering), None)) for state, chosen in decided.items())
     not_allowed = tuple((state, objection) for state, objection in bad if objection is not None)
     forbidden = {state for state, _ in not_allowed}
     runs = [
-        (state, follow(spec, decided, state, chosen))
-        for state, chosen in decided.items()
-        if state not in forbidden
+        (state, follow(spec, decided, state, chosen)) for state, chosen in decided.items() if state not in forbidden
     ]
-    cheaper = (
-        (state, better_sets(spec, decided, state, ordering)) for state in decided if not is_safe(spec, state)
-    )
+    cheaper = ((state, better_sets(spec, decided, state, ordering)) for state in decided if not is_safe(spec, state))
     return Judgement(
         missing,
         not_allowed,
@@ -59,9 +53,7 @@ def judge(spec: Spec, policy: Mapping[State, ActionSet], ordering: Ordering) -> 
     )
 
 
-def better_sets(
-    spec: Spec, policy: Mapping[State, ActionSet], state: State, ordering: Ordering
-) -> Iterator[ActionSet]:
+def better_sets(spec: Spec, policy: Mapping[State, ActionSet], state: State, ordering: Ordering) -> Iterator[ActionSet]:
     """The allowed sets of smaller duration than `policy[state]` whose run, continued by the policy, reaches the goal."""
     cost = duration(spec, policy[state])
     for chosen in allowed_sets(spec, state, ordering):

@@ -67,9 +67,7 @@ def is_safe(spec: Spec, state: State) -> bool:
 
 def named(spec: Spec, state: State) -> dict[str, str]:
     """A state as the user writes it: value by variable."""
-    return {
-        variable.name: variable.values[value] for variable, value in zip(spec.variables, state, strict=True)
-    }
+    return {variable.name: variable.values[value] for variable, value in zip(spec.variables, state, strict=True)}
 
 
 def action_names(spec: Spec, chosen: ActionSet) -> tuple[str, ...]:

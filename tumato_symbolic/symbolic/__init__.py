@@ -1,0 +1,1 @@
+"""Sets of states and steps as BDDs; the only room that knows dd."""

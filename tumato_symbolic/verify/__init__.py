@@ -1,0 +1,1 @@
+"""Proofs about policies, with Z3 and the specification alone."""
