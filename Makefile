@@ -1,0 +1,47 @@
+# `make demo` shows what this is about; `make test` is what every change has to pass.
+PYTHON ?= python3
+VENV ?= .venv
+BIN := $(VENV)/bin
+
+.PHONY: help demo test check format regenerate clean
+
+help:
+	@echo "make demo        install what is needed into $(VENV) and show the main job on a mobile robot"
+	@echo "make test        install the development tools too; lint, types, import walls, tests"
+	@echo "make format      put the sources into shape"
+	@echo "make regenerate  write proofs/ and the generated tables anew"
+	@echo "make clean       remove $(VENV) and all caches"
+
+demo: $(VENV)/.runtime
+	@BIN="$(abspath $(BIN))" sh examples/demo.sh
+
+test: $(VENV)/.development
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+	$(BIN)/python -m pytest
+
+format: $(VENV)/.development
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+regenerate: $(VENV)/.development
+	$(BIN)/python -m tests.repo.regenerate
+
+clean:
+	rm -rf $(VENV) build dist .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
+
+# Stamps: what is installed is installed again only when pyproject.toml changes.
+$(VENV)/.made:
+	@$(PYTHON) -c 'import sys; sys.exit(None if sys.version_info >= (3, 11) else "Python 3.11 or newer is needed (make PYTHON=…)")'
+	$(PYTHON) -m venv $(VENV)
+	@touch $@
+
+$(VENV)/.runtime: pyproject.toml | $(VENV)/.made
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e .
+	@touch $@
+
+$(VENV)/.development: pyproject.toml | $(VENV)/.made
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[dev]'
+	@touch $@ $(VENV)/.runtime

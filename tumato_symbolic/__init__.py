@@ -1,0 +1,63 @@
+"""Synthesize robot policies from declarative specifications, and prove them.
+
+The public API is what `__all__` lists. `parse` reads a specification, `synthesize` computes a policy (or says why there
+is none), `verify` proves one, and a `Policy` decides. Everything is loaded when it is first used, so that importing
+the package costs next to nothing.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from tumato_symbolic.diagnostics import Diagnostic, UserError
+    from tumato_symbolic.policy import Policy
+    from tumato_symbolic.spec import Spec, parse
+    from tumato_symbolic.synthesis import Failure, Realizable, Statistics, Undecided, Unrealizable, synthesize
+    from tumato_symbolic.verify import Verification, verify
+
+__version__ = "0.1.0"
+
+_HOMES = {
+    "Diagnostic": "diagnostics",
+    "UserError": "diagnostics",
+    "Policy": "policy",
+    "Spec": "spec",
+    "parse": "spec",
+    "Failure": "synthesis",
+    "Realizable": "synthesis",
+    "Statistics": "synthesis",
+    "Undecided": "synthesis",
+    "Unrealizable": "synthesis",
+    "synthesize": "synthesis",
+    "Verification": "verify",
+    "verify": "verify",
+}
+
+__all__ = [
+    "Diagnostic",
+    "Failure",
+    "Policy",
+    "Realizable",
+    "Spec",
+    "Statistics",
+    "Undecided",
+    "Unrealizable",
+    "UserError",
+    "Verification",
+    "__version__",
+    "parse",
+    "synthesize",
+    "verify",
+]
+
+
+def __getattr__(name: str) -> Any:  # noqa: ANN401 - the kinds differ, and type checkers read the imports above
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -1,0 +1,26 @@
+"""The exit codes, a contract with scripts (`docs/semantics.md` says what the verdicts mean)."""
+
+from __future__ import annotations
+
+from typing import Final
+
+YES: Final = 0
+"""Realizable and proved, proved, decided, no errors."""
+
+NO: Final = 1
+"""Not realizable, refuted, or a state about which the policy says nothing."""
+
+USAGE: Final = 2
+"""The command line, a specification or a policy cannot be used, or the output cannot be written."""
+
+UNDECIDED: Final = 3
+"""No verdict within the limits."""
+
+BUG: Final = 70
+"""An error of this program; the traceback is on the standard error stream."""
+
+INTERRUPTED: Final = 130
+"""Ctrl-C (128 + SIGINT)."""
+
+BROKEN_PIPE: Final = 141
+"""The reader of the output has gone (128 + SIGPIPE)."""

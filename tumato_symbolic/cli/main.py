@@ -1,0 +1,72 @@
+"""The rim of the program: every way in and every way out, with its exit code."""
+
+from __future__ import annotations
+
+import sys
+import traceback
+from collections.abc import Sequence
+
+from tumato_symbolic.cli.console import close_quietly, flush, prepare_streams
+from tumato_symbolic.cli.exits import BROKEN_PIPE, BUG, INTERRUPTED, UNDECIDED, USAGE
+from tumato_symbolic.cli.parser import Options, parse
+from tumato_symbolic.diagnostics import UserError
+
+_REPORT_THIS = (
+    "tumato-sym: this is a bug in tumato-sym, not a verdict on your input. "
+    "Please report it with the traceback above, the command and the input files."
+)
+
+
+def entry() -> None:
+    """The console script `tumato-sym`."""
+    sys.exit(main())
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command and return its exit code; no exception leaves this function."""
+    prepare_streams()
+    try:
+        code = _run(arguments)
+        flush()
+    except KeyboardInterrupt:
+        print("tumato-sym: interrupted", file=sys.stderr)
+        return INTERRUPTED
+    except BrokenPipeError:
+        close_quietly()
+        return BROKEN_PIPE
+    except MemoryError:
+        print("tumato-sym: undecided: out of memory", file=sys.stderr)
+        return UNDECIDED
+    except Exception:  # whatever comes here is our bug, and must not exit with 1
+        traceback.print_exc()
+        print(_REPORT_THIS, file=sys.stderr)
+        return BUG
+    return code
+
+
+def _run(arguments: Sequence[str] | None) -> int:
+    try:
+        options = parse(arguments)
+    except SystemExit as done:  # argparse has printed its help, the version or what is wrong with the usage
+        return done.code if isinstance(done.code, int) else USAGE
+    try:
+        return _command(options)
+    except UserError as error:
+        from tumato_symbolic.cli.failure import show_user_error
+
+        show_user_error(error, options)
+        return USAGE
+
+
+def _command(options: Options) -> int:
+    """Hand over to the command; each imports only what it needs, because start-up is measured."""
+    match options.command:
+        case "synth":
+            from tumato_symbolic.cli.synth import run
+        case "verify":
+            from tumato_symbolic.cli.verify import run
+        case "decide":
+            from tumato_symbolic.cli.decide import run
+        case _:
+            from tumato_symbolic.cli.check import run
+    return run(options)

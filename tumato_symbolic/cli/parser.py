@@ -1,0 +1,234 @@
+"""The command line as data: what may be typed, and the help that teaches it."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+if TYPE_CHECKING:
+    from tumato_symbolic.spec import Ordering
+
+OutputFormat = Literal["text", "json", "github"]
+PROPERTIES = ("total", "safe", "goals", "minimal")
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """One command with its options. A field that the command does not know keeps its default."""
+
+    command: Literal["synth", "verify", "decide", "check"]
+    specs: tuple[str, ...] = ()
+    policy: str = ""
+    output: str = "policy.json"
+    effect_ordering: Ordering | None = None
+    policy_format: Literal["auto", "table", "diagram"] = "auto"
+    prove: bool = True
+    properties: tuple[str, ...] = PROPERTIES
+    assignments: tuple[str, ...] = ()
+    stdin: bool = False
+    output_format: OutputFormat = "text"
+
+
+_EXITS = """\
+exit codes:
+  0 yes   1 no   2 the input or the command line cannot be used   3 no verdict within the limits
+  70 a bug of this program (please report it)   130 interrupted
+"""
+
+_MAIN = """\
+From a declarative specification to a robot policy that is proved safe.
+
+A specification says what the robot can be in (state variables), what it can do (actions with nominal and
+alternative effects), what must never happen (rules) and what it should reach (goals). `synth` computes what to do in
+every valid state, or says why there is no such policy; `verify` proves a policy for all states with Z3.
+"""
+
+_MAIN_EXAMPLE = """\
+example:
+  tumato-sym check amr.tum                   # any mistakes?
+  tumato-sym synth amr.tum                   # writes policy.json, proved
+  tumato-sym verify policy.json amr.tum      # proves it again, believing nobody
+  tumato-sym decide policy.json S_Location=corridor S_Battery=low S_Load=free S_Conveyor=off
+
+"""
+
+_SYNTH = """\
+Compute a policy for a specification, prove it, and write it.
+
+The policy says for every valid state which actions to execute. It is written only after Z3 has proved it. Where there
+is none, the states that fail are named and nothing is written.
+"""
+
+_SYNTH_EXAMPLE = """\
+examples:
+  tumato-sym synth amr.tum                                      # writes policy.json
+  tumato-sym synth amr.tum -o - | python -m json.tool | less    # the policy on the standard output
+  tumato-sym synth amr.tum --output-format json                 # the answer for a program
+
+"""
+
+_VERIFY = """\
+Prove a policy, whoever made it, against a specification.
+
+For all valid states at once: total (there is a decision), safe (every outcome keeps the rules, in any order of
+effects), goals (the nominal run reaches the active goals), minimal (no cheaper set of actions would restore safety as
+well). A property that does not hold is refuted by a state and the story of what goes wrong there.
+"""
+
+_VERIFY_EXAMPLE = """\
+examples:
+  tumato-sym verify policy.json amr.tum
+  tumato-sym verify policy.json amr.tum --properties total,safe,goals
+
+"""
+
+_DECIDE = """\
+Ask a policy what to do in a state: one action a line, nothing where nothing is to be done.
+
+With --stdin, read one JSON object per line and answer each with one JSON list on a line of its own (null where the
+policy says nothing about the state; the exit code is then 1).
+"""
+
+_DECIDE_EXAMPLE = """\
+examples:
+  tumato-sym decide policy.json S_Location=corridor S_Battery=low S_Load=free S_Conveyor=off
+  echo '{"S_Location": "corridor", "S_Battery": "low", "S_Load": "free", "S_Conveyor": "off"}' \\
+    | tumato-sym decide policy.json --stdin
+
+"""
+
+_CHECK = """\
+Look for mistakes in specifications without solving them: syntax, names, effects, and what is surely unmeant.
+
+Made for editors and commit hooks: it answers at once. Warnings alone exit with 0.
+"""
+
+_CHECK_EXAMPLE = """\
+examples:
+  tumato-sym check amr.tum
+  tumato-sym check specs/*.tum --output-format github
+
+"""
+
+
+def parse(arguments: Sequence[str] | None) -> Options:
+    """Read a command line. Help, version and usage errors end in `SystemExit`, as argparse does."""
+    found: dict[str, Any] = vars(_parser().parse_args(arguments))
+    if found["command"] == "decide" and found["stdin"] == bool(found["assignments"]):
+        what = "not both" if found["stdin"] else "or --stdin"
+        _parser().error(f"decide: give the state as VAR=VALUE …, {what} (see tumato-sym decide --help)")
+    if found["command"] == "synth" and not found["output"]:
+        _parser().error("synth: -o needs a file name (or - for the standard output)")
+    return Options(**{name: tuple(value) if isinstance(value, list) else value for name, value in found.items()})
+
+
+class _Version(argparse.Action):
+    """Print the version, which is looked up only now."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        from tumato_symbolic import __version__
+
+        parser.exit(0, f"tumato-sym {__version__}\n")
+
+
+def _properties(text: str) -> tuple[str, ...]:
+    asked = tuple(dict.fromkeys(part.strip() for part in text.split(",")))
+    wrong = next((name for name in asked if name not in PROPERTIES), None)
+    if wrong is not None:
+        raise argparse.ArgumentTypeError(f"{wrong!r} is not a property; choose from {', '.join(PROPERTIES)}")
+    return asked
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="tumato-sym",
+        description=_MAIN,
+        epilog=_MAIN_EXAMPLE + _EXITS,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    parser.add_argument("--version", action=_Version, nargs=0, help="show the version and exit")
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
+
+    synth = _add(commands, "synth", "compute, prove and write a policy", _SYNTH, _SYNTH_EXAMPLE)
+    synth.add_argument("specs", metavar="SPEC", nargs=1, help="the specification, a .tum file")
+    synth.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE",
+        default="policy.json",
+        help="where to write the policy (default: policy.json here; - for the standard output, the report then goes "
+        "to the standard error stream)",
+    )
+    _ordering(synth, "the specification's, else any")
+    synth.add_argument(
+        "--policy-format",
+        choices=("auto", "table", "diagram"),
+        default="auto",
+        help="a row for every state, or a decision diagram (default: auto, a table up to about 10,000 valid states)",
+    )
+    synth.add_argument(
+        "--no-verify",
+        dest="prove",
+        action="store_false",
+        help="write the policy without a proof (the report says so)",
+    )
+    _format(synth)
+
+    verify = _add(commands, "verify", "prove a policy, whoever made it", _VERIFY, _VERIFY_EXAMPLE)
+    verify.add_argument("policy", metavar="POLICY", help="the policy, a .json file")
+    verify.add_argument("specs", metavar="SPEC", nargs=1, help="the specification, a .tum file")
+    _ordering(verify, "the one that the policy records, else the specification's, else any")
+    verify.add_argument(
+        "--properties",
+        type=_properties,
+        default=PROPERTIES,
+        metavar="LIST",
+        help=f"what to prove, separated by commas (default: {','.join(PROPERTIES)})",
+    )
+    _format(verify)
+
+    decide = _add(commands, "decide", "what to do in a state", _DECIDE, _DECIDE_EXAMPLE)
+    decide.add_argument("policy", metavar="POLICY", help="the policy, a .json file")
+    decide.add_argument("assignments", metavar="VAR=VALUE", nargs="*", help="the state: a value for every variable")
+    decide.add_argument(
+        "--stdin", action="store_true", help="read states from the standard input, one JSON object a line"
+    )
+
+    check = _add(commands, "check", "look for mistakes in specifications", _CHECK, _CHECK_EXAMPLE)
+    check.add_argument("specs", metavar="SPEC", nargs="+", help="specifications, .tum files")
+    _format(check)
+    return parser
+
+
+def _add(
+    commands: argparse._SubParsersAction[argparse.ArgumentParser], name: str, purpose: str, about: str, example: str
+) -> argparse.ArgumentParser:
+    return commands.add_parser(
+        name,
+        help=purpose,
+        description=about,
+        epilog=example + _EXITS,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+
+
+def _ordering(parser: argparse.ArgumentParser, default: str) -> None:
+    parser.add_argument(
+        "--effect-ordering",
+        choices=("any", "first"),
+        help="how the effects of actions executed together may strike: in any order, one after the other, or only the "
+        f"first of them (default: {default})",
+    )
+
+
+def _format(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--output-format",
+        choices=("text", "json", "github"),
+        default="text",
+        help="for a person, for a program (one JSON object), or as workflow commands of GitHub (default: text)",
+    )

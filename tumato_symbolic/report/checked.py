@@ -1,0 +1,74 @@
+"""What `check` found, for a person, a program and GitHub."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from tumato_symbolic.diagnostics import Diagnostic, Source, render
+from tumato_symbolic.report.findings import finding_json, github_command, github_commands
+from tumato_symbolic.report.layout import Paint, count
+from tumato_symbolic.semantics import count_states
+from tumato_symbolic.spec import Spec
+
+
+@dataclass(frozen=True, slots=True)
+class Checked:
+    """One checked file: `source` is None where it could not be read, `spec` where it has errors."""
+
+    path: str
+    source: Source | None
+    spec: Spec | None
+    diagnostics: tuple[Diagnostic, ...]
+
+    @property
+    def failed(self) -> bool:
+        """Whether the specification cannot be used."""
+        return self.spec is None
+
+
+def as_text(files: Sequence[Checked], colour: bool) -> str:
+    """The findings of every file, and a line on what was read."""
+    paint = Paint(colour)
+    parts = []
+    for file in files:
+        if file.diagnostics:
+            parts.append(render(file.diagnostics, file.source, color=colour).rstrip("\n") + "\n")
+        errors = sum(diagnostic.severity == "error" for diagnostic in file.diagnostics)
+        warnings = len(file.diagnostics) - errors
+        found = [count(errors, "error")] * bool(errors) + [count(warnings, "warning")] * bool(warnings)
+        if file.spec is None:
+            parts.append(f"{file.path}: {paint.bad(', '.join(found))}")
+        else:
+            mood = paint.doubt(", ".join(found)) if found else paint.good("no findings")
+            parts.append(f"{file.path}: {mood} ({_size(file.spec)})")
+    return "\n".join(parts)
+
+
+def _size(spec: Spec) -> str:
+    rules = len(spec.reaction_rules) + len(spec.state_rules)
+    return ", ".join(
+        (
+            count(len(spec.variables), "state variable"),
+            count(count_states(spec), "state"),
+            count(len(spec.actions), "action"),
+            count(rules, "rule"),
+        )
+    )
+
+
+def as_json(files: Sequence[Checked]) -> dict[str, object]:
+    """One object: a verdict (`ok` or `error`) over all files, and the findings of each."""
+    return {
+        "verdict": "error" if any(file.failed for file in files) else "ok",
+        "files": [{"file": file.path, "verdict": "error" if file.failed else "ok"} for file in files],
+        "diagnostics": [finding_json(found, file.path) for file in files for found in file.diagnostics],
+    }
+
+
+def as_github(files: Sequence[Checked]) -> str:
+    """A workflow command for every finding, and one notice."""
+    commands = [github_commands(file.diagnostics, file.path) for file in files if file.diagnostics]
+    failed = sum(file.failed for file in files)
+    commands.append(github_command("notice", f"{count(len(files), 'specification')} checked, {failed} with errors"))
+    return "\n".join(commands)
