@@ -1,0 +1,142 @@
+"""Why a set of actions is not allowed, in sentences: the explicit meaning, told with the user's own rules and lines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import combinations
+
+from tumato_symbolic.report.layout import enumeration
+from tumato_symbolic.semantics import (
+    NOTHING,
+    ActionSet,
+    Effectuation,
+    Objection,
+    Outcome,
+    State,
+    action_names,
+    active_goals,
+    holds,
+    is_safe,
+    named,
+    objections,
+)
+from tumato_symbolic.spec import Assignment, Ordering, Rule, Spec
+
+_PAIRS_TRIED = 12
+"""Pairs are looked at where at most so many actions are applicable; single actions always."""
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A specification with the name of its file, for `file:line`."""
+
+    spec: Spec
+    file: str
+
+    def rule(self, rule: Rule) -> str:
+        """A rule as the user wrote it, on one line, and where."""
+        return f"`{' '.join(rule.text.split())}` ({self.file}:{rule.span.line})"
+
+    def state(self, state: State) -> str:
+        """A state as `decide` reads it."""
+        return " ".join(f"{name}={value}" for name, value in named(self.spec, state).items())
+
+    def actions(self, chosen: ActionSet) -> str:
+        """A set of actions; the empty one is `nothing`."""
+        names = action_names(self.spec, chosen)
+        return f"{{{', '.join(names)}}}" if names else "nothing"
+
+    def assignment(self, assignment: Assignment) -> str:
+        """What an effect writes, or `no change`."""
+        variables = self.spec.variables
+        written = [f"{variables[place].name}={variables[place].values[value]}" for place, value in assignment]
+        return " ".join(written) or "no change"
+
+    def goals(self, state: State) -> str:
+        """The goals that are active in a state."""
+        bodies = [self.rule(self.spec.bodies[body]) for body in sorted(active_goals(self.spec, state))]
+        return enumeration(bodies) or "none: any allowed step will do"
+
+
+def story(place: Place, outcome: Outcome) -> str:
+    """How effects struck one after the other."""
+    return ", then ".join(_effectuation(place, step) for step in outcome)
+
+
+def _effectuation(place: Place, step: Effectuation) -> str:
+    action = place.spec.actions[step.action]
+    written = place.assignment(step.effect)
+    if step.effect == action.nominal:
+        return f"{action.name} takes its nominal effect ({written})"
+    source = next(entry for entry in action.alternatives if step.effect in entry.outcomes)
+    return f"{action.name} takes an alternative effect ({written}; {place.file}:{source.span.line})"
+
+
+def objection_text(place: Place, state: State, objection: Objection) -> str:
+    """One objection to a set in `state`, as a clause without a full stop."""
+    names = [place.spec.actions[number].name for number in objection.actions]
+    rule = place.rule(objection.rule) if objection.rule else ""
+    match objection.kind:
+        case "precondition":
+            return f"{names[0]} has the precondition {rule}, which does not hold"
+        case "resource":
+            first, second = (place.spec.actions[number].resources for number in objection.actions)
+            shared = [place.spec.resources[number] for number in sorted(first & second)]
+            return f"{names[0]} and {names[1]} both control {enumeration(shared)}"
+        case "nominal-conflict":
+            return f"the nominal effects of {names[0]} and {names[1]} contradict each other"
+        case "reaction-rule":
+            return f"the reaction rule {rule} forbids it"
+        case "unsafe" if objection.outcome:
+            return f"when {story(place, objection.outcome)}, {rule} is broken"
+        case "unsafe":
+            return f"{rule} stays broken"
+        case "nominal-unsafe":
+            return f"after all nominal effects, {rule} is broken"
+
+
+def broken_here(place: Place, state: State) -> str:
+    """What an unsafe state breaks, as a remark in brackets; empty in a safe state."""
+    if is_safe(place.spec, state):
+        return ""
+    broken = [place.rule(rule) for rule in place.spec.state_rules if not holds(rule.formula, state)]
+    return f"unsafe: it breaks {enumeration(broken)}"
+
+
+def why_no_set(place: Place, state: State, ordering: Ordering, limit: int = 3) -> list[str]:
+    """The sets that come nearest to being allowed in a state where none is, each with what speaks against it.
+
+    Nearest: the nominal effects at least would do; then the fewest objections; then the fewest actions.
+    """
+    tried = []
+    for chosen in _candidates(place.spec, state):
+        found = list(objections(place.spec, state, chosen, ordering))
+        distance = (any(each.kind == "nominal-unsafe" for each in found), len(found), len(chosen))
+        tried.append((distance, chosen, found))
+    tried.sort(key=lambda entry: (entry[0], sorted(entry[1])))
+    lines = [f"{place.actions(chosen)}: {_together(place, state, found)}" for _, chosen, found in tried[:limit]]
+    if len(tried) == 1:
+        lines.append("anything else: no action has preconditions that hold here")
+    return lines
+
+
+def _together(place: Place, state: State, found: list[Objection]) -> str:
+    first = objection_text(place, state, found[0])
+    return first if len(found) == 1 else f"{first} (and {len(found) - 1} more)"
+
+
+def _candidates(spec: Spec, state: State) -> Iterator[ActionSet]:
+    """Doing nothing, every applicable action, and every pair of them that can run together."""
+    yield NOTHING
+    applicable = [
+        number
+        for number, action in enumerate(spec.actions)
+        if all(holds(rule.formula, state) for rule in action.preconditions)
+    ]
+    for number in applicable:
+        yield frozenset((number,))
+    if len(applicable) <= _PAIRS_TRIED:
+        for first, second in combinations(applicable, 2):
+            if not spec.actions[first].resources & spec.actions[second].resources:
+                yield frozenset((first, second))
