@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
+from math import prod
 from typing import Generic, TypeAlias, TypeVar
 
 Leaf = TypeVar("Leaf", bound=Hashable)
@@ -64,20 +65,72 @@ class DiagramBuilder(Generic[Leaf]):
 
     def from_table(self, sizes: Sequence[int], table: Mapping[tuple[int, ...], Leaf], default: Leaf) -> Reference:
         """The diagram of a finite function: `table`, and `default` elsewhere. `sizes` counts values per variable."""
+        depth, elsewhere = len(self._order), self.leaf(default)
+        rows = sorted((tuple(state[variable] for variable in self._order), state) for state in table)
+        if not rows or not depth:
+            return self.leaf(table[rows[0][1]]) if rows else elsewhere
+        path: tuple[int, ...] = ()
+        unfinished: list[list[Reference]] = []
+        for key, state in rows:
+            shared = next((level for level, value in enumerate(path) if value != key[level]), 0)
+            self._close(unfinished, path, shared + 1)
+            for level in range(len(unfinished), depth):
+                unfinished.append([elsewhere] * sizes[self._order[level]])
+            unfinished[-1][key[-1]] = self.leaf(table[state])
+            path = key
+        self._close(unfinished, path, 1)
+        return self.node(0, tuple(unfinished[0]))
 
-        def build(level: int, rows: list[tuple[tuple[int, ...], Leaf]]) -> Reference:
-            if not rows:
-                return self.leaf(default)
-            if level == len(self._order):
-                return self.leaf(rows[0][1])
-            variable = self._order[level]
-            split: list[list[tuple[tuple[int, ...], Leaf]]] = [[] for _ in range(sizes[variable])]
-            for row in rows:
-                split[row[0][variable]].append(row)
-            return self.node(level, tuple(build(level + 1, part) for part in split))
-
-        return build(0, list(table.items()))
+    def _close(self, unfinished: list[list[Reference]], path: tuple[int, ...], keep: int) -> None:
+        """Make the nodes on `path` below the first `keep` levels."""
+        while len(unfinished) > keep:
+            done = self.node(len(unfinished) - 1, tuple(unfinished.pop()))
+            unfinished[-1][path[len(unfinished) - 1]] = done
 
     def finish(self) -> Diagram[Leaf]:
         """The diagram with all nodes made so far."""
         return Diagram(self._order, self._leaves, tuple(self._nodes))
+
+
+def rebuild(
+    diagram: Diagram[Leaf],
+    roots: Sequence[Reference],
+    order: Sequence[int] | None = None,
+    values: Sequence[Sequence[int]] | None = None,
+) -> tuple[Diagram[Leaf], tuple[Reference, ...]]:
+    """The same functions in canonical form: reduced, only what `roots` need, nodes in the order of a depth-first walk.
+
+    `order` renames the variable of every level; `values[level]` lists, for every new value number, the old one.
+    """
+    builder = DiagramBuilder(diagram.order if order is None else order, diagram.leaves)
+    base = len(diagram.leaves)
+    done: dict[Reference, Reference] = {reference: reference for reference in range(base)}
+    for root in roots:
+        pending = [root]
+        while pending:
+            here = pending[-1]
+            if here in done:
+                pending.pop()
+                continue
+            level, below = diagram.nodes[here - base]
+            children = below if values is None else tuple(below[old] for old in values[level])
+            waiting = [child for child in children if child not in done]
+            if waiting:
+                pending.extend(reversed(waiting))
+            else:
+                done[here] = builder.node(level, tuple(done[child] for child in children))
+    return builder.finish(), tuple(done[root] for root in roots)
+
+
+def count_true(diagram: Diagram[bool], root: Reference, sizes: Sequence[int]) -> int:
+    """In how many states `root` leads to True, exactly. `sizes` counts the values of every variable."""
+    depth, base = len(diagram.order), len(diagram.leaves)
+    below_level = [1] * (depth + 1)
+    for level in range(depth - 1, -1, -1):
+        below_level[level] = below_level[level + 1] * sizes[diagram.order[level]]
+    levels = [depth] * base + [level for level, _ in diagram.nodes]
+    counts = [int(leaf) for leaf in diagram.leaves]
+    for level, below in diagram.nodes[: max(0, root - base + 1)]:
+        counts.append(sum(counts[child] * (below_level[level + 1] // below_level[levels[child]]) for child in below))
+    untested = prod(size for variable, size in enumerate(sizes) if variable not in diagram.order)
+    return counts[root] * (below_level[0] // below_level[levels[root]]) * untested

@@ -1,0 +1,122 @@
+"""A policy in the numbers of a specification."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
+from tumato_symbolic.policy.diagram import Diagram, Leaf, Reference, rebuild
+from tumato_symbolic.policy.model import Certificate, DecisionDiagram, Policy, RankedGoal, Table, Vocabulary
+from tumato_symbolic.policy.problems import show, way_out
+from tumato_symbolic.spec import Spec
+
+
+def bind(policy: Policy, spec: Spec) -> Policy:
+    """The same policy, renumbered so that its vocabulary is that of `spec`.
+
+    Raises `UserError` with every variable and value that only one side has (TUM503, TUM504) and every action that
+    `spec` does not have (TUM505). An action that only `spec` has is never executed. A certificate that speaks of
+    unknown actions is set aside.
+    """
+    target = Vocabulary.of(spec)
+    problems = tuple(_problems(policy.vocabulary, target))
+    if problems:
+        raise UserError(problems)
+    renumbering = _Renumbering.between(policy.vocabulary, target)
+    certificate, problem = _certificate(policy, target)
+    if certificate is not None:
+        certificate = renumbering.certificate(certificate)
+    decisions = policy.decisions
+    bound = renumbering.table(decisions) if isinstance(decisions, Table) else renumbering.decisions(decisions)
+    return replace(policy, vocabulary=target, decisions=bound, certificate=certificate, certificate_problem=problem)
+
+
+def _problems(source: Vocabulary, target: Vocabulary) -> Iterator[Diagnostic]:
+    ours, theirs = dict(target.variables), dict(source.variables)
+    for name, known in source.variables:
+        if name not in ours:
+            message = f"the policy speaks of the variable {show(name)}, which the specification does not have"
+            yield Diagnostic(Code.TUM503, message, help=way_out(name, ours, "variables of the specification"))
+            continue
+        for value in known:
+            if value not in ours[name]:
+                message = (
+                    f"the policy knows a value {show(value)} of {show(name)}, which the specification does not have"
+                )
+                yield Diagnostic(Code.TUM504, message, help=way_out(value, ours[name], "values in the specification"))
+    for name, values in target.variables:
+        if name not in theirs:
+            message = f"the policy does not know the variable {show(name)} of the specification"
+            yield Diagnostic(Code.TUM503, message, help="synthesize the policy again")
+            continue
+        for value in values:
+            if value not in theirs[name]:
+                message = f"the policy does not know the value {show(value)} of {show(name)} in the specification"
+                yield Diagnostic(Code.TUM504, message, help="add it to `States`, or synthesize the policy again")
+    for action in source.actions:
+        if action not in target.actions:
+            message = f"the policy speaks of the action {show(action)}, which the specification does not have"
+            yield Diagnostic(Code.TUM505, message, help=way_out(action, target.actions, "actions of the specification"))
+
+
+def _certificate(policy: Policy, target: Vocabulary) -> tuple[Certificate | None, str | None]:
+    certificate = policy.certificate
+    if certificate is not None:
+        for goal in certificate.goals:
+            for name in goal.executed:
+                if name not in target.actions:
+                    return None, f"`Certificate` speaks of the unknown action {show(name)}"
+    return certificate, policy.certificate_problem
+
+
+@dataclass(frozen=True, slots=True)
+class _Renumbering:
+    """`variables[old]` and `actions[old]` are new numbers; `values[old]` lists, for new value numbers, the old ones."""
+
+    variables: tuple[int, ...]
+    values: tuple[tuple[int, ...], ...]
+    actions: tuple[int, ...]
+    action_count: int
+
+    @classmethod
+    def between(cls, source: Vocabulary, target: Vocabulary) -> _Renumbering:
+        places = {name: number for number, (name, _) in enumerate(target.variables)}
+        wanted = dict(target.variables)
+        return cls(
+            tuple(places[name] for name, _ in source.variables),
+            tuple(tuple(map(values.index, wanted[name])) for name, values in source.variables),
+            tuple(target.actions.index(name) for name in source.actions),
+            len(target.actions),
+        )
+
+    def table(self, table: Table) -> Table:
+        """Every row with new numbers, in row-major order."""
+        places = [self.variables.index(new) for new in range(len(self.variables))]
+        new_values = [{old: new for new, old in enumerate(values)} for values in self.values]
+        rows = {
+            tuple(new_values[place][state[place]] for place in places): frozenset(self.actions[old] for old in chosen)
+            for state, chosen in table.rows.items()
+        }
+        return Table(dict(sorted(rows.items())))
+
+    def decisions(self, decisions: DecisionDiagram) -> DecisionDiagram:
+        """Roots in the new order of actions; the order of tests stays as it is."""
+        diagram, roots = self._diagram(decisions.diagram, (*decisions.roots, decisions.defined))
+        never = diagram.leaves.index(False)
+        by_action = dict(zip(self.actions, roots, strict=False))
+        return DecisionDiagram(
+            diagram, tuple(by_action.get(action, never) for action in range(self.action_count)), roots[-1]
+        )
+
+    def certificate(self, certificate: Certificate) -> Certificate:
+        """The ranks of the same states."""
+        ranks, roots = self._diagram(certificate.ranks, [goal.root for goal in certificate.goals])
+        kept = zip(certificate.goals, roots, strict=True)
+        return Certificate(ranks, tuple(RankedGoal(goal.bodies, goal.executed, root) for goal, root in kept))
+
+    def _diagram(
+        self, diagram: Diagram[Leaf], roots: Sequence[Reference]
+    ) -> tuple[Diagram[Leaf], tuple[Reference, ...]]:
+        order = [self.variables[variable] for variable in diagram.order]
+        return rebuild(diagram, roots, order, [self.values[variable] for variable in diagram.order])

@@ -1,0 +1,92 @@
+"""From tables to diagrams and back, and how many states are decided."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from itertools import product
+
+from tumato_symbolic.policy.diagram import Diagram, DiagramBuilder, Reference, count_true
+from tumato_symbolic.policy.model import Certificate, DecisionDiagram, Policy, Table, Vocabulary
+from tumato_symbolic.semantics import ActionSet, State
+from tumato_symbolic.spec import Ordering, Spec
+
+
+def policy_from_rows(
+    spec: Spec,
+    rows: Mapping[State, ActionSet],
+    ordering: Ordering | None = None,
+    digest: str | None = None,
+    certificate: Certificate | None = None,
+) -> Policy:
+    """The policy that decides exactly the states of `rows`, as a table in row-major order."""
+    return Policy(Vocabulary.of(spec), Table(dict(sorted(rows.items()))), ordering, digest, certificate)
+
+
+def as_diagram(policy: Policy) -> DecisionDiagram:
+    """The decisions as a reduced diagram; one made from a table has the order of declaration."""
+    if isinstance(policy.decisions, DecisionDiagram):
+        return policy.decisions
+    rows, sizes = policy.decisions.rows, policy.vocabulary.sizes
+    builder = DiagramBuilder[bool](range(len(sizes)), (False, True))
+    executed: list[dict[State, bool]] = [{} for _ in policy.vocabulary.actions]
+    for state, chosen in rows.items():
+        for action in chosen:
+            executed[action][state] = True
+    roots = tuple(builder.from_table(sizes, states, False) for states in executed)
+    defined = builder.from_table(sizes, dict.fromkeys(rows, True), False)
+    return DecisionDiagram(builder.finish(), roots, defined)
+
+
+def count_defined(policy: Policy) -> int:
+    """How many states the policy decides, exactly."""
+    decisions = policy.decisions
+    if isinstance(decisions, Table):
+        return len(decisions.rows)
+    return count_true(decisions.diagram, decisions.defined, policy.vocabulary.sizes)
+
+
+def as_table(policy: Policy, limit: int) -> Table | None:
+    """The decisions as rows in row-major order; None where there are more than `limit`."""
+    if count_defined(policy) > limit:
+        return None
+    if isinstance(policy.decisions, Table):
+        return policy.decisions
+    sizes = policy.vocabulary.sizes
+    rows: dict[State, ActionSet] = {}
+    for fixed, chosen in _cubes(policy.decisions, sizes):
+        free = [(fixed[variable],) if variable in fixed else range(size) for variable, size in enumerate(sizes)]
+        rows.update(dict.fromkeys(product(*free), chosen))
+    return Table(dict(sorted(rows.items())))
+
+
+def _cubes(decisions: DecisionDiagram, sizes: tuple[int, ...]) -> Iterator[tuple[dict[int, int], ActionSet]]:
+    """Disjoint sets of decided states, given by the variables that are fixed, and the decision of each."""
+    diagram = decisions.diagram
+    pending: list[tuple[tuple[Reference, ...], dict[int, int]]] = [((decisions.defined, *decisions.roots), {})]
+    while pending:
+        roots, fixed = pending.pop()
+        if _is_leaf(diagram, roots[0]) and not diagram.leaves[roots[0]]:
+            continue
+        level = min((_level(diagram, root) for root in roots), default=len(diagram.order))
+        if level == len(diagram.order):
+            yield fixed, frozenset(action for action, root in enumerate(roots[1:]) if diagram.leaves[root])
+            continue
+        variable = diagram.order[level]
+        for value in range(sizes[variable]):
+            below = tuple(_below(diagram, root, level, value) for root in roots)
+            pending.append((below, {**fixed, variable: value}))
+
+
+def _is_leaf(diagram: Diagram[bool], root: Reference) -> bool:
+    return root < len(diagram.leaves)
+
+
+def _level(diagram: Diagram[bool], root: Reference) -> int:
+    return len(diagram.order) if _is_leaf(diagram, root) else diagram.nodes[root - len(diagram.leaves)][0]
+
+
+def _below(diagram: Diagram[bool], root: Reference, level: int, value: int) -> Reference:
+    """What `root` leads to where the variable of `level` has number `value`."""
+    if _level(diagram, root) != level:
+        return root
+    return diagram.nodes[root - len(diagram.leaves)][1][value]

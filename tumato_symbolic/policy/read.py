@@ -1,0 +1,236 @@
+"""JSON text to `Policy`. The format is described in `docs/policy.md`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from tumato_symbolic.diagnostics import Code, Source, UserError
+from tumato_symbolic.policy.diagram import Diagram, Node, Reference, rebuild
+from tumato_symbolic.policy.model import Certificate, DecisionDiagram, Policy, RankedGoal, Table, Vocabulary
+from tumato_symbolic.policy.problems import fault, listed, plain, show, way_out
+from tumato_symbolic.policy.shape import as_list, as_names, as_object, as_text, as_whole, member, parse_json, wrong
+from tumato_symbolic.semantics import ActionSet, State
+from tumato_symbolic.spec import Ordering
+
+FORMAT_VERSION = 1
+"""The version of this project's own sections."""
+
+
+def loads(text: str, name: str = "policy") -> Policy:
+    """The policy that `text` describes; `name` is what it is called in messages.
+
+    Raises `UserError` (TUM501 to TUM508) for text that is no policy. A certificate that cannot be used is set aside
+    and `Policy.certificate_problem` tells why.
+    """
+    try:
+        return _policy(as_object(parse_json(text, name), "the policy"))
+    except UserError as error:
+        raise UserError(error.diagnostics, error.source or Source(name, "")) from None
+
+
+def _policy(document: dict[str, Any]) -> Policy:
+    form = as_text(member(document, "Type", "the policy"), "`Type`")
+    if form not in ("policy", "policy-diagram"):
+        raise fault(Code.TUM502, f"`Type` is {show(form)}", 'expected "policy" or "policy-diagram"')
+    if "PolicyFrameworkVersion" in document:
+        as_text(document["PolicyFrameworkVersion"], "`PolicyFrameworkVersion`")
+    if as_whole(document.get("FormatVersion", FORMAT_VERSION), "`FormatVersion`") > FORMAT_VERSION:
+        message = f"`FormatVersion` is {document['FormatVersion']}, this program reads {FORMAT_VERSION}"
+        raise fault(Code.TUM502, message, "use the version of tumato-sym that wrote the policy, or a later one")
+    vocabulary = _vocabulary(document)
+    body, other = ("Policy", "Diagram") if form == "policy" else ("Diagram", "Policy")
+    if other in document:
+        raise fault(Code.TUM502, f"a policy of type {show(form)} must not have `{other}`", f"keep `{body}` only")
+    section = member(document, body, f"a policy of type {show(form)}")
+    decisions = _table(section, vocabulary) if form == "policy" else _decision_diagram(section, vocabulary)
+    certificate, problem = _certificate(document, vocabulary)
+    return Policy(vocabulary, decisions, _ordering(document), _digest(document), certificate, problem)
+
+
+def _ordering(document: dict[str, Any]) -> Ordering | None:
+    if "EffectOrdering" not in document:
+        return None
+    match document["EffectOrdering"]:
+        case "any":
+            return "any"
+        case "first":
+            return "first"
+        case value:
+            raise wrong("`EffectOrdering`", '"any" or "first"', value)
+
+
+def _digest(document: dict[str, Any]) -> str | None:
+    if "SpecificationDigest" not in document:
+        return None
+    return as_text(document["SpecificationDigest"], "`SpecificationDigest`")
+
+
+def _vocabulary(document: dict[str, Any]) -> Vocabulary:
+    actions = as_names(member(document, "Actions", "the policy"), "`Actions`")
+    states = as_object(member(document, "States", "the policy"), "`States`")
+    if not states:
+        raise fault(Code.TUM502, "`States` names no variable")
+    variables = []
+    for variable, section in states.items():
+        where = f"{show(as_text(variable, 'a variable'))} in `States`"
+        numbered = as_object(section, where)
+        if not numbered:
+            raise fault(Code.TUM502, f"{where} has no values")
+        values: dict[int, str] = {}
+        for value, number in numbered.items():
+            as_text(value, f"a value of {where}")
+            place = as_whole(number, f"the index of {show(value)} of {where}", len(numbered))
+            if values.setdefault(place, value) != value:
+                raise fault(Code.TUM502, f"{where} gives {show(values[place])} and {show(value)} the index {place}")
+        variables.append((variable, tuple(values[place] for place in range(len(values)))))
+    return Vocabulary(tuple(variables), actions)
+
+
+def _table(section: object, vocabulary: Vocabulary) -> Table:
+    if any(name == "Actions" for name, _ in vocabulary.variables):
+        message = "a table cannot hold a variable named `Actions`: its value and the actions would share one key"
+        raise fault(Code.TUM502, message, 'rename the variable, or use the type "policy-diagram"')
+    names = tuple(name for name, _ in vocabulary.variables)
+    numbers = [(name, {value: number for number, value in enumerate(values)}) for name, values in vocabulary.variables]
+    actions = {name: number for number, name in enumerate(vocabulary.actions)}
+    rows: dict[State, tuple[int, ActionSet]] = {}
+    for place, row in enumerate(as_list(section, "`Policy`"), 1):
+        try:
+            state = tuple([known[row[name]] for name, known in numbers])
+            executed = frozenset([actions[name] for name in row["Actions"]])
+            fits = type(row) is dict and type(row["Actions"]) is list and len(row) == len(names) + 1
+        except (KeyError, TypeError):
+            fits = False
+        if not fits:
+            raise _bad_row(row, place, vocabulary)
+        first, before = rows.setdefault(state, (place, executed))
+        if before != executed:
+            raise _contradiction(vocabulary, state, first, place)
+    return Table({state: executed for state, (_, executed) in sorted(rows.items())})
+
+
+def _bad_row(row: object, place: int, vocabulary: Vocabulary) -> UserError:
+    """Why row number `place` cannot be read."""
+    where = f"row {place} of `Policy`"
+    section = as_object(row, where)
+    values = dict(vocabulary.variables)
+    for key in section:
+        if key != "Actions" and key not in values:
+            return fault(
+                Code.TUM503, f"{where} has the unknown variable {show(key)}", way_out(key, values, "variables")
+            )
+    for name, known in values.items():
+        if name not in section:
+            return fault(Code.TUM503, f"{where} has no value for {show(name)}", f"its values: {listed(known)}")
+        value = as_text(section[name], f"{show(name)} in {where}")
+        if value not in known:
+            message = f"{where} gives {show(name)} the unknown value {show(value)}"
+            return fault(Code.TUM504, message, way_out(value, known, "values"))
+    for action in as_list(member(section, "Actions", where), f"`Actions` in {where}"):
+        name = as_text(action, f"an entry of `Actions` in {where}")
+        if name not in vocabulary.actions:
+            message = f"{where} executes the unknown action {show(name)}"
+            return fault(Code.TUM505, message, way_out(name, vocabulary.actions, "actions"))
+    return wrong(where, "a state and its actions", row)
+
+
+def _contradiction(vocabulary: Vocabulary, state: State, first: int, second: int) -> UserError:
+    pairs = zip(vocabulary.variables, state, strict=True)
+    named = ", ".join(f"{plain(name)} is {plain(values[value])}" for (name, values), value in pairs)
+    message = f"rows {first} and {second} of `Policy` decide the same state differently ({named})"
+    return fault(Code.TUM506, message, "keep one of the two rows")
+
+
+def _diagram(
+    section: dict[str, Any], title: str, vocabulary: Vocabulary
+) -> tuple[tuple[int, ...], list[Any], tuple[Node, ...]]:
+    """Order, leaves (not empty, but unchecked) and nodes of the section called `title`."""
+    where = f"`{title}`"
+    numbers = {name: number for number, (name, _) in enumerate(vocabulary.variables)}
+    names = as_names(member(section, "Order", where), f"`{title}.Order`")
+    for name in names:
+        if name not in numbers:
+            message = f"{where} tests the unknown variable {show(name)}"
+            raise fault(Code.TUM503, message, way_out(name, numbers, "variables"))
+    order = tuple(numbers[name] for name in names)
+    leaves = as_list(member(section, "Leaves", where), f"`{title}.Leaves`")
+    if not leaves:
+        raise fault(Code.TUM502, f"{where} has no leaves")
+    entries = as_list(member(section, "Nodes", where), f"`{title}.Nodes`")
+    return order, leaves, _nodes(entries, where, [vocabulary.sizes[variable] for variable in order], len(leaves))
+
+
+def _nodes(entries: list[Any], where: str, sizes: list[int], base: int) -> tuple[Node, ...]:
+    levels = [len(sizes)] * base
+    nodes: list[Node] = []
+    for number, entry in enumerate(entries, base):
+        here = f"node {number} of {where}"
+        pair = as_list(entry, here)
+        if len(pair) != 2:
+            raise fault(Code.TUM502, f"{here} has {len(pair)} parts, expected a level and a list of references")
+        level = as_whole(pair[0], f"the level of {here}", len(sizes))
+        below = tuple(as_list(pair[1], f"the second part of {here}"))
+        if len(below) != sizes[level]:
+            message = f"{here} has {len(below)} references, but its variable has {sizes[level]} values"
+            raise fault(Code.TUM502, message)
+        for child in below:
+            if levels[as_whole(child, f"a reference of {here}", number)] <= level:
+                raise fault(Code.TUM502, f"{here} leads to {child}, which is not at a deeper level")
+        nodes.append((level, below))
+        levels.append(level)
+    return tuple(nodes)
+
+
+def _decision_diagram(value: object, vocabulary: Vocabulary) -> DecisionDiagram:
+    where = "`Diagram`"
+    section = as_object(value, where)
+    order, leaves, nodes = _diagram(section, "Diagram", vocabulary)
+    if leaves != [False, True] or any(type(leaf) is not bool for leaf in leaves):
+        raise fault(Code.TUM502, "`Diagram.Leaves` must be [false, true]")
+    named = as_object(member(section, "Roots", where), "`Diagram.Roots`")
+    for name in named:
+        if name not in vocabulary.actions:
+            message = f"`Diagram.Roots` has the unknown action {show(name)}"
+            raise fault(Code.TUM505, message, way_out(name, vocabulary.actions, "actions"))
+    end = len(leaves) + len(nodes)
+    roots: list[Reference] = []
+    for name in vocabulary.actions:
+        if name not in named:
+            raise fault(Code.TUM505, f"`Diagram.Roots` has no entry for the action {show(name)}")
+        roots.append(as_whole(named[name], f"the root of {show(name)}", end))
+    roots.append(as_whole(member(section, "Defined", where), "`Diagram.Defined`", end))
+    found: Diagram[bool] = Diagram(order, tuple(leaves), nodes)
+    diagram, kept = rebuild(found, roots)
+    return DecisionDiagram(diagram, kept[:-1], kept[-1])
+
+
+def _certificate(document: dict[str, Any], vocabulary: Vocabulary) -> tuple[Certificate | None, str | None]:
+    """The certificate, or why there is none (nothing to say where the policy brings none)."""
+    if "Certificate" not in document:
+        return None, None
+    try:
+        return _ranks(as_object(document["Certificate"], "`Certificate`"), vocabulary), None
+    except UserError as error:
+        return None, error.diagnostics[0].message
+
+
+def _ranks(section: dict[str, Any], vocabulary: Vocabulary) -> Certificate:
+    where = "`Certificate`"
+    order, leaves, nodes = _diagram(section, "Certificate", vocabulary)
+    for leaf in leaves:
+        if leaf is not None:
+            as_whole(leaf, "an entry of `Certificate.Leaves`")
+    if len(set(leaves)) != len(leaves):
+        raise fault(Code.TUM502, "`Certificate.Leaves` has an entry twice")
+    goals = []
+    for number, entry in enumerate(as_list(member(section, "Goals", where), "`Certificate.Goals`"), 1):
+        here = f"goal {number} of {where}"
+        goal = as_object(entry, here)
+        bodies = as_names(member(goal, "Bodies", here), f"`Bodies` of {here}")
+        executed = as_names(member(goal, "Executed", here), f"`Executed` of {here}")
+        root = as_whole(member(goal, "Root", here), f"`Root` of {here}", len(leaves) + len(nodes))
+        goals.append(RankedGoal(bodies, executed, root))
+    found: Diagram[int | None] = Diagram(order, tuple(leaves), nodes)
+    ranks, roots = rebuild(found, [goal.root for goal in goals])
+    kept = zip(goals, roots, strict=True)
+    return Certificate(ranks, tuple(RankedGoal(goal.bodies, goal.executed, root) for goal, root in kept))

@@ -1,0 +1,110 @@
+"""`Policy` to JSON text. The format is described in `docs/policy.md`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from json import dumps as _json
+from typing import Any
+
+from tumato_symbolic.policy.convert import as_diagram
+from tumato_symbolic.policy.diagram import Diagram, rebuild
+from tumato_symbolic.policy.model import Certificate, DecisionDiagram, Policy, Table, Vocabulary
+from tumato_symbolic.policy.read import FORMAT_VERSION
+from tumato_symbolic.policy.shape import MAX_BYTES, too_large
+
+FRAMEWORK_VERSION = "0.0.0"
+"""What policies of Tumato 2.0 carry as `PolicyFrameworkVersion`."""
+
+
+def fits_table(vocabulary: Vocabulary) -> bool:
+    """Whether the table format can hold the policy: a variable named `Actions` would share its key with the actions."""
+    return all(name != "Actions" for name, _ in vocabulary.variables)
+
+
+def dumps(policy: Policy) -> str:
+    """The policy as JSON text in ASCII, always the same for equal policies.
+
+    A table is written as a table and a diagram as a diagram; only a table that the format cannot hold (`fits_table`)
+    is written as a diagram. Raises `UserError` (TUM508) where the text would be larger than `loads` accepts.
+    """
+    text = "\n".join(_lines(policy)) + "\n"
+    if len(text) > MAX_BYTES:
+        raise too_large("policy")
+    return text
+
+
+def _lines(policy: Policy) -> Iterator[str]:
+    vocabulary = policy.vocabulary
+    table = policy.decisions if isinstance(policy.decisions, Table) and fits_table(vocabulary) else None
+    yield "{"
+    yield f'  "PolicyFrameworkVersion": {_json(FRAMEWORK_VERSION)},'
+    yield f'  "Type": "{"policy-diagram" if table is None else "policy"}",'
+    yield f'  "FormatVersion": {FORMAT_VERSION},'
+    if policy.digest is not None:
+        yield f'  "SpecificationDigest": {_json(policy.digest)},'
+    if policy.ordering is not None:
+        yield f'  "EffectOrdering": "{policy.ordering}",'
+    yield from _block('  "Actions": [', map(_json, vocabulary.actions), "  ],")
+    yield from _block('  "States": {', _variables(vocabulary), "  },")
+    last = "" if policy.certificate is None else ","
+    if table is not None:
+        yield from _block('  "Policy": [', _rows(table, vocabulary), f"  ]{last}")
+    else:
+        yield from _decisions(as_diagram(policy), vocabulary, last)
+    if policy.certificate is not None:
+        yield from _certificate(policy.certificate, vocabulary)
+    yield "}"
+
+
+def _block(opening: str, entries: Iterable[str], closing: str) -> Iterator[str]:
+    """Entries between brackets, one on every line, two columns deeper."""
+    yield opening
+    deeper = " " * (len(opening) - len(opening.lstrip()) + 2)
+    waiting: str | None = None
+    for entry in entries:
+        if waiting is not None:
+            yield f"{deeper}{waiting},"
+        waiting = entry
+    if waiting is not None:
+        yield f"{deeper}{waiting}"
+    yield closing
+
+
+def _variables(vocabulary: Vocabulary) -> Iterator[str]:
+    for name, values in vocabulary.variables:
+        yield f"{_json(name)}: {_json({value: number for number, value in enumerate(values)})}"
+
+
+def _rows(table: Table, vocabulary: Vocabulary) -> Iterator[str]:
+    cells = [[f"{_json(name)}: {_json(value)}" for value in values] for name, values in vocabulary.variables]
+    for state, chosen in sorted(table.rows.items()):
+        shown = ", ".join([values[value] for values, value in zip(cells, state, strict=True)])
+        names = _json([vocabulary.actions[action] for action in sorted(chosen)])
+        yield f'{{{shown}, "Actions": {names}}}'
+
+
+def _decisions(decisions: DecisionDiagram, vocabulary: Vocabulary, last: str) -> Iterator[str]:
+    diagram, roots = rebuild(decisions.diagram, (*decisions.roots, decisions.defined))
+    yield '  "Diagram": {'
+    yield from _diagram(diagram, vocabulary)
+    yield f'    "Roots": {_json(dict(zip(vocabulary.actions, roots, strict=False)))},'
+    yield f'    "Defined": {roots[-1]}'
+    yield f"  }}{last}"
+
+
+def _certificate(certificate: Certificate, vocabulary: Vocabulary) -> Iterator[str]:
+    ranks, roots = rebuild(certificate.ranks, [goal.root for goal in certificate.goals])
+    yield '  "Certificate": {'
+    yield from _diagram(ranks, vocabulary)
+    goals = [
+        _json({"Bodies": goal.bodies, "Executed": goal.executed, "Root": root})
+        for goal, root in zip(certificate.goals, roots, strict=True)
+    ]
+    yield from _block('    "Goals": [', goals, "    ]")
+    yield "  }"
+
+
+def _diagram(diagram: Diagram[Any], vocabulary: Vocabulary) -> Iterator[str]:
+    yield f'    "Order": {_json([vocabulary.variables[variable][0] for variable in diagram.order])},'
+    yield f'    "Leaves": {_json(diagram.leaves)},'
+    yield from _block('    "Nodes": [', (_json(node) for node in diagram.nodes), "    ],")
