@@ -1,1 +1,26 @@
 """Sets of states and steps as BDDs; the only room that knows dd."""
+
+from tumato_symbolic.symbolic.choose import lasting, preferred
+from tumato_symbolic.symbolic.encoding import Encoding, encode
+from tumato_symbolic.symbolic.extract import Extractor
+from tumato_symbolic.symbolic.goals import Regions, Target, regions, targets
+from tumato_symbolic.symbolic.manager import Backend, Bdd, Manager, available_backend
+from tumato_symbolic.symbolic.steps import Steps, build_steps
+
+__all__ = [
+    "Backend",
+    "Bdd",
+    "Encoding",
+    "Extractor",
+    "Manager",
+    "Regions",
+    "Steps",
+    "Target",
+    "available_backend",
+    "build_steps",
+    "encode",
+    "lasting",
+    "preferred",
+    "regions",
+    "targets",
+]

@@ -1,1 +1,15 @@
 """From a specification to a policy, or to the reason why there is none."""
+
+from tumato_symbolic.synthesis.outcome import Failure, Outcome, Realizable, Statistics, Undecided, Unrealizable
+from tumato_symbolic.synthesis.synthesize import PolicyFormat, synthesize
+
+__all__ = [
+    "Failure",
+    "Outcome",
+    "PolicyFormat",
+    "Realizable",
+    "Statistics",
+    "Undecided",
+    "Unrealizable",
+    "synthesize",
+]

@@ -1,0 +1,214 @@
+"""States and sets of actions as bit vectors.
+
+A state variable takes the bits that number its values. Actions that can never run together form a *group*, and a
+group takes the bits that number its choices: idle, or one of its actions. A group's bits stand just above those of the
+first variable that it writes, so that independent parts of a robot stay apart in the order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+
+from tumato_symbolic.semantics import ActionSet, State, nominal_agrees
+from tumato_symbolic.spec import And, Assignment, Constant, Executing, Formula, Iff, Is, Not, Or, Spec
+from tumato_symbolic.symbolic.manager import Backend, Bdd, Manager
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """Mutually exclusive actions and the bits that choose among them; choice 0 is idle."""
+
+    actions: tuple[int, ...]
+    bits: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Encoding:
+    """The bits of a specification, and the sets that its names stand for."""
+
+    spec: Spec
+    manager: Manager
+    state_bits: tuple[tuple[str, ...], ...]
+    groups: tuple[Group, ...]
+    order: tuple[int, ...]
+    """State variables as their bits are ordered."""
+    choice_of: Mapping[int, tuple[int, int]] = field(repr=False)
+    """For every action, its group and its choice number there."""
+
+    @property
+    def all_state_bits(self) -> list[str]:
+        """The bits of all state variables."""
+        return [bit for bits in self.state_bits for bit in bits]
+
+    @property
+    def all_choice_bits(self) -> list[str]:
+        """The bits of all groups."""
+        return [bit for group in self.groups for bit in group.bits]
+
+    def assignment_bits(self, assignment: Assignment) -> dict[str, bool]:
+        """An effect as constants for bits."""
+        return {
+            bit: value
+            for variable, number in assignment
+            for bit, value in number_bits(self.state_bits[variable], number).items()
+        }
+
+    def state_cube(self, state: State) -> Bdd:
+        """One state as a set."""
+        return self.manager.cube(self.assignment_bits(tuple(enumerate(state))))
+
+    def value(self, variable: int, number: int) -> Bdd:
+        """The states where a variable has a value."""
+        return self.manager.cube(number_bits(self.state_bits[variable], number))
+
+    def idle_bits(self, group: Group) -> dict[str, bool]:
+        """The choice of no action in a group, as constants for its bits."""
+        return dict.fromkeys(group.bits, False)
+
+    def action_bits(self, action: int) -> dict[str, bool]:
+        """The choice of an action, as constants for its group's bits."""
+        group, choice = self.choice_of[action]
+        return number_bits(self.groups[group].bits, choice)
+
+    def executing(self, action: int) -> Bdd:
+        """The choices that contain an action."""
+        return self.manager.cube(self.action_bits(action))
+
+    def idle(self, group: Group) -> Bdd:
+        """The choices without an action of a group."""
+        return self.manager.cube(self.idle_bits(group))
+
+    def choices_cube(self, chosen: ActionSet) -> Bdd:
+        """One set of actions as a set of choices."""
+        bits = {bit: value for group in self.groups for bit, value in self.idle_bits(group).items()}
+        for action in chosen:
+            bits |= self.action_bits(action)
+        return self.manager.cube(bits)
+
+    def formula(self, formula: Formula) -> Bdd:
+        """The pairs of state and choice in which a formula holds."""
+        match formula:
+            case Constant(value):
+                return self.manager.true if value else self.manager.false
+            case Is(variable, number):
+                return self.value(variable, number)
+            case Executing(action):
+                return self.executing(action)
+            case Not(operand):
+                return ~self.formula(operand)
+            case And(operands):
+                return self.manager.intersection(self.formula(part) for part in operands)
+            case Or(operands):
+                return self.manager.union(self.formula(part) for part in operands)
+            case Iff(left, right):
+                p, q = self.formula(left), self.formula(right)
+                return (p & q) | ~(p | q)
+
+    def all_of(self, formulas: Iterable[Formula]) -> Bdd:
+        """The pairs in which every formula holds."""
+        return self.manager.intersection(self.formula(formula) for formula in formulas)
+
+    def domain(self) -> Bdd:
+        """The bit vectors that stand for states."""
+        return self.manager.intersection(
+            self.manager.union(self.value(number, value) for value in range(len(variable.values)))
+            for number, variable in enumerate(self.spec.variables)
+        )
+
+    def choice_domain(self) -> Bdd:
+        """The bit vectors that stand for sets of actions, exclusive within each group."""
+        return self.manager.intersection(
+            self.manager.union([self.idle(group), *(self.executing(action) for action in group.actions)])
+            for group in self.groups
+        )
+
+    def first_state(self, states: Bdd) -> State:
+        """The first state of a non-empty set."""
+        return next(self.states_in(states))
+
+    def states_in(self, states: Bdd) -> Iterator[State]:
+        """Every state of a set, in the order of declaration, the last variable changing fastest."""
+        stack: list[tuple[State, Bdd]] = [((), states)]
+        while stack:
+            state, rest = stack.pop()
+            if rest == self.manager.false:
+                continue
+            if len(state) == len(self.state_bits):
+                yield state
+                continue
+            bits = self.state_bits[len(state)]
+            for number in reversed(range(len(self.spec.variables[len(state)].values))):
+                stack.append(((*state, number), self.manager.cofactor(rest, number_bits(bits, number))))
+
+    def first_set(self, choices: Bdd) -> ActionSet:
+        """Some set of actions of a non-empty set of choices (the only one, where there is one): first actions first."""
+        found = set()
+        for action in range(len(self.spec.actions)):
+            rest = choices & self.executing(action)
+            if rest != self.manager.false:
+                found.add(action)
+                choices = rest
+        return frozenset(found)
+
+    def at(self, relation: Bdd, state: State) -> Bdd:
+        """What a relation says of one state: the choices related to it; true or false for a set of states."""
+        return self.manager.cofactor(relation, self.assignment_bits(tuple(enumerate(state))))
+
+    def contains(self, states: Bdd, state: State) -> bool:
+        """Whether a state is in a set of states."""
+        return self.at(states, state) == self.manager.true
+
+    def count_states(self, states: Bdd) -> int:
+        """The exact number of states in a set."""
+        return self.manager.count(states, self.all_state_bits)
+
+
+def number_bits(bits: tuple[str, ...], number: int) -> dict[str, bool]:
+    """A number in binary, most significant bit first."""
+    return {bit: bool(number >> (len(bits) - 1 - position) & 1) for position, bit in enumerate(bits)}
+
+
+def conflicting(spec: Spec, first: int, second: int) -> bool:
+    """Whether two actions can never run together: a shared resource, or nominal effects that disagree."""
+    shared = spec.actions[first].resources & spec.actions[second].resources
+    return bool(shared) or not nominal_agrees(spec, frozenset((first, second)))
+
+
+def exclusive_groups(spec: Spec) -> list[tuple[int, ...]]:
+    """Every action in one group whose members exclude each other: greedily, in the order of declaration."""
+    groups: list[list[int]] = []
+    for action in range(len(spec.actions)):
+        home = next((group for group in groups if all(conflicting(spec, action, other) for other in group)), None)
+        if home is None:
+            groups.append([action])
+        else:
+            home.append(action)
+    return [tuple(group) for group in groups]
+
+
+def encode(spec: Spec, backend: Backend) -> Encoding:
+    """The encoding of a specification in a new manager."""
+    groups = [
+        Group(actions, tuple(f"g{number}.{bit}" for bit in range(len(actions).bit_length())))
+        for number, actions in enumerate(exclusive_groups(spec))
+    ]
+    state_bits = tuple(
+        tuple(f"v{number}.{bit}" for bit in range((len(variable.values) - 1).bit_length()))
+        for number, variable in enumerate(spec.variables)
+    )
+    order = tuple(range(len(spec.variables)))
+    above: dict[int, list[Group]] = {}
+    for group in groups:
+        written = (v for action in group.actions for effect in spec.actions[action].effects for v, _ in effect)
+        above.setdefault(min(written, default=0), []).append(group)
+    bits: list[str] = []
+    for variable in order:
+        bits += [bit for group in above.get(variable, ()) for bit in group.bits]
+        bits += state_bits[variable]
+    choice_of = {
+        action: (number, choice)
+        for number, group in enumerate(groups)
+        for choice, action in enumerate(group.actions, start=1)
+    }
+    return Encoding(spec, Manager(bits, backend), state_bits, tuple(groups), order, choice_of)

@@ -1,0 +1,130 @@
+"""Active and residual goals as sets (`docs/semantics.md`, section 4)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from tumato_symbolic.semantics import ActionSet, ActiveGoals, Residual
+from tumato_symbolic.spec import (
+    FALSE,
+    TRUE,
+    And,
+    ConditionalGoal,
+    Executing,
+    Formula,
+    Goal,
+    Iff,
+    Not,
+    Or,
+    SimpleGoal,
+    children,
+    executing_atoms,
+)
+from tumato_symbolic.symbolic.encoding import Encoding
+from tumato_symbolic.symbolic.manager import Bdd
+from tumato_symbolic.symbolic.steps import Steps
+
+Regions = dict[ActiveGoals, Bdd]
+
+
+@dataclass(frozen=True)
+class Target:
+    """What the runs that share a target must reach.
+
+    `states` are the safe states that satisfy the residual goal; `owed` are the allowed pairs `(s, A)` whose residual
+    goal this is; `residuals` says which residual goals have this target, each with its own pairs.
+    """
+
+    states: Bdd
+    owed: Bdd
+    residuals: tuple[tuple[Residual, Bdd], ...]
+
+
+def regions(encoding: Encoding, valid: Bdd) -> Regions:
+    """The valid states by their active goals; the regions partition `valid`."""
+    goals = encoding.spec.goals
+    if goals is None:
+        return {frozenset(): valid}
+    found = _walk(encoding, goals, valid)[1]
+    return {active: states for active, states in found.items() if states != encoding.manager.false}
+
+
+def _walk(encoding: Encoding, goal: Goal, here: Bdd) -> tuple[Bdd, Regions]:
+    """Where in `here` the goal is entered, and those states by what it makes active there."""
+    false = encoding.manager.false
+    if isinstance(goal, SimpleGoal):
+        return here, {frozenset((goal.body,)): here}
+    if isinstance(goal, ConditionalGoal):
+        entered = here & encoding.formula(goal.condition.formula)
+        return entered, _walk(encoding, goal.goal, entered)[1]
+    found: Regions = {frozenset(): here}
+    if goal.kind == "priority":
+        found, rest = {}, here
+        for member in goal.members:
+            entered, parts = _walk(encoding, member, rest)
+            _add(found, parts, false)
+            rest = rest & ~entered
+        _add(found, {frozenset(): rest}, false)
+        return here, found
+    for member in goal.members:
+        entered, parts = _walk(encoding, member, here)
+        combined: Regions = {}
+        for active, states in found.items():
+            _add(combined, {active: states & ~entered}, false)
+            _add(combined, {active | more: states & others for more, others in parts.items()}, false)
+        found = combined
+    return here, found
+
+
+def _add(found: Regions, parts: Regions, false: Bdd) -> None:
+    for active, states in parts.items():
+        if states != false:
+            found[active] = found.get(active, false) | states
+
+
+def targets(steps: Steps, active_regions: Regions) -> list[Target]:
+    """Every target that some allowed pair owes; their `owed` pairs partition the allowed pairs."""
+    encoding, false = steps.encoding, steps.encoding.manager.false
+    by_states: dict[Bdd, list[tuple[Residual, Bdd]]] = {}
+    for active, region in active_regions.items():
+        bodies = [encoding.spec.bodies[body].formula for body in sorted(active)]
+        spoken_of = sorted(frozenset[int]().union(*map(executing_atoms, bodies)))
+        for executed, owed in _split(encoding, spoken_of, steps.allowed & region):
+            goal = encoding.all_of(settle(body, executed) for body in bodies)
+            by_states.setdefault(goal & steps.safe, []).append((Residual(active, executed), owed))
+    found = [
+        Target(states, encoding.manager.union(owed for _, owed in residuals), tuple(residuals))
+        for states, residuals in by_states.items()
+    ]
+    return [target for target in found if target.owed != false]
+
+
+def _split(encoding: Encoding, atoms: list[int], pairs: Bdd) -> list[tuple[ActionSet, Bdd]]:
+    """Pairs by which of the given actions they execute; empty parts are left out."""
+    parts: list[tuple[ActionSet, Bdd]] = [(frozenset(), pairs)]
+    for action in atoms:
+        runs = encoding.executing(action)
+        parts = [
+            (executed | extra, part)
+            for executed, whole in parts
+            for extra, part in ((frozenset((action,)), whole & runs), (frozenset[int](), whole & ~runs))
+        ]
+        parts = [(executed, part) for executed, part in parts if part != encoding.manager.false]
+    return parts
+
+
+def settle(formula: Formula, executed: ActionSet) -> Formula:
+    """A goal body with its `executing` atoms replaced by their truth values for the first set."""
+    match formula:
+        case Executing(action):
+            return TRUE if action in executed else FALSE
+        case Not(operand):
+            return Not(settle(operand, executed))
+        case And():
+            return And(tuple(settle(part, executed) for part in children(formula)))
+        case Or():
+            return Or(tuple(settle(part, executed) for part in children(formula)))
+        case Iff(left, right):
+            return Iff(settle(left, executed), settle(right, executed))
+        case _:
+            return formula

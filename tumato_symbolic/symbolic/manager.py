@@ -1,0 +1,128 @@
+"""One door to dd: sets of bit vectors as binary decision diagrams, on CUDD or on dd's pure Python backend.
+
+The order of the bits is fixed before the first operation and never changes, and nothing here depends on how a backend
+enumerates, so that both backends give the same results.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from importlib import import_module
+from typing import Any, Literal, Protocol, TypeAlias
+
+Backend: TypeAlias = Literal["cudd", "autoref"]
+
+
+class Bdd(Protocol):
+    """A set, or the predicate that is true in it. Equality is equality of sets."""
+
+    def __and__(self, other: Bdd, /) -> Bdd:
+        """Intersection."""
+
+    def __or__(self, other: Bdd, /) -> Bdd:
+        """Union."""
+
+    def __invert__(self) -> Bdd:
+        """Complement."""
+
+
+def available_backend() -> Backend:
+    """CUDD where dd was built with it, else the pure Python backend."""
+    try:
+        import_module("dd.cudd")
+    except ImportError:
+        return "autoref"
+    return "cudd"
+
+
+class Manager:
+    """Bits in a fixed order and the operations on sets of bit vectors."""
+
+    def __init__(self, bits: Sequence[str], backend: Backend) -> None:
+        self.backend = backend
+        self._module: Any = import_module(f"dd.{backend}")
+        self._bdd: Any = self._module.BDD()
+        self._bdd.configure(reordering=False)
+        self._bdd.declare(*bits)
+        self.bits = tuple(bits)
+        self._level = {bit: level for level, bit in enumerate(bits)}
+        self.true: Bdd = self._bdd.true
+        self.false: Bdd = self._bdd.false
+
+    def level(self, bit: str) -> int:
+        """The position of a bit in the order."""
+        return self._level[bit]
+
+    def cube(self, values: Mapping[str, bool]) -> Bdd:
+        """The vectors in which the given bits have the given values."""
+        cube: Bdd = self._bdd.cube(dict(values))
+        return cube
+
+    def cofactor(self, u: Bdd, values: Mapping[str, bool]) -> Bdd:
+        """`u` with constants substituted for bits."""
+        if not values:
+            return u
+        result: Bdd = self._bdd.let(dict(values), u)
+        return result
+
+    def exists(self, bits: Iterable[str], u: Bdd) -> Bdd:
+        """`∃ bits. u`."""
+        result: Bdd = self._bdd.exist(list(bits), u)
+        return result
+
+    def and_exists(self, bits: Iterable[str], u: Bdd, v: Bdd) -> Bdd:
+        """`∃ bits. u ∧ v`, in one pass where the backend can."""
+        if self.backend == "cudd":
+            result: Bdd = self._module.and_exists(u, v, list(bits))
+            return result
+        return self.exists(bits, u & v)
+
+    def union(self, parts: Iterable[Bdd]) -> Bdd:
+        """The union of any number of sets."""
+        result = self.false
+        for part in parts:
+            result = result | part
+        return result
+
+    def intersection(self, parts: Iterable[Bdd]) -> Bdd:
+        """The intersection of any number of sets."""
+        result = self.true
+        for part in parts:
+            result = result & part
+        return result
+
+    def branches(self, u: Any) -> tuple[int, Bdd, Bdd]:  # noqa: ANN401 - dd has no types
+        """`(level, low, high)` of a set that is neither empty nor everything."""
+        low, high = u.low, u.high
+        return (u.level, ~low, ~high) if u.negated else (u.level, low, high)
+
+    def descending(self, u: Bdd) -> list[tuple[Bdd, int, Bdd, Bdd]]:
+        """Every inner node `(node, level, low, high)` below `u`, each once, children before parents."""
+        done: set[Bdd] = {self.true, self.false}
+        found: list[tuple[Bdd, int, Bdd, Bdd]] = []
+        stack: list[tuple[Bdd, tuple[int, Bdd, Bdd] | None]] = [(u, None)]
+        while stack:
+            node, parts = stack.pop()
+            if parts is not None:
+                found.append((node, *parts))
+            elif node not in done:
+                done.add(node)
+                parts = self.branches(node)
+                stack += [(node, parts), (parts[1], None), (parts[2], None)]
+        return found
+
+    def count(self, u: Bdd, bits: Sequence[str]) -> int:
+        """The exact number of vectors over `bits` in `u`, which depends on no other bit."""
+        rank = {self._level[bit]: position for position, bit in enumerate(sorted(bits, key=self._level.__getitem__))}
+        size = len(bits)
+        below: dict[Bdd, tuple[int, int]] = {self.false: (0, size), self.true: (1, size)}
+        for node, level, low, high in self.descending(u):
+            here = rank[level]
+            total = sum(below[part][0] << (below[part][1] - here - 1) for part in (low, high))
+            below[node] = (total, here)
+        total, top = below[u]
+        return total << top
+
+    def node_count(self, u: Bdd) -> int:
+        """How many inner nodes `u` has (without complement edges)."""
+        return len(self.descending(u))

@@ -1,0 +1,142 @@
+"""The safe controllable predecessor: allowed steps and where they lead, for all states and sets of actions at once.
+
+Effects are constant assignments, so the predecessor under an effect is a cofactor; there are no primed bits. Everything
+is composed group by group (`docs/semantics.md`, section 3).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from tumato_symbolic.spec import Assignment, Ordering
+from tumato_symbolic.symbolic.encoding import Encoding, Group, conflicting
+from tumato_symbolic.symbolic.manager import Bdd
+
+
+@dataclass(frozen=True)
+class Steps:
+    """The step relation of a specification.
+
+    `valid` and `safe` are sets of states; `candidates` relates valid states to sets of actions that satisfy conditions
+    1 to 3 of section 3, and `allowed` is `Ok(s, A)`.
+    """
+
+    encoding: Encoding
+    ordering: Ordering
+    valid: Bdd
+    safe: Bdd
+    candidates: Bdd
+    allowed: Bdd
+
+    @property
+    def unsafe(self) -> Bdd:
+        """`V \\ S`."""
+        return self.valid & ~self.safe
+
+    def before(self, target: Bdd) -> Bdd:
+        """`{(s, A) : δ(s, A) ∈ target}` for sets whose nominal effects agree; `target` is a set of states."""
+        return nominal_predecessor(self.encoding, target)
+
+    def states_of(self, relation: Bdd) -> Bdd:
+        """`{s : ∃ A. (s, A) ∈ relation}`."""
+        return self.encoding.manager.exists(self.encoding.all_choice_bits, relation)
+
+    def predecessor(self, relation: Bdd, target: Bdd) -> Bdd:
+        """`{s : ∃ A. (s, A) ∈ relation ∧ δ(s, A) ∈ target}`."""
+        return self.encoding.manager.and_exists(self.encoding.all_choice_bits, relation, self.before(target))
+
+    def successors(self, relation: Bdd) -> Bdd:
+        """`{δ(s, A) : (s, A) ∈ relation}` for sets whose nominal effects agree."""
+        encoding, manager = self.encoding, self.encoding.manager
+        for group in encoding.groups:
+            moved = [manager.exists(group.bits, relation & encoding.idle(group))]
+            for effect, choices in _by_nominal(encoding, group).items():
+                written = encoding.assignment_bits(effect)
+                moved.append(manager.exists([*group.bits, *written], relation & choices) & manager.cube(written))
+            relation = manager.union(moved)
+        return relation
+
+
+def build_steps(encoding: Encoding, ordering: Ordering) -> Steps:
+    """The step relation of the encoding's specification under an effect ordering."""
+    spec, manager = encoding.spec, encoding.manager
+    domain = encoding.domain()
+    valid = domain & encoding.all_of(rule.formula for rule in spec.assumptions)
+    safe = valid & encoding.all_of(rule.formula for rule in spec.state_rules)
+    compatible = _compatible(encoding)
+    applicable = manager.intersection(
+        ~encoding.executing(number) | encoding.all_of(rule.formula for rule in action.preconditions)
+        for number, action in enumerate(spec.actions)
+    )
+    candidates = valid & compatible & applicable
+    stays_safe = safe & compatible if ordering == "first" else _always_safe(encoding, safe & compatible)
+    allowed = candidates & encoding.all_of(rule.formula for rule in spec.reaction_rules)
+    nobody = manager.intersection(encoding.idle(group) for group in encoding.groups)
+    allowed = allowed & (~nobody | safe) & _after_any_first_effect(encoding, stays_safe)
+    if ordering == "first":
+        allowed = allowed & nominal_predecessor(encoding, safe)
+    return Steps(encoding, ordering, valid, safe, candidates, allowed)
+
+
+def nominal_predecessor(encoding: Encoding, target: Bdd) -> Bdd:
+    """`{(s, A) : δ(s, A) ∈ target}`, group by group: agreeing effects commute."""
+    for group in encoding.groups:
+        parts = [encoding.idle(group) & target]
+        for effect, choices in _by_nominal(encoding, group).items():
+            parts.append(choices & encoding.manager.cofactor(target, encoding.assignment_bits(effect)))
+        target = encoding.manager.union(parts)
+    return target
+
+
+def _by_nominal(encoding: Encoding, group: Group) -> dict[Assignment, Bdd]:
+    """A group's choices by what they nominally write."""
+    found: dict[Assignment, Bdd] = {}
+    for action in group.actions:
+        effect = encoding.spec.actions[action].nominal
+        found[effect] = found.get(effect, encoding.manager.false) | encoding.executing(action)
+    return found
+
+
+def _compatible(encoding: Encoding) -> Bdd:
+    """Choices without two actions that share a resource or disagree nominally (conditions 2 and 3)."""
+    result = encoding.choice_domain()
+    count = len(encoding.spec.actions)
+    for first in range(count):
+        for second in range(first + 1, count):
+            apart = encoding.choice_of[first][0] != encoding.choice_of[second][0]
+            if apart and conflicting(encoding.spec, first, second):
+                result = result & ~(encoding.executing(first) & encoding.executing(second))
+    return result
+
+
+def _always_safe(encoding: Encoding, safe: Bdd) -> Bdd:
+    """`{(s, R) : s and all that any further effects of the actions R, each at most once, can lead to are safe}`.
+
+    The greatest fixpoint `W(s, R) = safe(s) ∧ ∀ a ∈ R, e ∈ effects(a): W(e(s), R \\ {a})`: an action that took effect
+    is idle afterwards. Groups are taken in turn until none changes anything.
+    """
+    result, settled, turn = safe, 0, 0
+    while settled < len(encoding.groups):
+        group = encoding.groups[turn % len(encoding.groups)]
+        stronger = result & _after_effect_of(encoding, group, result)
+        settled = settled + 1 if stronger == result else 1
+        result, turn = stronger, turn + 1
+    return result
+
+
+def _after_any_first_effect(encoding: Encoding, stays_safe: Bdd) -> Bdd:
+    """`{(s, A) : (e(s), A \\ {a}) ∈ stays_safe for every a ∈ A and every effect e of a}`."""
+    return encoding.manager.intersection(_after_effect_of(encoding, group, stays_safe) for group in encoding.groups)
+
+
+def _after_effect_of(encoding: Encoding, group: Group, following: Bdd) -> Bdd:
+    """`{(s, A) : the group is idle, or every effect of its action leads into following, where the group is idle}`."""
+    rest = encoding.manager.cofactor(following, encoding.idle_bits(group))
+    return encoding.manager.intersection(
+        ~encoding.executing(action)
+        | encoding.manager.intersection(
+            encoding.manager.cofactor(rest, encoding.assignment_bits(effect))
+            for effect in encoding.spec.actions[action].effects
+        )
+        for action in group.actions
+    )

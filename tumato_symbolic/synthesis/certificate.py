@@ -1,0 +1,49 @@
+"""The policy as data, and the ranks that prove it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from tumato_symbolic.policy import Certificate, DecisionDiagram, DiagramBuilder, Policy, RankedGoal, Vocabulary
+from tumato_symbolic.semantics import action_names
+from tumato_symbolic.spec import canonical_text, digest
+from tumato_symbolic.symbolic import Bdd, Extractor
+from tumato_symbolic.synthesis.problem import Layers, Problem
+
+
+def policy_diagram(problem: Problem, policy: Bdd, ranks: Sequence[Layers]) -> Policy:
+    """A policy that is defined in every valid state, with its certificate; `ranks` must be exact."""
+    encoding, steps = problem.encoding, problem.steps
+    builder: DiagramBuilder[bool] = DiagramBuilder(encoding.order, (False, True))
+    extract = Extractor(encoding, builder, default=False)
+    roots = []
+    for action in range(len(problem.spec.actions)):
+        roots.append(extract.function([(True, steps.states_of(policy & encoding.executing(action)))]))
+    defined = extract.function([(True, steps.valid)])
+    return Policy(
+        Vocabulary.of(problem.spec),
+        DecisionDiagram(builder.finish(), tuple(roots), defined),
+        steps.ordering,
+        digest(problem.spec),
+        certificate(problem, policy, ranks),
+    )
+
+
+def certificate(problem: Problem, policy: Bdd, ranks: Sequence[Layers]) -> Certificate:
+    """The ranks of every residual goal that the policy, or an allowed set in an unsafe state, owes."""
+    spec, steps = problem.spec, problem.steps
+    concerned = policy | (steps.allowed & steps.unsafe)
+    deepest = max((len(layers) for layers in ranks), default=0)
+    builder: DiagramBuilder[int | None] = DiagramBuilder(problem.encoding.order, (None, *range(deepest)))
+    extract = Extractor(problem.encoding, builder, default=None)
+    goals = []
+    for target, layers in zip(problem.targets, ranks, strict=True):
+        owing = [residual for residual, owed in target.residuals if (owed & concerned) != problem.false]
+        if owing:
+            root = extract.function(list(enumerate(layers)))
+            for residual in owing:
+                bodies = sorted(canonical_text(spec, spec.bodies[body].formula) for body in residual.bodies)
+                executed = sorted(action_names(spec, residual.executed))
+                goals.append(RankedGoal(tuple(bodies), tuple(executed), root))
+    goals.sort(key=lambda goal: (goal.bodies, goal.executed))
+    return Certificate(builder.finish(), tuple(goals))

@@ -1,0 +1,83 @@
+"""What synthesis answers: always one of three records, never None."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Literal, TypeAlias
+
+from tumato_symbolic.diagnostics import Diagnostic
+from tumato_symbolic.policy.model import Policy
+from tumato_symbolic.semantics import State
+from tumato_symbolic.spec import Ordering
+
+FailureKind: TypeAlias = Literal["no-allowed-set", "no-plan", "conflict"]
+
+
+@dataclass(frozen=True, slots=True)
+class Statistics:
+    """Exact counts of states, and how the answer was found.
+
+    `longest_run` is None where there is no policy. `own_region`, `routed`, `overridden` and `repaired` count the safe
+    states whose decision was found by staying where their goals are active, by passing through solved states, by
+    changing decisions of other goals, and by repair. `restoring_durations` counts the distinct minimal durations.
+    """
+
+    total: int
+    valid: int
+    safe: int
+    unsafe: int
+    longest_run: int | None
+    backend: str
+    ordering: Ordering
+    own_region: int = 0
+    routed: int = 0
+    overridden: int = 0
+    repaired: int = 0
+    restoring_durations: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """States that fail for one reason (`docs/semantics.md`, section 7).
+
+    `count` is exact. `states` holds them in the order of declaration, up to `STATES_LISTED`; of a conflict it is the
+    inclusion-minimal set that no policy serves together. `example` is the first of them.
+    """
+
+    kind: FailureKind
+    count: int
+    example: State
+    states: tuple[State, ...] = field(repr=False)
+
+
+STATES_LISTED = 10_000
+
+
+@dataclass(frozen=True, slots=True)
+class Realizable:
+    """There is a policy, and this is it, with its certificate."""
+
+    policy: Policy
+    statistics: Statistics
+    warnings: tuple[Diagnostic, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Unrealizable:
+    """There is no policy: these states fail, or these goals conflict."""
+
+    failures: tuple[Failure, ...]
+    statistics: Statistics
+    warnings: tuple[Diagnostic, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Undecided:
+    """A limit was met before there was an answer."""
+
+    limit: str
+    statistics: Statistics
+    warnings: tuple[Diagnostic, ...] = ()
+
+
+Outcome: TypeAlias = Realizable | Unrealizable | Undecided

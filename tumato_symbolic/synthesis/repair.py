@@ -1,0 +1,225 @@
+"""Exact decisions where goals interact: lazy repair, or the proof that no policy exists.
+
+One choice per touched state, among its options (where a set leads and what it owes). Options are complete, so a
+clause about them holds for every policy: *from this start, owing this target, some state of the failing run must decide
+otherwise*. Z3 picks the options; today's decisions are assumptions, relaxed by unsatisfiable cores. Only states of
+failing runs are ever touched.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from tumato_symbolic.semantics import ActionSet, State, successor
+from tumato_symbolic.symbolic import Bdd, preferred
+from tumato_symbolic.synthesis.problem import Layers, Problem, evaluate
+from tumato_symbolic.synthesis.solver import Choices, Pick
+
+RUNS_PER_ROUND = 64
+"""How many failing runs are explained before the solver is asked again."""
+
+
+@dataclass(frozen=True, slots=True)
+class Option:
+    """One way to act in a state: where it nominally leads, which target it owes, and the preferred set that does so."""
+
+    successor: State
+    target: int
+    chosen: ActionSet
+
+
+@dataclass(frozen=True, slots=True)
+class Conflict:
+    """Valid states that no policy serves together, though it does so without any one of them."""
+
+    states: tuple[State, ...]
+
+
+class Repair:
+    """Repairs a policy that is defined in every safe state. `distances` are the layers of all allowed runs."""
+
+    def __init__(self, problem: Problem, policy: Bdd, distances: tuple[Layers, ...]) -> None:
+        self._problem = problem
+        self._policy = policy
+        self._distances = distances
+        self._choices = Choices()
+        self._numbers: dict[State, int] = {}
+        self._options: list[tuple[Option, ...]] = []
+        self._states: list[State] = []
+        self._picked: list[int] = []
+        self._distance: dict[tuple[int, State], int | None] = {}
+
+    def run(self) -> Bdd | Conflict:
+        """The repaired policy, or the conflict that proves that there is none."""
+        result = self._serve(self._problem.steps.valid, None)
+        if isinstance(result, frozenset):
+            return Conflict(self._minimal(result))
+        return self._restored(result)
+
+    def _serve(self, required: Bdd, guards: list[int] | None) -> Bdd | frozenset[int]:
+        """A policy that serves the required states, or starts (by number) that cannot be served together."""
+        while True:
+            picked = self._choices.solve(guards)
+            if isinstance(picked, frozenset):
+                return picked
+            self._picked = picked
+            candidate = self._current()
+            failing = evaluate(self._problem, candidate).failing & required
+            if failing == self._problem.false:
+                return candidate
+            self._explain_some(failing)
+
+    def _minimal(self, core: frozenset[int]) -> tuple[State, ...]:
+        """An inclusion-minimal part of a core: each state in turn is left out, and what remains is tried."""
+        needed: list[int] = []
+        open_ = sorted(core, key=lambda number: self._states[number])
+        while open_:
+            rest = [*needed, *open_[1:]]
+            required = self._problem.encoding.manager.union(self._cube(self._states[number]) for number in rest)
+            result = self._serve(required, rest)
+            if isinstance(result, frozenset):
+                open_ = [number for number in open_[1:] if number in result]
+            else:
+                needed.append(open_.pop(0))
+        return tuple(sorted(self._states[number] for number in needed))
+
+    def _restored(self, policy: Bdd) -> Bdd:
+        """The repaired policy with as many of today's decisions as can be had back, halving what does not go."""
+        changed = [number for number, option in enumerate(self._picked) if option]
+        pending = [changed] if changed else []
+        while pending:
+            part = pending.pop()
+            before = {number: self._picked[number] for number in part}
+            for number in part:
+                self._picked[number] = 0
+            candidate = self._current()
+            if evaluate(self._problem, candidate).failing == self._problem.false:
+                policy = candidate
+                continue
+            for number, option in before.items():
+                self._picked[number] = option
+            if len(part) > 1:
+                pending += [part[len(part) // 2 :], part[: len(part) // 2]]
+        return policy
+
+    def _current(self) -> Bdd:
+        """The policy with the picked options in the touched states."""
+        manager, encoding = self._problem.encoding.manager, self._problem.encoding
+        changed = [(number, option) for number, option in enumerate(self._picked) if option]
+        cubes = [(self._cube(self._states[n]), self._options[n][option].chosen) for n, option in changed]
+        kept = self._policy & ~manager.union(cube for cube, _ in cubes)
+        added = manager.union(cube & encoding.choices_cube(chosen) for cube, chosen in cubes)
+        return kept | (added & self._problem.steps.safe)
+
+    def _cube(self, state: State) -> Bdd:
+        return self._problem.encoding.state_cube(state)
+
+    def _explain_some(self, failing: Bdd) -> None:
+        """Clauses for some failing starts that have no state of an explained run in common."""
+        for _ in range(RUNS_PER_ROUND):
+            if failing == self._problem.false:
+                return
+            start = self._problem.encoding.first_state(failing)
+            failing = failing & ~self._problem.encoding.manager.union(map(self._cube, self._explain(start)))
+
+    def _explain(self, start: State) -> set[State]:
+        """Clauses for one failing start; the states of its runs. An unsafe start fails with every option."""
+        number = self._touch(start)
+        unsafe = not self._problem.encoding.contains(self._problem.steps.safe, start)
+        tried = range(len(self._options[number])) if unsafe else [self._picked[number]]
+        seen: set[State] = {start}
+        for option in tried:
+            seen |= self._explain_option(number, self._options[number][option])
+        return seen
+
+    def _explain_option(self, start: int, first: Option) -> set[State]:
+        """The clause that the run of `first`, continued by the current policy, violates; the run's states.
+
+        The run either closes a loop, or meets a state from which no continuation is short enough. In a loop, some state
+        has to leave the loop's states or hit the target; before the point of no return, some state has to turn off.
+        """
+        goal, bound = first.target, self._problem.spec.max_plan_length
+        path = [start]
+        decision, steps = first, 1
+        while True:
+            here = decision.successor
+            distance = self._distance_to(goal, here)
+            if distance is None or (bound is not None and steps + distance > bound):
+                picks = self._turning_off(path, here, goal, first)
+                break
+            number = self._touch(here)
+            if number in path[1:]:
+                picks = self._leaving(path, goal)
+                break
+            path.append(number)
+            decision, steps = self._options[number][self._picked[number]], steps + 1
+        self._choices.require(start, dict.fromkeys([*self._owing_else(start, goal), *picks]))
+        return {self._states[number] for number in path}
+
+    def _owing_else(self, start: int, goal: int) -> Iterator[Pick]:
+        """The options of the start that owe another target."""
+        return (Pick(start, n) for n, option in enumerate(self._options[start]) if option.target != goal)
+
+    def _turning_off(self, path: list[int], end: State, goal: int, first: Option) -> Iterator[Pick]:
+        """Options on a path that leave it for a state from where the target is still near enough."""
+        following = [*(self._states[number] for number in path[1:]), end]
+        for steps, (number, after) in enumerate(zip(path, following, strict=True), start=1):
+            for n, option in enumerate(self._options[number]):
+                if option.successor != after and self._near(goal, option.successor, steps):
+                    yield Pick(number, n)
+
+    def _leaving(self, path: list[int], goal: int) -> Iterator[Pick]:
+        """Options that lead out of the states of a path, or to the target."""
+        inside = {self._states[number] for number in path}
+        for number in path:
+            for n, option in enumerate(self._options[number]):
+                distance = self._distance_to(goal, option.successor)
+                if distance == 0 or (option.successor not in inside and self._near(goal, option.successor, 1)):
+                    yield Pick(number, n)
+
+    def _near(self, goal: int, state: State, steps: int) -> bool:
+        """Whether the target can be reached from a state that is met after so many steps."""
+        distance, bound = self._distance_to(goal, state), self._problem.spec.max_plan_length
+        return distance is not None and (bound is None or steps + distance <= bound)
+
+    def _distance_to(self, goal: int, state: State) -> int | None:
+        """The fewest steps from a safe state to a target by any allowed steps; None where there is no way."""
+        key = (goal, state)
+        if key not in self._distance:
+            layers = self._distances[goal]
+            contains = self._problem.encoding.contains
+            self._distance[key] = next((n for n, layer in enumerate(layers) if contains(layer, state)), None)
+        return self._distance[key]
+
+    def _touch(self, state: State) -> int:
+        """The number of a state's choice, made when it is first met."""
+        if state not in self._numbers:
+            options = tuple(self._options_of(state))
+            number = self._choices.add_choice(len(options))
+            self._numbers[state] = number
+            self._options.append(options)
+            self._states.append(state)
+            self._picked.append(0)
+        return self._numbers[state]
+
+    def _options_of(self, state: State) -> Iterator[Option]:
+        """Every option of a state: today's decision first, then the preferred sets, in their order."""
+        problem, encoding = self._problem, self._problem.encoding
+        today = encoding.at(self._policy, state)
+        left = encoding.at(problem.steps.allowed, state)
+        while left != problem.false:
+            pool = today if today != problem.false else left
+            chosen = encoding.first_set(preferred(encoding, pool))
+            today = problem.false
+            option = self._option(state, chosen)
+            yield option
+            here = self._cube(state)
+            alike = problem.targets[option.target].owed & here & problem.steps.before(self._cube(option.successor))
+            left = left & ~encoding.at(alike, state)
+
+    def _option(self, state: State, chosen: ActionSet) -> Option:
+        encoding = self._problem.encoding
+        pair = self._cube(state) & encoding.choices_cube(chosen)
+        owed = next(n for n, target in enumerate(self._problem.targets) if (pair & target.owed) != self._problem.false)
+        return Option(successor(self._problem.spec, state, chosen), owed, chosen)

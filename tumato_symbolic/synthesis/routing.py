@@ -1,0 +1,76 @@
+"""Decisions for safe states: inside the region of the own goals, then through states that are already decided."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from tumato_symbolic.symbolic import Bdd, Target, preferred
+from tumato_symbolic.synthesis.problem import Layers, Problem, attractor
+
+
+def own_region_policy(problem: Problem) -> Bdd:
+    """Decisions whose runs stay where the same goals are active until these are reached, with the fewest steps."""
+    policy = problem.false
+    for region in problem.regions.values():
+        here = region & problem.steps.safe
+        owing = [target for target in problem.targets if (target.owed & here) != problem.false]
+        if len(owing) == 1:
+            policy = policy | _nearest_first(problem, owing[0], here)
+        elif owing:
+            policy = policy | route(problem, problem.false, here, here, owing)
+    return policy
+
+
+def _nearest_first(problem: Problem, target: Target, here: Bdd) -> Bdd:
+    """The fixpoint for a region with one target: states by the number of steps of their best run inside it.
+
+    A state that satisfies the target already still has to make a step: it is decided by its own number, but runs of
+    others end in it.
+    """
+    policy, undecided, front, steps = problem.false, here, target.states, 0
+    bound = problem.spec.max_plan_length
+    while undecided != problem.false and front != problem.false and (bound is None or steps < bound):
+        decided = undecided & problem.steps.predecessor(target.owed & undecided, front)
+        policy = policy | preferred(problem.encoding, target.owed & decided & problem.steps.before(front))
+        undecided, front, steps = undecided & ~decided, decided & ~target.states, steps + 1
+    return policy
+
+
+def route(problem: Problem, policy: Bdd, undecided: Bdd, within: Bdd, owing: Sequence[Target]) -> Bdd:
+    """`policy` and decisions for as many undecided states as possible, fewest steps first.
+
+    Runs use decided states of `within` only, so that a later decision never spoils an earlier one.
+    """
+    while undecided != problem.false:
+        decided = within & problem.steps.states_of(policy)
+        ranks = [attractor(problem, target.states, policy, decided, problem.last_layer) for target in owing]
+        nearest = next(iter(_by_steps(problem, owing, ranks, undecided, problem.steps.allowed)), None)
+        if nearest is None:
+            break
+        policy = policy | preferred(problem.encoding, nearest)
+        undecided = undecided & ~problem.steps.states_of(nearest)
+    return policy
+
+
+def shortest_decisions(problem: Problem, ranks: Sequence[Layers], undecided: Bdd, relation: Bdd) -> Bdd:
+    """For every undecided state the pair of `relation` with the fewest steps, when first successors have these ranks."""
+    policy = problem.false
+    for pairs in _by_steps(problem, problem.targets, ranks, undecided, relation):
+        fresh = pairs & ~problem.steps.states_of(policy)
+        policy = policy | preferred(problem.encoding, fresh)
+    return policy
+
+
+def _by_steps(
+    problem: Problem, owing: Sequence[Target], ranks: Sequence[Layers], states: Bdd, relation: Bdd
+) -> Iterator[Bdd]:
+    """The pairs that reach what they owe in one step, in two, and so on; empty sets are left out."""
+    relation = relation & states
+    for rank in range(max(map(len, ranks), default=0)):
+        pairs = problem.encoding.manager.union(
+            relation & target.owed & problem.steps.before(layers[rank])
+            for target, layers in zip(owing, ranks, strict=True)
+            if rank < len(layers) and layers[rank] != problem.false
+        )
+        if pairs != problem.false:
+            yield pairs

@@ -1,0 +1,162 @@
+"""From a specification to a policy: the pipeline."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
+from tumato_symbolic.policy import Policy, as_table
+from tumato_symbolic.semantics import count_states
+from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.symbolic import Backend, Bdd, available_backend
+from tumato_symbolic.synthesis.certificate import policy_diagram
+from tumato_symbolic.synthesis.outcome import (
+    STATES_LISTED,
+    Failure,
+    FailureKind,
+    Outcome,
+    Realizable,
+    Statistics,
+    Unrealizable,
+)
+from tumato_symbolic.synthesis.problem import Layers, Problem, attractor, evaluate, pose, served
+from tumato_symbolic.synthesis.restoring import restoring_policy
+from tumato_symbolic.synthesis.routing import own_region_policy, route, shortest_decisions
+
+TABLE_LIMIT = 10_000
+"""Up to so many valid states a policy is written as a table, unless another format is asked for."""
+
+PolicyFormat = Literal["auto", "table", "diagram"]
+
+
+def synthesize(
+    spec: Spec,
+    ordering: Ordering | None = None,
+    *,
+    policy_format: PolicyFormat = "auto",
+    backend: Backend | None = None,
+    progress: Callable[[str], None] | None = None,
+) -> Outcome:
+    """Synthesize a policy for `spec`, or find out why there is none.
+
+    `ordering` overrides the specification's effect ordering (default: what it says, else `any`). `progress` is told
+    the name of each stage. Raises `UserError` where no state is valid.
+    """
+    tell = progress or (lambda _: None)
+    tell("encoding states and steps")
+    problem = pose(spec, ordering or spec.effect_ordering or "any", backend or available_backend())
+    statistics = _statistics(problem)
+    if not statistics.valid:
+        raise UserError((Diagnostic(Code.TUM399, "no state satisfies all assumptions"),))
+    stuck = problem.steps.valid & ~problem.steps.states_of(problem.steps.allowed)
+    tell("solving each goal in its own region")
+    policy = own_region_policy(problem)
+    statistics = replace(statistics, own_region=_count_decided(problem, policy))
+    undecided = problem.steps.safe & ~problem.steps.states_of(policy)
+    failing = undecided if undecided != problem.false else evaluate(problem, policy).failing
+    if (failing | stuck) != problem.false:
+        tell("measuring distances")
+        distances = tuple(_distances(problem))
+        helpless = problem.steps.valid & ~stuck & ~served(problem, distances, problem.steps.allowed)
+        if (stuck | helpless) != problem.false:
+            failures = (_failure(problem, "no-allowed-set", stuck), _failure(problem, "no-plan", helpless))
+            return Unrealizable(tuple(failure for failure in failures if failure is not None), statistics)
+        resolved = _resolve(problem, policy, distances, statistics, tell)
+        if isinstance(resolved, Failure):
+            return Unrealizable((resolved,), statistics)
+        policy, statistics = resolved.policy, resolved.statistics
+    return _finish(problem, policy, statistics, policy_format, tell)
+
+
+@dataclass(frozen=True)
+class _Resolved:
+    """A policy for all safe states that serves every valid state."""
+
+    policy: Bdd
+    statistics: Statistics
+
+
+def _resolve(
+    problem: Problem, policy: Bdd, distances: tuple[Layers, ...], statistics: Statistics, tell: Callable[[str], None]
+) -> _Resolved | Failure:
+    """Decide what the own regions leave open, changing earlier decisions only where that is needed."""
+    steps = problem.steps
+    tell("routing through solved states")
+    undecided = steps.safe & ~steps.states_of(policy)
+    policy = route(problem, policy, undecided, steps.safe, problem.targets)
+    statistics = replace(statistics, routed=_count_decided(problem, policy) - statistics.own_region)
+    undecided = steps.safe & ~steps.states_of(policy)
+    policy = policy | shortest_decisions(problem, distances, undecided, steps.allowed)
+    if evaluate(problem, policy).failing == problem.false:
+        return _Resolved(policy, statistics)
+    from tumato_symbolic.synthesis.repair import Conflict, Repair
+
+    tell("repairing decisions where goals interact")
+    repaired = Repair(problem, policy, distances).run()
+    if isinstance(repaired, Conflict):
+        return Failure("conflict", len(repaired.states), repaired.states[0], repaired.states)
+    changed = problem.encoding.count_states(steps.states_of(policy & ~repaired))
+    return _Resolved(repaired, replace(statistics, repaired=changed))
+
+
+def _finish(
+    problem: Problem, policy: Bdd, statistics: Statistics, policy_format: PolicyFormat, tell: Callable[[str], None]
+) -> Realizable:
+    """Add restoring sets and the certificate to a policy for the safe states that serves every valid state."""
+    steps = problem.steps
+    ranks = [attractor(problem, target.states, policy, steps.safe, None) for target in problem.targets]
+    within = None if problem.last_layer is None else problem.last_layer + 1
+    tell("choosing restoring sets")
+    restoring, durations = restoring_policy(problem, [layers[:within] for layers in ranks])
+    policy = policy | restoring
+    assert steps.states_of(policy) == steps.valid, "a served state was left without a decision"
+    longest = max(
+        1 + rank
+        for target, layers in zip(problem.targets, ranks, strict=True)
+        for rank, layer in enumerate(layers[:within])
+        if (policy & target.owed & steps.before(layer)) != problem.false
+    )
+    tell("extracting the policy and its certificate")
+    statistics = replace(statistics, longest_run=longest, restoring_durations=len(durations))
+    return Realizable(_as(policy_diagram(problem, policy, ranks), policy_format, statistics.valid), statistics)
+
+
+def _as(policy: Policy, policy_format: PolicyFormat, states: int) -> Policy:
+    """The policy as a table where that is asked for, or small enough."""
+    if policy_format == "diagram" or (policy_format == "auto" and states > TABLE_LIMIT):
+        return policy
+    table = as_table(policy, states)
+    assert table is not None, "the table has one row for every valid state"
+    return replace(policy, decisions=table)
+
+
+def _distances(problem: Problem) -> list[Layers]:
+    """How far every safe state is from each target when any allowed steps may be taken."""
+    steps = problem.steps
+    return [
+        attractor(problem, target.states, steps.allowed, steps.safe, problem.last_layer) for target in problem.targets
+    ]
+
+
+def _failure(problem: Problem, kind: FailureKind, states: Bdd) -> Failure | None:
+    if states == problem.false:
+        return None
+    listed = []
+    for state in problem.encoding.states_in(states):
+        listed.append(state)
+        if len(listed) == STATES_LISTED:
+            break
+    return Failure(kind, problem.encoding.count_states(states), listed[0], tuple(listed))
+
+
+def _count_decided(problem: Problem, policy: Bdd) -> int:
+    return problem.encoding.count_states(problem.steps.states_of(policy))
+
+
+def _statistics(problem: Problem) -> Statistics:
+    steps, count = problem.steps, problem.encoding.count_states
+    valid, safe = count(steps.valid), count(steps.safe)
+    backend = problem.encoding.manager.backend
+    return Statistics(count_states(problem.spec), valid, safe, valid - safe, None, backend, steps.ordering)
