@@ -258,6 +258,6 @@ class Together:
 
 
 def conflict_is_minimal(spec: Spec, ordering: Ordering, states: Iterable[State]) -> bool:
-    """Whether no policy with `Ok` everywhere serves all of `states`, while one serves each subset with one state less."""
+    """Whether no policy with `Ok` everywhere serves `states`, while one serves each subset with one state less."""
     together, wanted = Together(World(spec, ordering)), set(states)
     return together.serve(wanted) is None and all(together.serve(wanted - {state}) is not None for state in wanted)

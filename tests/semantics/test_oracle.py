@@ -46,7 +46,7 @@ def test_the_oracle_agrees_with_trying_every_policy(ordering: Ordering) -> None:
 @pytest.mark.parametrize("profile", [MIXED, INTERACTING])
 @pytest.mark.parametrize("ordering", ["any", "first"])
 def test_every_policy_of_the_oracle_is_sound_and_complete(profile: Profile, ordering: Ordering) -> None:
-    """What the oracle calls realizable comes with a policy that the judge accepts; the encoding agrees with the fixpoint."""
+    """What the oracle calls realizable has a policy that the judge accepts; encoding and fixpoint agree."""
     for seed in range(60):
         spec = random_spec(seed, profile)
         world = World(spec, ordering)
