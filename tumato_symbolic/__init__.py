@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from tumato_symbolic.diagnostics import Diagnostic, UserError
     from tumato_symbolic.policy import Policy
-    from tumato_symbolic.spec import Spec, parse
+    from tumato_symbolic.spec import Spec
     from tumato_symbolic.synthesis import Failure, Realizable, Statistics, Undecided, Unrealizable, synthesize
     from tumato_symbolic.verify import Verification, verify
 
@@ -24,7 +24,6 @@ _HOMES = {
     "UserError": "diagnostics",
     "Policy": "policy",
     "Spec": "spec",
-    "parse": "spec",
     "Failure": "synthesis",
     "Realizable": "synthesis",
     "Statistics": "synthesis",
@@ -51,6 +50,18 @@ __all__ = [
     "synthesize",
     "verify",
 ]
+
+
+def parse(text: str) -> Spec:
+    """Read a specification. Raises `UserError`, which carries every mistake found in it."""
+    from tumato_symbolic.diagnostics import Source, UserError
+    from tumato_symbolic.spec import load
+
+    source = Source("<text>", text)
+    loaded = load(source)
+    if loaded.spec is None:
+        raise UserError(loaded.diagnostics, source)
+    return loaded.spec
 
 
 def __getattr__(name: str) -> Any:  # noqa: ANN401 - the kinds differ, and type checkers read the imports above

@@ -121,7 +121,10 @@ def parse(arguments: Sequence[str] | None) -> Options:
         _parser().error(f"decide: give the state as VAR=VALUE …, {what} (see tumato-sym decide --help)")
     if found["command"] == "synth" and not found["output"]:
         _parser().error("synth: -o needs a file name (or - for the standard output)")
-    return Options(**{name: tuple(value) if isinstance(value, list) else value for name, value in found.items()})
+    settings: dict[str, Any] = {
+        name: tuple(value) if isinstance(value, list) else value for name, value in found.items()
+    }
+    return Options(**settings)
 
 
 class _Version(argparse.Action):

@@ -73,8 +73,8 @@ def _effectuation(place: Place, step: Effectuation) -> str:
     return f"{action.name} takes an alternative effect ({written}; {place.file}:{source.span.line})"
 
 
-def objection_text(place: Place, state: State, objection: Objection) -> str:
-    """One objection to a set in `state`, as a clause without a full stop."""
+def objection_text(place: Place, objection: Objection) -> str:
+    """One objection to a set, as a clause without a full stop."""
     names = [place.spec.actions[number].name for number in objection.actions]
     rule = place.rule(objection.rule) if objection.rule else ""
     match objection.kind:
@@ -115,14 +115,14 @@ def why_no_set(place: Place, state: State, ordering: Ordering, limit: int = 3) -
         distance = (any(each.kind == "nominal-unsafe" for each in found), len(found), len(chosen))
         tried.append((distance, chosen, found))
     tried.sort(key=lambda entry: (entry[0], sorted(entry[1])))
-    lines = [f"{place.actions(chosen)}: {_together(place, state, found)}" for _, chosen, found in tried[:limit]]
+    lines = [f"{place.actions(chosen)}: {_together(place, found)}" for _, chosen, found in tried[:limit]]
     if len(tried) == 1:
         lines.append("anything else: no action has preconditions that hold here")
     return lines
 
 
-def _together(place: Place, state: State, found: list[Objection]) -> str:
-    first = objection_text(place, state, found[0])
+def _together(place: Place, found: list[Objection]) -> str:
+    first = objection_text(place, found[0])
     return first if len(found) == 1 else f"{first} (and {len(found) - 1} more)"
 
 

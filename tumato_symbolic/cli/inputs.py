@@ -1,0 +1,27 @@
+"""Reading a specification for the commands that need a usable one."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+
+from tumato_symbolic.cli.console import note, wants_colour
+from tumato_symbolic.cli.parser import Options
+from tumato_symbolic.diagnostics import Diagnostic, Source, UserError, render
+from tumato_symbolic.spec import Spec, load
+from tumato_symbolic.syntax import read_source
+
+
+def read_spec(path: str) -> tuple[Source, Spec, tuple[Diagnostic, ...]]:
+    """The text, the specification and its warnings. Raises `UserError` where it has errors."""
+    source = read_source(path)
+    loaded = load(source)
+    if loaded.spec is None:
+        raise UserError(loaded.diagnostics, source)
+    return source, loaded.spec, loaded.diagnostics
+
+
+def show_warnings(warnings: Sequence[Diagnostic], source: Source, options: Options) -> None:
+    """Warnings for a person, ahead of the report; the other formats carry them inside."""
+    if warnings and options.output_format == "text":
+        note(render(tuple(warnings), source, color=wants_colour(sys.stderr)))

@@ -1,0 +1,75 @@
+"""Why there is no policy: the failing states of one kind, with an example and what could be changed."""
+
+from __future__ import annotations
+
+from tumato_symbolic.report.layout import count
+from tumato_symbolic.report.reasons import Place, broken_here, why_no_set
+from tumato_symbolic.semantics import named
+from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.synthesis.outcome import Failure
+
+_STATES_IN_JSON = 100
+_STATES_IN_TEXT = 8
+
+
+def failure_text(place: Place, failure: Failure, ordering: Ordering) -> str:
+    """One kind of failure for a person."""
+    match failure.kind:
+        case "no-allowed-set":
+            lines = _no_allowed_set(place, failure, ordering)
+        case "no-plan":
+            lines = _no_plan(place, failure)
+        case "conflict":
+            lines = _conflict(place, failure)
+    return "\n".join(lines)
+
+
+def _head(place: Place, failure: Failure, what: str) -> list[str]:
+    has = "has" if failure.count == 1 else "have"
+    lines = [f"{count(failure.count, 'state')} {has} {what}. For example:", f"  {place.state(failure.example)}"]
+    broken = broken_here(place, failure.example)
+    return [*lines, f"  ({broken})"] if broken else lines
+
+
+def _no_allowed_set(place: Place, failure: Failure, ordering: Ordering) -> list[str]:
+    return [
+        *_head(place, failure, "no allowed set of actions"),
+        "The sets that come nearest, and what speaks against them:",
+        *(f"  {line}" for line in why_no_set(place, failure.example, ordering)),
+        "Give the robot an action for such states, relax a rule, or exclude what cannot happen with `assume:`.",
+    ]
+
+
+def _no_plan(place: Place, failure: Failure) -> list[str]:
+    bound = place.spec.max_plan_length
+    runs = "no run, however long," if bound is None else f"no run of at most {count(bound, 'step')} (max_plan_length)"
+    return [
+        *_head(place, failure, "allowed sets, but no plan"),
+        f"Its goal is {place.goals(failure.example)}, and {runs} of allowed steps reaches it.",
+        "Give the robot an action towards the goal, relax a rule or the goal"
+        + ("." if bound is None else ", or raise max_plan_length."),
+    ]
+
+
+def _conflict(place: Place, failure: Failure) -> list[str]:
+    alone = "this state has a plan, but none that a policy could follow,"
+    together = f"each of these {count(failure.count, 'state')} has a plan, but no policy serves all of them,"
+    lines = [
+        f"The goals conflict: {alone if failure.count == 1 else together}",
+        "because the plans pass through states where the policy has to serve other goals.",
+    ]
+    for state in failure.states[:_STATES_IN_TEXT]:
+        lines += [f"  {place.state(state)}", f"    goal: {place.goals(state)}"]
+    if failure.count > _STATES_IN_TEXT:
+        lines.append(f"  … and {failure.count - _STATES_IN_TEXT} more")
+    return [*lines, "Make the goals agree, or let a condition tell such states apart."]
+
+
+def failure_json(spec: Spec, failure: Failure) -> dict[str, object]:
+    """One kind of failure for a program: the exact count, an example, and the first states."""
+    return {
+        "kind": failure.kind,
+        "count": failure.count,
+        "example": named(spec, failure.example),
+        "states": [named(spec, state) for state in failure.states[:_STATES_IN_JSON]],
+    }

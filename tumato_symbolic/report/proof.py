@@ -1,0 +1,151 @@
+"""What was proved and by whom, or the story of what goes wrong: shared by `synth` and `verify`."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from tumato_symbolic.report.layout import Paint, enumeration, seconds
+from tumato_symbolic.report.reasons import Place, broken_here, objection_text
+from tumato_symbolic.semantics import Run, action_names, duration, named
+from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.verify.result import PropertyName, PropertyResult, Refutation, Verification
+
+ORDERINGS: Final[dict[Ordering, str]] = {
+    "any": "in any order, one after the other (any)",
+    "first": "only the first one counts (first)",
+}
+
+_CLAIMS: Final[dict[PropertyName, str]] = {
+    "total": "every valid state has a decision",
+    "safe": "every decision is allowed: whatever effects occur, no rule is broken",
+    "goals": "from every valid state, the nominal run reaches the active goals",
+    "minimal": "where safety is restored, no cheaper set would do as well",
+    "ordering": "the policy assumes the effect ordering that the specification writes",
+}
+
+_STEPS_SHOWN = 12
+
+
+def proof_text(verification: Verification, valid: int, took: float, paint: Paint) -> str:
+    """What is proved of a policy, property by property, and what stayed open."""
+    results = verification.properties
+    provers = enumeration(list(dict.fromkeys(each.proved_by for each in results if each.proved_by)))
+    head = f"{paint.good('Proved')} by {provers} for all {valid:,} valid states, in {seconds(took)}:"
+    if verification.verdict != "proved":
+        head = f"{paint.doubt('Not everything could be proved')}; it took {seconds(took)}:"
+    return "\n".join((head, *(f"  {property_line(result, paint)}" for result in results)))
+
+
+def property_line(result: PropertyResult, paint: Paint) -> str:
+    """One property with its verdict."""
+    verdict = {
+        "proved": paint.good("proved"),
+        "refuted": paint.bad("refuted"),
+        "undecided": paint.doubt("undecided"),
+    }[result.verdict]
+    reason = f" ({result.reason})" if result.reason else ""
+    return f"{result.name:<9}{verdict}: {_CLAIMS[result.name]}{reason}"
+
+
+def refutation_text(place: Place, refutation: Refutation) -> str:
+    """The state, the decision, and what goes wrong, as one or more lines."""
+    if refutation.state is None or refutation.kind == "ordering":
+        return (
+            "the policy records the effect ordering first, but the specification writes any\n"
+            "say --effect-ordering first if that is what you mean"
+        )
+    state = refutation.state
+    lines = [f"in the state {place.state(state)}"]
+    if broken := broken_here(place, state):
+        lines.append(f"({broken})")
+    if refutation.decision is None:
+        return "\n".join((*lines, "the policy decides nothing"))
+    lines.append(f"the policy executes {place.actions(refutation.decision)}")
+    spec = place.spec
+    match refutation:
+        case Refutation(kind="not-allowed", objection=objection) if objection is not None:
+            lines.append(f"which is not allowed: {objection_text(place, objection)}")
+        case Refutation(kind="goal-missed", run=run) if run is not None:
+            lines += [
+                f"but its goal is {place.goals(state)}",
+                f"and the run {_ENDS[run.end]}:",
+                *_run_lines(place, run),
+            ]
+        case Refutation(kind="not-minimal", cheaper=cheaper) if cheaper is not None:
+            lines.append(
+                f"which takes {duration(spec, refutation.decision)}; {place.actions(cheaper)} takes "
+                f"{duration(spec, cheaper)}, is allowed, and its run reaches the goal:"
+            )
+            lines += _run_lines(place, refutation.run) if refutation.run else []
+    return "\n".join(lines)
+
+
+_ENDS: Final = {
+    "goal": "reaches it",
+    "bound": "does not reach it within max_plan_length",
+    "loop": "never reaches it, because it comes back to a state",
+    "undefined": "ends in a state without a decision",
+}
+
+
+def _run_lines(place: Place, run: Run) -> list[str]:
+    lines = [f"  {place.state(run.states[0])}"]
+    steps = list(zip(run.decisions, run.states[1:], strict=True))
+    for chosen, state in steps[:_STEPS_SHOWN]:
+        lines.append(f"  → {place.actions(chosen)} → {place.state(state)}")
+    if len(steps) > _STEPS_SHOWN:
+        lines.append(f"  … and {len(steps) - _STEPS_SHOWN} more steps")
+    return lines
+
+
+def proof_json(spec: Spec, verification: Verification) -> dict[str, object]:
+    """A verification for a program."""
+    return {
+        "verdict": verification.verdict,
+        "properties": {result.name: _property_json(spec, result) for result in verification.properties},
+        "effect_ordering": verification.ordering,
+        "effect_ordering_from": verification.ordering_source,
+        "valid_states": verification.valid_states,
+        "certificate": {"status": verification.certificate.status, "reason": verification.certificate.reason},
+    }
+
+
+def _property_json(spec: Spec, result: PropertyResult) -> dict[str, object]:
+    return {
+        "verdict": result.verdict,
+        "proved_by": result.proved_by,
+        "obligations": result.obligations,
+        "reason": result.reason,
+        "seconds": round(result.seconds, 3),
+        "refutation": _refutation_json(spec, result.refutation) if result.refutation else None,
+    }
+
+
+def _refutation_json(spec: Spec, refutation: Refutation) -> dict[str, object]:
+    state, decision, objection, run = refutation.state, refutation.decision, refutation.objection, refutation.run
+    found: dict[str, object] = {
+        "kind": refutation.kind,
+        "state": named(spec, state) if state is not None else None,
+        "decision": list(action_names(spec, decision)) if decision is not None else None,
+    }
+    if objection is not None:
+        found["objection"] = {
+            "kind": objection.kind,
+            "actions": [spec.actions[number].name for number in objection.actions],
+            "rule": " ".join(objection.rule.text.split()) if objection.rule else None,
+            "line": objection.rule.span.line if objection.rule else None,
+            "outcome": [
+                {"action": spec.actions[step.action].name, "after": named(spec, step.after)}
+                for step in objection.outcome
+            ],
+        }
+    if run is not None:
+        found["run"] = {
+            "end": run.end,
+            "states": [named(spec, visited) for visited in run.states],
+            "decisions": [list(action_names(spec, chosen)) for chosen in run.decisions],
+        }
+    if refutation.cheaper is not None and decision is not None:
+        found["cheaper"] = list(action_names(spec, refutation.cheaper))
+        found["durations"] = {"decision": duration(spec, decision), "cheaper": duration(spec, refutation.cheaper)}
+    return found

@@ -1,0 +1,180 @@
+"""What `synth` found, for a person, a program and GitHub."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from tumato_symbolic.diagnostics import Diagnostic, Source
+from tumato_symbolic.policy import as_table
+from tumato_symbolic.report.failures import failure_json, failure_text
+from tumato_symbolic.report.findings import finding_json, github_command, github_commands
+from tumato_symbolic.report.layout import Paint, count, seconds
+from tumato_symbolic.report.picture import picture
+from tumato_symbolic.report.proof import ORDERINGS, proof_json, proof_text
+from tumato_symbolic.report.reasons import Place
+from tumato_symbolic.spec import Spec
+from tumato_symbolic.synthesis.outcome import Outcome, Realizable, Statistics, Undecided, Unrealizable
+from tumato_symbolic.verify.result import Verification
+
+_PICTURED_STATES = 500
+_PICTURED_LINES = 30
+
+
+@dataclass(frozen=True, slots=True)
+class Synthesized:
+    """An outcome with everything that its report needs. Times are in seconds.
+
+    `proof` is None where there was nothing to prove, or where proving was declined; `written` tells whether the
+    policy is in `output` (`-` is the standard output).
+    """
+
+    source: Source
+    spec: Spec
+    outcome: Outcome
+    proof: Verification | None
+    warnings: tuple[Diagnostic, ...]
+    output: str
+    written: bool
+    solved_in: float
+    proved_in: float
+
+    @property
+    def place(self) -> Place:
+        """The specification and its file."""
+        return Place(self.spec, self.source.name)
+
+
+def as_text(done: Synthesized, colour: bool) -> str:
+    """The report for a person."""
+    paint = Paint(colour)
+    match done.outcome:
+        case Realizable():
+            parts = _realizable(done, done.outcome, paint)
+        case Unrealizable():
+            parts = _unrealizable(done, done.outcome, paint)
+        case Undecided(limit, statistics):
+            parts = [
+                f"{done.source.name}: {paint.doubt('undecided')}: {limit}.",
+                _states(statistics),
+                "No policy was written.",
+            ]
+    return "\n\n".join(parts)
+
+
+def _states(statistics: Statistics) -> str:
+    excluded = statistics.total - statistics.valid
+    assumed = f", {excluded:,} excluded by assumptions" if excluded else ", all valid"
+    return f"  {count(statistics.total, 'state')}{assumed}: {statistics.safe:,} safe, {statistics.unsafe:,} unsafe"
+
+
+def _realizable(done: Synthesized, outcome: Realizable, paint: Paint) -> list[str]:
+    statistics = outcome.statistics
+    bound = done.spec.max_plan_length
+    longest = f"  longest run to a goal: {count(statistics.longest_run or 0, 'step')}"
+    longest += "" if bound is None else f" (max_plan_length: {bound})"
+    head = [
+        f"{done.source.name} is {paint.good('realizable')}: the policy decides all {statistics.valid:,} valid states. "
+        f"Found in {seconds(done.solved_in)}.",
+        _states(statistics),
+        longest,
+        f"  effects: {ORDERINGS[statistics.ordering]}",
+    ]
+    parts = ["\n".join(head), *_drawn(done, outcome)]
+    if done.proof is None:
+        parts.append(paint.doubt("Not proved: --no-verify was given."))
+    else:
+        parts.append(proof_text(done.proof, statistics.valid, done.proved_in, paint))
+    return [*parts, _next(done, outcome)]
+
+
+def _drawn(done: Synthesized, outcome: Realizable) -> list[str]:
+    table = as_table(outcome.policy, _PICTURED_STATES)
+    if table is None:
+        return []
+    lines = picture(done.spec, table.rows)
+    if len(lines) > _PICTURED_LINES:
+        return []
+    legend = " (! restores safety)" if outcome.statistics.unsafe else ""
+    return ["\n".join((f"What it does{legend}:", *(f"  {line}" for line in lines)))]
+
+
+def _next(done: Synthesized, outcome: Realizable) -> str:
+    if not done.written:
+        return "The policy was not written. With --no-verify it would be, unproved."
+    if done.output == "-":
+        return "The policy is on the standard output."
+    example = outcome.policy.vocabulary.variables
+    state = " ".join(f"{name}={values[0]}" for name, values in example)
+    lines = [f"{done.output} is written. Next:", f"  tumato-sym decide {done.output} {state}"]
+    return "\n".join((*lines, f"  tumato-sym verify {done.output} {done.source.name}"))
+
+
+def _unrealizable(done: Synthesized, outcome: Unrealizable, paint: Paint) -> list[str]:
+    failing = sum(failure.count for failure in outcome.failures if failure.kind != "conflict")
+    valid = outcome.statistics.valid
+    verdict = f"{done.source.name} is {paint.bad('not realizable')}"
+    if failing:
+        verdict += f": {failing:,} of {count(valid, 'valid state')} {'fails' if failing == 1 else 'fail'}."
+    else:
+        verdict += ": each state alone has a plan, but no policy serves all of them."
+    verdict += f" Found in {seconds(done.solved_in)}."
+    head = [verdict, _states(outcome.statistics), f"  effects: {ORDERINGS[outcome.statistics.ordering]}"]
+    ordering = outcome.statistics.ordering
+    shown = [failure_text(done.place, failure, ordering) for failure in outcome.failures]
+    kept = "" if done.output == "-" else f" {done.output}, if it exists, is what it was."
+    return ["\n".join(head), *shown, f"No policy was written.{kept}"]
+
+
+def as_json(done: Synthesized) -> dict[str, object]:
+    """The report for a program."""
+    outcome, statistics = done.outcome, done.outcome.statistics
+    failures = outcome.failures if isinstance(outcome, Unrealizable) else ()
+    return {
+        "verdict": _verdict(done),
+        "specification": done.source.name,
+        "effect_ordering": statistics.ordering,
+        "states": {
+            "total": statistics.total,
+            "valid": statistics.valid,
+            "safe": statistics.safe,
+            "unsafe": statistics.unsafe,
+        },
+        "longest_run": statistics.longest_run,
+        "policy": done.output if done.written else None,
+        "failing_states": sum(failure.count for failure in failures if failure.kind != "conflict"),
+        "failures": [failure_json(done.spec, failure) for failure in failures],
+        "limit": _limit(done),
+        "proof": proof_json(done.spec, done.proof) if done.proof else None,
+        "seconds": {"synthesis": round(done.solved_in, 3), "proof": round(done.proved_in, 3)},
+        "backend": statistics.backend,
+        "warnings": [finding_json(warning, done.source.name) for warning in done.warnings],
+    }
+
+
+def _verdict(done: Synthesized) -> str:
+    if isinstance(done.outcome, Unrealizable):
+        return "unrealizable"
+    return "realizable" if done.written else "undecided"
+
+
+def _limit(done: Synthesized) -> str | None:
+    if isinstance(done.outcome, Undecided):
+        return done.outcome.limit
+    return "the proof met its limits" if _verdict(done) == "undecided" else None
+
+
+def as_github(done: Synthesized) -> str:
+    """Warnings and failures at their lines, and one notice or error with the verdict."""
+    commands = [github_commands(done.warnings, done.source.name)] if done.warnings else []
+    file, outcome = done.source.name, done.outcome
+    match _verdict(done):
+        case "realizable":
+            proved = "not proved (--no-verify)" if done.proof is None else "proved by Z3"
+            commands.append(github_command("notice", f"realizable, {proved}", file))
+        case "undecided":
+            commands.append(github_command("error", f"undecided: {_limit(done)}", file))
+    if isinstance(outcome, Unrealizable):
+        for failure in outcome.failures:
+            message = f"not realizable: {failure_text(done.place, failure, outcome.statistics.ordering)}"
+            commands.append(github_command("error", message, file))
+    return "\n".join(commands)

@@ -1,0 +1,106 @@
+"""What `verify` found, for a person, a program and GitHub."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from tumato_symbolic.diagnostics import Diagnostic, Source
+from tumato_symbolic.report.findings import finding_json, github_command, github_commands
+from tumato_symbolic.report.layout import Paint, enumeration, seconds
+from tumato_symbolic.report.proof import ORDERINGS, proof_json, property_line, refutation_text
+from tumato_symbolic.report.reasons import Place
+from tumato_symbolic.spec import Spec
+from tumato_symbolic.verify.result import PROPERTIES, CertificateUse, Verification
+
+_CERTIFICATES = {
+    "used": "its ranks carry the proof",
+    "incomplete": "its ranks carry a part of the proof, the others were computed anew",
+    "absent": "none; the ranks were computed by following the runs",
+    "stale": "made for another specification, and set aside",
+    "wrong": "made for this specification, but false, and set aside",
+    "unneeded": "not needed for these properties",
+    "set aside": "set aside",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Verified:
+    """A verification with everything that its report needs; `took` is in seconds."""
+
+    source: Source
+    spec: Spec
+    policy: str
+    verification: Verification
+    warnings: tuple[Diagnostic, ...]
+    took: float
+
+    @property
+    def place(self) -> Place:
+        """The specification and its file."""
+        return Place(self.spec, self.source.name)
+
+
+def as_text(done: Verified, colour: bool) -> str:
+    """The report for a person."""
+    paint, found = Paint(colour), done.verification
+    lines = [
+        f"{_verdict(done, paint)} In {seconds(done.took)}.",
+        f"  effects: {ORDERINGS[found.ordering]}, from the {found.ordering_source}",
+        f"  certificate: {_certificate(found.certificate)}",
+        "",
+    ]
+    for result in found.properties:
+        lines.append(f"  {property_line(result, paint)}")
+        if result.refutation is not None:
+            lines += [f"      {line}" for line in refutation_text(done.place, result.refutation).splitlines()]
+    left = [name for name in PROPERTIES if name not in {result.name for result in found.properties}]
+    if left:
+        lines.append(f"Not asked: {enumeration(left)}.")
+    return "\n".join(lines)
+
+
+def _verdict(done: Verified, paint: Paint) -> str:
+    found = done.verification
+    match found.verdict:
+        case "proved":
+            provers = enumeration(list(dict.fromkeys(each.proved_by for each in found.properties if each.proved_by)))
+            states = "all valid states" if found.valid_states is None else f"all {found.valid_states:,} valid states"
+            return f"{done.policy} is {paint.good('proved')} against {done.source.name} by {provers}, for {states}."
+        case "refuted":
+            return f"{done.policy} is {paint.bad('refuted')} against {done.source.name}."
+        case "undecided":
+            return f"{done.policy} is {paint.doubt('undecided')} against {done.source.name}."
+
+
+def _certificate(use: CertificateUse) -> str:
+    text = _CERTIFICATES[use.status]
+    return f"{text} ({use.reason})" if use.reason else text
+
+
+def as_json(done: Verified) -> dict[str, object]:
+    """The report for a program."""
+    return {
+        **proof_json(done.spec, done.verification),
+        "policy": done.policy,
+        "specification": done.source.name,
+        "seconds": round(done.took, 3),
+        "warnings": [finding_json(warning, done.source.name) for warning in done.warnings],
+    }
+
+
+def as_github(done: Verified) -> str:
+    """Warnings at their lines, one error for every property that is not proved, or one notice."""
+    commands = [github_commands(done.warnings, done.source.name)] if done.warnings else []
+    open_results = [result for result in done.verification.properties if result.verdict != "proved"]
+    for result in open_results:
+        message = property_line(result, Paint(False))
+        span = None
+        file = done.policy
+        if result.refutation is not None:
+            message += "\n" + refutation_text(done.place, result.refutation)
+            if result.refutation.objection is not None and result.refutation.objection.rule is not None:
+                span, file = result.refutation.objection.rule.span, done.source.name
+        commands.append(github_command("error", message, file, span, f"{result.name} {result.verdict}"))
+    if not open_results:
+        commands.append(github_command("notice", f"proved against {done.source.name}", done.policy))
+    return "\n".join(commands)
