@@ -17,9 +17,9 @@ FailureKind: TypeAlias = Literal["no-allowed-set", "no-plan", "conflict"]
 class Statistics:
     """Exact counts of states, and how the answer was found.
 
-    `longest_run` is None where there is no policy. `own_region`, `routed`, `overridden` and `repaired` count the safe
-    states whose decision was found by staying where their goals are active, by passing through solved states, by
-    changing decisions of other goals, and by repair. `restoring_durations` counts the distinct minimal durations.
+    `longest_run` is None where there is no policy. `own_region` and `routed` count the safe states that were
+    decided by staying where their goals are active and by passing through solved states, `changed` those whose decision
+    then had to deviate because goals interact. `restoring_durations` counts the distinct minimal durations.
     """
 
     total: int
@@ -31,8 +31,7 @@ class Statistics:
     ordering: Ordering
     own_region: int = 0
     routed: int = 0
-    overridden: int = 0
-    repaired: int = 0
+    changed: int = 0
     restoring_durations: int = 0
 
 

@@ -55,7 +55,7 @@ class Repair:
         result = self._serve(self._problem.steps.valid, None)
         if isinstance(result, frozenset):
             return Conflict(self._minimal(result))
-        return self._restored(result)
+        return result
 
     def _serve(self, required: Bdd, guards: list[int] | None) -> Bdd | frozenset[int]:
         """A policy that serves the required states, or starts (by number) that cannot be served together."""
@@ -83,25 +83,6 @@ class Repair:
             else:
                 needed.append(open_.pop(0))
         return tuple(sorted(self._states[number] for number in needed))
-
-    def _restored(self, policy: Bdd) -> Bdd:
-        """The repaired policy with as many of today's decisions as can be had back, halving what does not go."""
-        changed = [number for number, option in enumerate(self._picked) if option]
-        pending = [changed] if changed else []
-        while pending:
-            part = pending.pop()
-            before = {number: self._picked[number] for number in part}
-            for number in part:
-                self._picked[number] = 0
-            candidate = self._current()
-            if evaluate(self._problem, candidate).failing == self._problem.false:
-                policy = candidate
-                continue
-            for number, option in before.items():
-                self._picked[number] = option
-            if len(part) > 1:
-                pending += [part[len(part) // 2 :], part[: len(part) // 2]]
-        return policy
 
     def _current(self) -> Bdd:
         """The policy with the picked options in the touched states."""

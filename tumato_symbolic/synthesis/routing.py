@@ -29,7 +29,7 @@ def _nearest_first(problem: Problem, target: Target, here: Bdd) -> Bdd:
     """
     policy, undecided, front, steps = problem.false, here, target.states, 0
     bound = problem.spec.max_plan_length
-    while undecided != problem.false and front != problem.false and (bound is None or steps < bound):
+    while problem.false not in {undecided, front} and (bound is None or steps < bound):
         decided = undecided & problem.steps.predecessor(target.owed & undecided, front)
         policy = policy | preferred(problem.encoding, target.owed & decided & problem.steps.before(front))
         undecided, front, steps = undecided & ~decided, decided & ~target.states, steps + 1
@@ -53,7 +53,7 @@ def route(problem: Problem, policy: Bdd, undecided: Bdd, within: Bdd, owing: Seq
 
 
 def shortest_decisions(problem: Problem, ranks: Sequence[Layers], undecided: Bdd, relation: Bdd) -> Bdd:
-    """For every undecided state the pair of `relation` with the fewest steps, when first successors have these ranks."""
+    """For every undecided state the pair with the fewest steps, where `ranks` are the first successors'."""
     policy = problem.false
     for pairs in _by_steps(problem, problem.targets, ranks, undecided, relation):
         fresh = pairs & ~problem.steps.states_of(policy)

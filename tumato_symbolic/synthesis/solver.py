@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 import z3
 
 from tumato_symbolic.symbolic import Bdd, Encoding
+
+Term: TypeAlias = Any
+"""A Z3 expression; z3 has no types."""
 
 MACHINE_INTEGER = 2**31 - 1
 """Z3's pseudo-Boolean constraints take coefficients of this size; larger durations are summed as integers."""
@@ -49,14 +52,14 @@ class CheapestSet:
         self._solver.pop()
         return best
 
-    def _at_most(self, total: int) -> Any:
+    def _at_most(self, total: int) -> Term:
         if self._small:
             return z3.PbLe(self._terms, total)
         return z3.Sum([z3.If(term, duration, 0) for term, duration in self._terms]) <= total
 
-    def _term(self, u: Bdd) -> Any:
+    def _term(self, u: Bdd) -> Term:
         manager = self._encoding.manager
-        terms: dict[Bdd, Any] = {manager.true: z3.BoolVal(True), manager.false: z3.BoolVal(False)}
+        terms: dict[Bdd, Term] = {manager.true: z3.BoolVal(True), manager.false: z3.BoolVal(False)}
         for node, level, low, high in manager.descending(u):
             terms[node] = z3.If(self._bits[manager.bits[level]], terms[high], terms[low])
         return terms[u]
@@ -75,8 +78,8 @@ class Choices:
 
     def __init__(self) -> None:
         self._solver = z3.SolverFor("QF_FD")
-        self._options: list[list[Any]] = []
-        self._guards: dict[int, Any] = {}
+        self._options: list[list[Term]] = []
+        self._guards: dict[int, Term] = {}
         self._free: set[int] = set()
 
     def add_choice(self, options: int) -> int:

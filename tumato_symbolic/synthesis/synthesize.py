@@ -21,6 +21,7 @@ from tumato_symbolic.synthesis.outcome import (
     Statistics,
     Unrealizable,
 )
+from tumato_symbolic.synthesis.overriding import give_back, override
 from tumato_symbolic.synthesis.problem import Layers, Problem, attractor, evaluate, pose, served
 from tumato_symbolic.synthesis.restoring import restoring_policy
 from tumato_symbolic.synthesis.routing import own_region_policy, route, shortest_decisions
@@ -91,14 +92,18 @@ def _resolve(
     policy = policy | shortest_decisions(problem, distances, undecided, steps.allowed)
     if evaluate(problem, policy).failing == problem.false:
         return _Resolved(policy, statistics)
-    from tumato_symbolic.synthesis.repair import Conflict, Repair
+    tell("overriding decisions of other goals")
+    changed = override(problem, policy, distances)
+    if evaluate(problem, changed).failing != problem.false:
+        from tumato_symbolic.synthesis.repair import Conflict, Repair
 
-    tell("repairing decisions where goals interact")
-    repaired = Repair(problem, policy, distances).run()
-    if isinstance(repaired, Conflict):
-        return Failure("conflict", len(repaired.states), repaired.states[0], repaired.states)
-    changed = problem.encoding.count_states(steps.states_of(policy & ~repaired))
-    return _Resolved(repaired, replace(statistics, repaired=changed))
+        tell("repairing decisions where goals interact")
+        repaired = Repair(problem, changed, distances).run()
+        if isinstance(repaired, Conflict):
+            return Failure("conflict", len(repaired.states), repaired.states[0], repaired.states)
+        changed = repaired
+    changed = give_back(problem, policy, changed)
+    return _Resolved(changed, replace(statistics, changed=_count_decided(problem, policy & ~changed)))
 
 
 def _finish(

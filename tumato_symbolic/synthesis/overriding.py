@@ -1,0 +1,78 @@
+"""Changing earlier decisions where goals interact: symbolically, for whole families of failing states at once."""
+
+from __future__ import annotations
+
+from tumato_symbolic.symbolic import Bdd, preferred
+from tumato_symbolic.synthesis.problem import Layers, Problem, evaluate
+from tumato_symbolic.synthesis.routing import shortest_decisions
+
+TRIES_TO_GIVE_BACK = 200
+"""How many evaluations are spent on undoing changes that turned out not to be needed."""
+
+
+def override(problem: Problem, policy: Bdd, distances: tuple[Layers, ...]) -> Bdd:
+    """A policy under which fewer states fail, or the given one: failing states get their shortest run.
+
+    Every state on such a run follows it, whatever its own goals are. All states are judged again after the change for
+    one target, which is kept when fewer of them fail. What still fails then needs a closer look (`Repair`).
+    """
+    count = problem.encoding.count_states
+    failing = evaluate(problem, policy).failing
+    improved = True
+    while improved and failing != problem.false:
+        improved = False
+        for number in range(len(problem.targets)):
+            candidate = _towards(problem, policy, failing, distances, number)
+            if candidate == policy:
+                continue
+            still = evaluate(problem, candidate).failing
+            if count(still) < count(failing):
+                policy, failing, improved = candidate, still, True
+            if failing == problem.false:
+                break
+    return policy
+
+
+def _towards(problem: Problem, policy: Bdd, failing: Bdd, distances: tuple[Layers, ...], number: int) -> Bdd:
+    """The policy after sending every failing state that is nearest to one target there, on a shortest run.
+
+    From far to near: the states that such runs meet keep their decision where it leads one layer nearer, and
+    otherwise take the preferred set that does.
+    """
+    steps, encoding, layers = problem.steps, problem.encoding, distances[number]
+    starts = shortest_decisions(problem, distances, failing, steps.allowed) & problem.targets[number].owed
+    changed = starts & steps.safe
+    met = steps.successors(starts)
+    for distance in range(len(layers) - 1, 0, -1):
+        here = met & layers[distance] & ~steps.states_of(changed)
+        if here == problem.false:
+            continue
+        nearer = steps.before(layers[distance - 1]) & here
+        kept = policy & nearer
+        turned = here & ~steps.states_of(kept)
+        decided = kept | preferred(encoding, steps.allowed & turned & nearer)
+        changed = changed | (decided & turned)
+        met = met | steps.successors(decided)
+    return changed | (policy & ~steps.states_of(changed))
+
+
+def give_back(problem: Problem, before: Bdd, after: Bdd) -> Bdd:
+    """`after`, with as many decisions of `before` as can be had without making any state fail; halving what does not go.
+
+    Both policies are defined in every safe state, and none fails under `after`.
+    """
+    encoding, steps = problem.encoding, problem.steps
+    pending = [list(encoding.states_in(steps.states_of(after & ~before)))]
+    tries = 0
+    while pending and tries < TRIES_TO_GIVE_BACK:
+        part = pending.pop()
+        if not part:
+            continue
+        states = encoding.manager.union(map(encoding.state_cube, part))
+        candidate = (after & ~states) | (before & states)
+        tries += 1
+        if evaluate(problem, candidate).failing == problem.false:
+            after = candidate
+        elif len(part) > 1:
+            pending += [part[len(part) // 2 :], part[: len(part) // 2]]
+    return after
