@@ -4,23 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.policy.diagram import Diagram, Leaf, Reference, rebuild
 from tumato_symbolic.policy.model import Certificate, DecisionDiagram, Policy, RankedGoal, Table, Vocabulary
-from tumato_symbolic.policy.problems import show, way_out
+from tumato_symbolic.policy.problems import MOST, show, way_out
 from tumato_symbolic.spec import Spec
 
 
 def bind(policy: Policy, spec: Spec) -> Policy:
     """The same policy, renumbered so that its vocabulary is that of `spec`.
 
-    Raises `UserError` with every variable and value that only one side has (TUM503, TUM504) and every action that
-    `spec` does not have (TUM505). An action that only `spec` has is never executed. A certificate that speaks of
-    unknown actions is set aside.
+    Raises `UserError` with (at most 20 of) the variables and values that only one side has (TUM503, TUM504) and the
+    actions that `spec` does not have (TUM505). An action that only `spec` has is never executed. A certificate that
+    speaks of unknown actions is set aside.
     """
     target = Vocabulary.of(spec)
-    problems = tuple(_problems(policy.vocabulary, target))
+    problems = tuple(islice(_problems(policy.vocabulary, target), MOST))
     if problems:
         raise UserError(problems)
     renumbering = _Renumbering.between(policy.vocabulary, target)
@@ -102,12 +103,11 @@ class _Renumbering:
 
     def decisions(self, decisions: DecisionDiagram) -> DecisionDiagram:
         """Roots in the new order of actions; the order of tests stays as it is."""
-        diagram, roots = self._diagram(decisions.diagram, (*decisions.roots, decisions.defined))
-        never = diagram.leaves.index(False)
-        by_action = dict(zip(self.actions, roots, strict=False))
-        return DecisionDiagram(
-            diagram, tuple(by_action.get(action, never) for action in range(self.action_count)), roots[-1]
-        )
+        never = decisions.diagram.leaves.index(False)
+        by_action = dict(zip(self.actions, decisions.roots, strict=True))
+        wanted = [by_action.get(action, never) for action in range(self.action_count)]
+        diagram, roots = self._diagram(decisions.diagram, (*wanted, decisions.defined))
+        return DecisionDiagram(diagram, roots[:-1], roots[-1])
 
     def certificate(self, certificate: Certificate) -> Certificate:
         """The ranks of the same states."""

@@ -5,11 +5,12 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import islice
 from typing import Protocol
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.policy.model import DecisionDiagram, Policy, Table, Vocabulary
-from tumato_symbolic.policy.problems import fault, listed, plain, show, way_out
+from tumato_symbolic.policy.problems import MOST, fault, listed, plain, show, way_out
 from tumato_symbolic.policy.shape import as_object, as_text, parse_json
 
 
@@ -90,8 +91,8 @@ def _by_diagram(vocabulary: Vocabulary, decisions: DecisionDiagram) -> _DiagramD
 
 
 def check_state(vocabulary: Vocabulary, state: Mapping[str, str]) -> None:
-    """Raise `UserError` with everything that keeps `state` from being one of the policy's states (TUM503, TUM504)."""
-    problems = tuple(_problems(vocabulary, state))
+    """Raise `UserError` with what keeps `state` from being one of the policy's states (TUM503, TUM504)."""
+    problems = tuple(islice(_problems(vocabulary, state), MOST))
     if problems:
         raise UserError(problems)
 
@@ -125,9 +126,9 @@ def parse_assignments(policy: Policy, words: Sequence[str]) -> dict[str, str]:
         elif state.setdefault(name, value) != value:
             message = f"{show(name)} is given two values, {show(state[name])} and {show(value)}"
             problems.append(Diagnostic(Code.TUM509, message))
-    problems.extend(_problems(policy.vocabulary, state))
+    problems.extend(islice(_problems(policy.vocabulary, state), MOST))
     if problems:
-        raise UserError(tuple(problems))
+        raise UserError(tuple(problems[:MOST]))
     return state
 
 

@@ -132,5 +132,6 @@ def count_true(diagram: Diagram[bool], root: Reference, sizes: Sequence[int]) ->
     counts = [int(leaf) for leaf in diagram.leaves]
     for level, below in diagram.nodes[: max(0, root - base + 1)]:
         counts.append(sum(counts[child] * (below_level[level + 1] // below_level[levels[child]]) for child in below))
-    untested = prod(size for variable, size in enumerate(sizes) if variable not in diagram.order)
+    tested = frozenset(diagram.order)
+    untested = prod(size for variable, size in enumerate(sizes) if variable not in tested)
     return counts[root] * (below_level[0] // below_level[levels[root]]) * untested

@@ -44,7 +44,9 @@ def save(policy: Policy, path: Path) -> None:
     data = dumps(policy).encode()
     try:
         target = path.resolve()
-        if target.exists() and not target.is_file() and not target.is_dir():
+        if target.is_dir():
+            raise IsADirectoryError("it is a directory")
+        if target.exists() and not target.is_file():
             target.write_bytes(data)
         else:
             _replace(target, data)

@@ -9,6 +9,9 @@ from tumato_symbolic.diagnostics import Code, Diagnostic, Source, UserError
 SHOWN = 60
 """Names are cut after this many characters in messages."""
 
+MOST = 20
+"""So many mistakes in a policy or state are reported at once."""
+
 
 def fault(code: Code, message: str, help: str | None = None, source: Source | None = None) -> UserError:
     """An error with one diagnostic."""

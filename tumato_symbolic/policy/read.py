@@ -152,12 +152,12 @@ def _diagram(
         if name not in numbers:
             message = f"{where} tests the unknown variable {show(name)}"
             raise fault(Code.TUM503, message, way_out(name, numbers, "variables"))
-    order = tuple(numbers[name] for name in names)
+    order, sizes = tuple(numbers[name] for name in names), vocabulary.sizes
     leaves = as_list(member(section, "Leaves", where), f"`{title}.Leaves`")
     if not leaves:
         raise fault(Code.TUM502, f"{where} has no leaves")
     entries = as_list(member(section, "Nodes", where), f"`{title}.Nodes`")
-    return order, leaves, _nodes(entries, where, [vocabulary.sizes[variable] for variable in order], len(leaves))
+    return order, leaves, _nodes(entries, where, [sizes[variable] for variable in order], len(leaves))
 
 
 def _nodes(entries: list[Any], where: str, sizes: list[int], base: int) -> tuple[Node, ...]:
@@ -188,8 +188,9 @@ def _decision_diagram(value: object, vocabulary: Vocabulary) -> DecisionDiagram:
     if leaves != [False, True] or any(type(leaf) is not bool for leaf in leaves):
         raise fault(Code.TUM502, "`Diagram.Leaves` must be [false, true]")
     named = as_object(member(section, "Roots", where), "`Diagram.Roots`")
+    known = frozenset(vocabulary.actions)
     for name in named:
-        if name not in vocabulary.actions:
+        if name not in known:
             message = f"`Diagram.Roots` has the unknown action {show(name)}"
             raise fault(Code.TUM505, message, way_out(name, vocabulary.actions, "actions"))
     end = len(leaves) + len(nodes)

@@ -8,8 +8,8 @@ from typing import Any
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source, Span, UserError
 from tumato_symbolic.policy.problems import fault, show
 
-MAX_BYTES = 100 * 1024 * 1024
-"""The largest policy that is read or written: 100 MiB."""
+MAX_BYTES = 32 * 1024 * 1024
+"""The largest policy that is read or written: 32 MiB."""
 
 MAX_DIGITS = 18
 """Longer numbers are read as fractions, and so fit nowhere."""

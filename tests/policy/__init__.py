@@ -1,0 +1,1 @@
+"""Policies as data: files, conversion, binding, lookup."""

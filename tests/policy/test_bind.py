@@ -1,0 +1,117 @@
+"""Binding gives a policy the numbers of a specification and changes nothing else."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.policy.strategies import QUICK, amr_like, policies, spec_of
+from tumato_symbolic.diagnostics import UserError
+from tumato_symbolic.policy import Certificate, Policy, RankedGoal, Table, Vocabulary, as_table, bind
+
+
+def shuffled(vocabulary, random):
+    """The same names in another order, and one action more."""
+    variables = [(name, tuple(random.sample(values, len(values)))) for name, values in vocabulary.variables]
+    actions = [*random.sample(vocabulary.actions, len(vocabulary.actions)), "an action more"]
+    random.shuffle(variables)
+    random.shuffle(actions)
+    return Vocabulary(tuple(variables), tuple(actions))
+
+
+def meaning(policy):
+    """The decisions by names alone."""
+    return {
+        frozenset(
+            (name, values[value]) for (name, values), value in zip(policy.vocabulary.variables, state, strict=True)
+        ): {policy.vocabulary.actions[action] for action in chosen}
+        for state, chosen in as_table(policy, 1000).rows.items()
+    }
+
+
+def ranks(policy):
+    """The certificate by names alone."""
+    certificate, variables = policy.certificate, policy.vocabulary.variables
+    everything = as_table(Policy(policy.vocabulary, as_everything(policy.vocabulary)), 1000)
+    return [
+        {
+            frozenset(
+                (n, v[value]) for (n, v), value in zip(variables, state, strict=True)
+            ): certificate.ranks.evaluate(goal.root, state)
+            for state in everything.rows
+        }
+        for goal in certificate.goals
+    ]
+
+
+def as_everything(vocabulary):
+    """A table with every state."""
+    from itertools import product
+
+    return Table(dict.fromkeys(product(*map(range, vocabulary.sizes)), frozenset()))
+
+
+@QUICK
+@given(policies(), st.randoms(use_true_random=False))
+def test_order_never_matters(policy, random):
+    """Variables, values and actions of the specification may come in any order."""
+    target = shuffled(policy.vocabulary, random)
+    bound = bind(policy, spec_of(target))
+    assert bound.vocabulary == target
+    assert meaning(bound) == meaning(policy)
+    assert (bound.ordering, bound.digest) == (policy.ordering, policy.digest)
+    if policy.certificate is not None:
+        assert ranks(bound) == ranks(policy)
+
+
+@QUICK
+@given(policies(), st.randoms(use_true_random=False))
+def test_binding_back_gives_the_policy(policy, random):
+    """Binding to a permuted specification and back is the identity."""
+    target = shuffled(policy.vocabulary, random)
+    trimmed = Vocabulary(target.variables, tuple(name for name in target.actions if name in policy.vocabulary.actions))
+    assert bind(bind(policy, spec_of(trimmed)), spec_of(policy.vocabulary)) == policy
+
+
+AMR = amr_like().vocabulary
+PLACE, LOAD = AMR.variables
+
+
+@pytest.mark.parametrize(
+    ("vocabulary", "code", "message"),
+    [
+        (Vocabulary((PLACE,), AMR.actions), "TUM503", "variable `S_Load`, which the specification does not have"),
+        (Vocabulary((PLACE, LOAD, ("S_New", ("a",))), AMR.actions), "TUM503", "does not know the variable `S_New`"),
+        (Vocabulary((PLACE, ("S_Load", ("free", "full"))), AMR.actions), "TUM504", "a value `odd` of `S_Load`"),
+        (Vocabulary((PLACE, ("S_Load", (*LOAD[1], "x"))), AMR.actions), "TUM504", "not know the value `x` of `S_Load`"),
+        (Vocabulary(AMR.variables, ("go", "load")), "TUM505", "the action `stop`, which the specification does not"),
+    ],
+)
+@pytest.mark.parametrize("diagram", [False, True])
+def test_what_only_one_side_has_is_an_error(vocabulary, code, message, diagram):
+    """Unknown and missing variables and values and unknown actions are refused, with the name."""
+    with pytest.raises(UserError) as raised:
+        bind(amr_like(diagram), spec_of(vocabulary))
+    assert [diagnostic.code.name for diagnostic in raised.value.diagnostics] == [code]
+    assert message in raised.value.diagnostics[0].message
+
+
+def test_all_differences_are_reported_with_a_way_out():
+    """Several differences are reported in one run, the nearest name as help."""
+    target = Vocabulary((("S_Plaze", PLACE[1]), LOAD), ("go", "lode", "stop"))
+    with pytest.raises(UserError) as raised:
+        bind(amr_like(), spec_of(target))
+    helps = [diagnostic.help for diagnostic in raised.value.diagnostics]
+    assert len(helps) == 3
+    assert helps[0] == "did you mean `S_Plaze`?"
+    assert helps[2] == "did you mean `lode`?"
+
+
+def test_a_certificate_of_unknown_actions_is_set_aside():
+    """The policy stays usable when its certificate speaks of an action that nobody has."""
+    policy = amr_like()
+    goal = policy.certificate.goals[0]
+    strange = Certificate(policy.certificate.ranks, (RankedGoal(goal.bodies, ("fly",), goal.root),))
+    bound = bind(Policy(policy.vocabulary, policy.decisions, certificate=strange), spec_of(AMR))
+    assert bound.certificate is None
+    assert "`fly`" in bound.certificate_problem
+    assert bound.decisions == policy.decisions

@@ -1,0 +1,107 @@
+"""Tables and diagrams say the same."""
+
+from itertools import product
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.policy.strategies import QUICK, policies, spec_of, tables, vocabularies
+from tumato_symbolic.policy import (
+    DecisionDiagram,
+    Diagram,
+    DiagramBuilder,
+    Policy,
+    Table,
+    Vocabulary,
+    as_diagram,
+    as_table,
+    count_defined,
+    policy_from_rows,
+    rebuild,
+)
+
+
+@QUICK
+@given(policies(forms=("table",)))
+def test_table_to_diagram_to_table(policy):
+    """A table comes back from its diagram, and both count the same states."""
+    diagram = Policy(policy.vocabulary, as_diagram(policy))
+    assert count_defined(diagram) == count_defined(policy) == len(policy.decisions.rows)
+    assert as_table(diagram, 1000) == policy.decisions
+
+
+@QUICK
+@given(policies(forms=("diagram",)))
+def test_diagram_to_table_state_by_state(policy):
+    """The table of a diagram has exactly the defined states, with the actions whose roots lead to True."""
+    diagram, roots = policy.decisions.diagram, policy.decisions.roots
+    expected = {
+        state: frozenset(action for action, root in enumerate(roots) if diagram.evaluate(root, state))
+        for state in product(*map(range, policy.vocabulary.sizes))
+        if diagram.evaluate(policy.decisions.defined, state)
+    }
+    found = as_table(policy, 1000)
+    assert found.rows == expected
+    assert list(found.rows) == sorted(expected)
+
+
+@QUICK
+@given(policies())
+def test_the_limit_is_exact(policy):
+    """As many rows as allowed are given, one more is refused."""
+    count = count_defined(policy)
+    assert as_table(policy, count) is not None
+    assert as_table(policy, count - 1) is None
+
+
+@QUICK
+@given(policies(forms=("diagram",)))
+def test_canonical_is_canonical(policy):
+    """Rebuilding a rebuilt diagram changes nothing: no two equal nodes, none superfluous, children first."""
+    decisions = policy.decisions
+    roots = (*decisions.roots, decisions.defined)
+    assert rebuild(decisions.diagram, roots) == (decisions.diagram, roots)
+    nodes = decisions.diagram.nodes
+    assert len(set(nodes)) == len(nodes)
+    assert all(len(set(below)) > 1 for _, below in nodes)
+
+
+@QUICK
+@given(st.data())
+def test_from_table_is_the_function(data):
+    """A diagram built from a table evaluates to the table, and to the default elsewhere."""
+    vocabulary = data.draw(vocabularies())
+    table = {state: len(chosen) for state, chosen in data.draw(tables(vocabulary)).rows.items()}
+    order = data.draw(st.permutations(range(len(vocabulary.sizes))))
+    builder = DiagramBuilder(order, tuple(range(-1, 6)))
+    root = builder.from_table(vocabulary.sizes, table, -1)
+    for state in product(*map(range, vocabulary.sizes)):
+        assert builder.finish().evaluate(root, state) == table.get(state, -1)
+
+
+def test_counting_does_not_enumerate():
+    """2^200 states are counted exactly, and are too many for a table; variables that no level tests count too."""
+    vocabulary = Vocabulary(tuple((f"S{number}", ("a", "b")) for number in range(201)), ())
+    diagram = Diagram((0, 5), (False, True), ((1, (0, 1)), (0, (2, 1))))
+    policy = Policy(vocabulary, DecisionDiagram(diagram, (), 3))
+    assert count_defined(policy) == 3 * 2**199
+    assert as_table(policy, 10**6) is None
+
+
+def test_many_variables_need_no_deep_stack():
+    """Tables over 5,000 variables become diagrams."""
+    count = 5000
+    vocabulary = Vocabulary(tuple((f"S{number}", ("a", "b")) for number in range(count)), ("go",))
+    rows = {(0,) * count: frozenset({0}), (*(0,) * (count - 1), 1): frozenset()}
+    policy = Policy(vocabulary, Table(rows))
+    diagram = as_diagram(policy)
+    assert diagram.diagram.evaluate(diagram.roots[0], (0,) * count)
+    assert as_table(Policy(vocabulary, diagram), 2).rows == rows
+
+
+def test_rows_become_a_policy():
+    """`policy_from_rows` takes its names from the specification and puts rows in row-major order."""
+    vocabulary = Vocabulary((("S", ("a", "b")),), ("go",))
+    policy = policy_from_rows(spec_of(vocabulary), {(1,): frozenset(), (0,): frozenset({0})}, "first", "d", None)
+    assert policy == Policy(vocabulary, Table({(0,): frozenset({0}), (1,): frozenset()}), "first", "d")
+    assert list(policy.decisions.rows) == [(0,), (1,)]

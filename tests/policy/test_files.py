@@ -1,0 +1,108 @@
+"""Policy files: all or nothing, and clear words about what cannot be read."""
+
+import io
+import os
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.policy.strategies import amr_like
+from tumato_symbolic.diagnostics import UserError
+from tumato_symbolic.policy import dumps, load, loads, save, shape
+
+
+def names(folder):
+    """What is in a folder."""
+    return sorted(path.name for path in folder.iterdir())
+
+
+def test_saved_is_loaded(tmp_path):
+    """`load` gives what `save` was given, and nothing else is left in the folder."""
+    path = tmp_path / "policy.json"
+    save(amr_like(), path)
+    save(amr_like(diagram=True), path)
+    assert load(str(path)) == amr_like(diagram=True)
+    assert names(tmp_path) == ["policy.json"]
+
+
+@pytest.mark.parametrize("failure", [OSError(28, "No space left on device"), KeyboardInterrupt(), MemoryError()])
+@pytest.mark.parametrize("step", ["fsync", "replace"])
+def test_a_failing_write_changes_nothing(tmp_path, monkeypatch, failure, step):
+    """When writing fails or is interrupted, the old file is whole and the temporary one is gone."""
+    path = tmp_path / "policy.json"
+    path.write_text("old")
+
+    def fail(*_):
+        raise failure
+
+    monkeypatch.setattr(os, step, fail)
+    with pytest.raises(UserError if isinstance(failure, OSError) else type(failure)) as raised:
+        save(amr_like(), path)
+    if isinstance(failure, OSError):
+        assert "TUM510: the policy cannot be written: No space left on device" in str(raised.value)
+    assert path.read_text() == "old"
+    assert names(tmp_path) == ["policy.json"]
+
+
+def test_a_folder_is_not_overwritten(tmp_path):
+    """A folder, or a folder that does not exist, is a coded error and leaves no file behind."""
+    for path in (tmp_path, tmp_path / "missing" / "policy.json"):
+        with pytest.raises(UserError, match="TUM510"):
+            save(amr_like(), path)
+    assert names(tmp_path) == []
+
+
+def test_a_device_is_written_to(tmp_path):
+    """A pipe or device stays what it is; a link keeps pointing to the file that is replaced."""
+    null = Path(os.devnull).stat()
+    save(amr_like(), tmp_path.joinpath(os.devnull))
+    assert Path(os.devnull).stat().st_ino == null.st_ino
+    link, target = tmp_path / "link.json", tmp_path / "target.json"
+    target.write_text("old")
+    link.symlink_to(target)
+    save(amr_like(), link)
+    assert link.is_symlink()
+    assert load(str(target)) == amr_like()
+
+
+def test_standard_input_is_read(monkeypatch):
+    """`-` reads standard input as UTF-8, a byte-order mark included."""
+    data = b"\xef\xbb\xbf" + dumps(amr_like()).encode()
+    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(data), "ascii"))
+    assert load("-") == amr_like()
+
+
+def test_what_cannot_be_read_is_said(tmp_path):
+    """A missing file, a folder, empty, binary, UTF-16, truncated, an impossible name: TUM501 with the name as typed."""
+    (tmp_path / "empty").write_bytes(b"")
+    (tmp_path / "binary").write_bytes(bytes(range(256)))
+    (tmp_path / "utf16").write_bytes(dumps(amr_like()).encode("utf-16"))
+    (tmp_path / "truncated").write_text(dumps(amr_like())[:-100])
+    for name in ("missing", ".", "empty", "binary", "utf16", "truncated", "a\0b", "x" * 5000):
+        path = f"{tmp_path}/{name}"
+        with pytest.raises(UserError, match="TUM501") as raised:
+            load(path)
+        assert raised.value.source.name == path
+
+
+def test_an_endless_file_is_too_large(monkeypatch):
+    """Reading stops at the limit, and texts beyond it are neither read nor written."""
+    monkeypatch.setattr(shape, "MAX_BYTES", 100)
+    monkeypatch.setattr("tumato_symbolic.policy.files.MAX_BYTES", 100)
+    monkeypatch.setattr("tumato_symbolic.policy.write.MAX_BYTES", 100)
+    with pytest.raises(UserError, match="TUM508"):
+        load("/dev/zero")
+    with pytest.raises(UserError, match="TUM508"):
+        loads(" " * 101)
+    with pytest.raises(UserError, match="TUM508"):
+        dumps(amr_like())
+
+
+def test_a_syntax_error_has_a_place():
+    """Text that is no JSON is shown with line and column."""
+    with pytest.raises(UserError) as raised:
+        loads('{\n  "Type": policy\n}', "p.json")
+    span = raised.value.diagnostics[0].span
+    assert (span.line, span.column) == (2, 11)
+    assert raised.value.source.text.splitlines()[1] == '  "Type": policy'
