@@ -3,7 +3,7 @@
 from tumato_symbolic.symbolic.choose import lasting, preferred
 from tumato_symbolic.symbolic.encoding import Encoding, encode
 from tumato_symbolic.symbolic.extract import Extractor
-from tumato_symbolic.symbolic.goals import Regions, Target, regions, targets
+from tumato_symbolic.symbolic.goals import Regions, Target, never_entered, regions, targets
 from tumato_symbolic.symbolic.manager import Backend, Bdd, Manager, available_backend
 from tumato_symbolic.symbolic.steps import Steps, build_steps
 
@@ -20,6 +20,7 @@ __all__ = [
     "build_steps",
     "encode",
     "lasting",
+    "never_entered",
     "preferred",
     "regions",
     "targets",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tumato_symbolic.symbolic.encoding import Encoding, Group
+from tumato_symbolic.symbolic.encoding import Encoding
 from tumato_symbolic.symbolic.manager import Bdd
 
 
@@ -47,19 +47,14 @@ def _by_size(encoding: Encoding) -> list[Bdd]:
 def lasting(encoding: Encoding, total: int) -> Bdd:
     """The sets of actions whose durations sum up to `total`."""
     manager, spec = encoding.manager, encoding.spec
-    known: dict[tuple[int, int], Bdd] = {}
-
-    def build(position: int, left: int) -> Bdd:
-        if position == len(encoding.groups):
-            return manager.false if left else manager.true
-        if (position, left) not in known:
-            group: Group = encoding.groups[position]
-            parts = [encoding.idle(group) & build(position + 1, left)]
-            for action in group.actions:
-                rest = left - spec.actions[action].duration
-                if rest >= 0:
-                    parts.append(encoding.executing(action) & build(position + 1, rest))
-            known[position, left] = manager.union(parts)
-        return known[position, left]
-
-    return build(0, total)
+    sums = {0: manager.true}
+    for group in encoding.groups:
+        following: dict[int, Bdd] = {}
+        for so_far, choices in sums.items():
+            parts = [(so_far, encoding.idle(group))]
+            parts += [(so_far + spec.actions[action].duration, encoding.executing(action)) for action in group.actions]
+            for longer, part in parts:
+                if longer <= total:
+                    following[longer] = following.get(longer, manager.false) | (choices & part)
+        sums = following
+    return sums.get(total, manager.false)

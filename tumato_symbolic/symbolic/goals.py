@@ -45,29 +45,43 @@ def regions(encoding: Encoding, valid: Bdd) -> Regions:
     goals = encoding.spec.goals
     if goals is None:
         return {frozenset(): valid}
-    found = _walk(encoding, goals, valid)[1]
+    found = _walk(encoding, goals, valid, [])[1]
     return {active: states for active, states in found.items() if states != encoding.manager.false}
 
 
-def _walk(encoding: Encoding, goal: Goal, here: Bdd) -> tuple[Bdd, Regions]:
-    """Where in `here` the goal is entered, and those states by what it makes active there."""
+def never_entered(encoding: Encoding, valid: Bdd) -> list[Goal]:
+    """The goals that no valid state enters; those inside another such goal are left out."""
+    idle: list[Goal] = []
+    if encoding.spec.goals is not None:
+        _walk(encoding, encoding.spec.goals, valid, idle)
+    return idle
+
+
+def _walk(encoding: Encoding, goal: Goal, here: Bdd, idle: list[Goal]) -> tuple[Bdd, Regions]:
+    """Where in `here` the goal is entered, and those states by what it makes active there.
+
+    A goal that is entered nowhere is noted in `idle` and not looked into.
+    """
     false = encoding.manager.false
+    entered = here & encoding.formula(goal.condition.formula) if isinstance(goal, ConditionalGoal) else here
+    if entered == false:
+        idle.append(goal)
+        return false, {}
     if isinstance(goal, SimpleGoal):
-        return here, {frozenset((goal.body,)): here}
+        return entered, {frozenset((goal.body,)): entered}
     if isinstance(goal, ConditionalGoal):
-        entered = here & encoding.formula(goal.condition.formula)
-        return entered, _walk(encoding, goal.goal, entered)[1]
+        return entered, _walk(encoding, goal.goal, entered, idle)[1]
     found: Regions = {frozenset(): here}
     if goal.kind == "priority":
         found, rest = {}, here
         for member in goal.members:
-            entered, parts = _walk(encoding, member, rest)
+            entered, parts = _walk(encoding, member, rest, idle)
             _add(found, parts, false)
             rest = rest & ~entered
         _add(found, {frozenset(): rest}, false)
         return here, found
     for member in goal.members:
-        entered, parts = _walk(encoding, member, here)
+        entered, parts = _walk(encoding, member, here, idle)
         combined: Regions = {}
         for active, states in found.items():
             _add(combined, {active: states & ~entered}, false)

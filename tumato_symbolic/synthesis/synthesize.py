@@ -6,12 +6,13 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
+from tumato_symbolic.diagnostics import Code, Diagnostic, Note, UserError
 from tumato_symbolic.policy import Policy, as_table
 from tumato_symbolic.semantics import count_states
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.symbolic import Backend, Bdd, available_backend
 from tumato_symbolic.synthesis.certificate import policy_diagram
+from tumato_symbolic.synthesis.lint import suspicions
 from tumato_symbolic.synthesis.outcome import (
     STATES_LISTED,
     Failure,
@@ -28,6 +29,9 @@ from tumato_symbolic.synthesis.routing import own_region_policy, route, shortest
 
 TABLE_LIMIT = 10_000
 """Up to so many valid states a policy is written as a table, unless another format is asked for."""
+
+TABLE_MAXIMUM = 1_000_000
+"""More states are never written as a table."""
 
 PolicyFormat = Literal["auto", "table", "diagram"]
 
@@ -50,7 +54,11 @@ def synthesize(
     problem = pose(spec, ordering or spec.effect_ordering or "any", backend or available_backend())
     statistics = _statistics(problem)
     if not statistics.valid:
-        raise UserError((Diagnostic(Code.TUM399, "no state satisfies all assumptions"),))
+        raise UserError((_no_valid_state(spec),))
+    if policy_format == "table" and statistics.valid > TABLE_MAXIMUM:
+        message = f"a table of {statistics.valid:,} states is more than the {TABLE_MAXIMUM:,} that can be written"
+        raise UserError((Diagnostic(Code.TUM508, message, None, "use `--policy-format diagram`"),))
+    warnings = suspicions(problem)
     stuck = problem.steps.valid & ~problem.steps.states_of(problem.steps.allowed)
     tell("solving each goal in its own region")
     policy = own_region_policy(problem)
@@ -63,12 +71,18 @@ def synthesize(
         helpless = problem.steps.valid & ~stuck & ~served(problem, distances, problem.steps.allowed)
         if (stuck | helpless) != problem.false:
             failures = (_failure(problem, "no-allowed-set", stuck), _failure(problem, "no-plan", helpless))
-            return Unrealizable(tuple(failure for failure in failures if failure is not None), statistics)
+            return Unrealizable(tuple(failure for failure in failures if failure is not None), statistics, warnings)
         resolved = _resolve(problem, policy, distances, statistics, tell)
         if isinstance(resolved, Failure):
-            return Unrealizable((resolved,), statistics)
+            return Unrealizable((resolved,), statistics, warnings)
         policy, statistics = resolved.policy, resolved.statistics
-    return _finish(problem, policy, statistics, policy_format, tell)
+    return replace(_finish(problem, policy, statistics, policy_format, tell), warnings=warnings)
+
+
+def _no_valid_state(spec: Spec) -> Diagnostic:
+    notes = tuple(Note("an assumption", rule.span) for rule in spec.assumptions[1:])
+    message = "no state satisfies all assumptions, so there is nothing to decide"
+    return Diagnostic(Code.TUM312, message, spec.assumptions[0].span, "weaken or remove an assumption", notes)
 
 
 @dataclass(frozen=True)
