@@ -11,13 +11,16 @@ from tests.generate import PROFILES, random_spec
 from tests.oracle import OracleVerdict, Together, World, decide_world
 from tests.reference_policy import reference_policy
 from tumato_symbolic.diagnostics import UserError
-from tumato_symbolic.policy import Policy, Table, dumps, loads, policy_from_rows
+from tumato_symbolic.policy import Policy, Table, as_table, dumps, loads, policy_from_rows
 from tumato_symbolic.semantics import ActionSet, Judgement, State, better_sets, count_states, duration, judge
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.synthesis import Outcome, Realizable, Undecided, Unrealizable, synthesize
 from tumato_symbolic.verify import Refutation, Verification, verify
 
 Decisions = Mapping[State, ActionSet]
+
+FORMS_EVERY = 5
+"""Every so many seeds the other backend and the other policy format are tried as well."""
 
 
 @dataclass(frozen=True)
@@ -56,6 +59,8 @@ def examine(case: Case, mutants: int = 3) -> Report:
     report.interacting = verdict.kind == "realizable" and not verdict.own_region
     outcome = synthesize(spec, case.ordering)
     report.complaints += _compare(world, verdict, outcome, report)
+    if case.seed % FORMS_EVERY == 0:
+        report.complaints += _compare_forms(world, outcome)
     decisions = _decisions(outcome) or verdict.policy
     if decisions is not None:
         if isinstance(outcome, Realizable):
@@ -134,6 +139,22 @@ def _compare_policy(world: World, outcome: Realizable, report: Report) -> Iterat
         if dict(decisions) != preferred:
             other = {s: (set(decisions[s]), set(preferred[s])) for s in preferred if decisions.get(s) != preferred[s]}
             yield f"not the preferred policy (state: found, preferred): {other}"
+
+
+def _compare_forms(world: World, outcome: Outcome) -> Iterator[str]:
+    """Complaints where the pure Python backend answers differently, or the diagram decides differently."""
+    other = synthesize(world.spec, world.ordering, backend="autoref")
+    diagram = synthesize(world.spec, world.ordering, policy_format="diagram")
+    if type(other) is not type(outcome) or type(diagram) is not type(outcome):
+        yield "the verdict depends on the backend or on the policy format"
+    elif isinstance(outcome, Unrealizable) and isinstance(other, Unrealizable):
+        if outcome.failures != other.failures:
+            yield "the failures depend on the backend"
+    elif isinstance(outcome, Realizable) and isinstance(other, Realizable) and isinstance(diagram, Realizable):
+        if dumps(outcome.policy) != dumps(other.policy):
+            yield "the policy depends on the backend"
+        if as_table(loads(dumps(diagram.policy)), len(world.valid)) != outcome.policy.decisions:
+            yield "the diagram decides otherwise than the table"
 
 
 def _verify_own(world: World, policy: Policy) -> Iterator[str]:
