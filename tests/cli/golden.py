@@ -1,0 +1,79 @@
+"""Golden outputs: what commands print, kept as text in tests/golden and read by people at review."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+from tests.cli.inputs import write_inputs
+from tests.repo.documents import ROOT
+
+
+@dataclass(frozen=True)
+class Case:
+    """A command and the name of its golden file."""
+
+    name: str
+    command: str
+
+
+CASES = (
+    Case("synth-json", "tumato-sym synth amr.tum --output-format json"),
+    Case("synth-github", "tumato-sym synth warned.tum --output-format github"),
+    Case("synth-unproved", "tumato-sym synth warned.tum --no-verify -o unproved.json"),
+    Case("synth-no-allowed-set", "tumato-sym synth two_robots.tum"),
+    Case("synth-no-plan", "tumato-sym synth no_plan.tum"),
+    Case("synth-no-plan-json", "tumato-sym synth no_plan.tum --output-format json"),
+    Case("synth-conflict", "tumato-sym synth conflict.tum"),
+    Case("synth-conflict-json", "tumato-sym synth conflict.tum --output-format json"),
+    Case("synth-conflict-github", "tumato-sym synth conflict.tum --output-format github"),
+    Case("synth-errors-json", "tumato-sym synth typo.tum --output-format json"),
+    Case("verify-json", "tumato-sym verify amr.json amr.tum --output-format json"),
+    Case("verify-slower", "tumato-sym verify slower.json amr.tum"),
+    Case("verify-slower-json", "tumato-sym verify slower.json amr.tum --output-format json"),
+    Case("verify-unsafe", "tumato-sym verify unsafe.json amr.tum"),
+    Case("verify-unsafe-github", "tumato-sym verify unsafe.json amr.tum --output-format github"),
+    Case("verify-lazy", "tumato-sym verify lazy.json amr.tum --properties total,safe,goals"),
+    Case("check", "tumato-sym check amr.tum typo.tum warned.tum"),
+    Case("check-json", "tumato-sym check amr.tum typo.tum --output-format json"),
+    Case("check-github", "tumato-sym check typo.tum warned.tum --output-format github"),
+    Case("help", "tumato-sym --help"),
+)
+
+_SECONDS = re.compile(r'("(?:seconds|synthesis|proof)": )[\d.]+')
+_TIME = re.compile(r"\b\d+(?:\.\d+)? s\b")
+
+
+def golden_path(case: Case) -> Path:
+    """Where the golden output of a case is."""
+    return ROOT / "tests" / "golden" / f"{case.name}.txt"
+
+
+def produce(case: Case) -> str:
+    """What the command prints now, stream by stream, without times, and its exit code."""
+    with tempfile.TemporaryDirectory() as folder:
+        write_inputs(Path(folder))
+        done = subprocess.run(
+            ["sh", "-c", case.command],
+            cwd=folder,
+            env={
+                **os.environ,
+                "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}",
+                "COLUMNS": "100",
+            },
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            timeout=120,
+            check=False,
+        )
+    text = f"$ {case.command}\n{done.stdout}"
+    if done.stderr:
+        text += f"--- standard error\n{done.stderr}"
+    text += f"--- exit code {done.returncode}\n"
+    return _TIME.sub("0 s", _SECONDS.sub(r"\g<1>0", text))

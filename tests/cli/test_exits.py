@@ -1,0 +1,244 @@
+"""Exit codes, streams, and no file but a whole one."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import Cli
+from tests.cli.inputs import state
+
+
+def test_synth_then_verify(cli: Cli, tmp_path: Path) -> None:
+    """The two main commands work one after the other: 0 and 0, the report on the standard output, nothing beside it."""
+    synth = cli("synth", "amr.tum")
+    assert (synth.code, synth.err) == (0, "")
+    assert "realizable" in synth.out
+    verify = cli("verify", "policy.json", "amr.tum")
+    assert (verify.code, verify.err) == (0, "")
+    assert (tmp_path / "policy.json").exists()
+
+
+def test_no_policy_is_1_and_leaves_the_old_file_alone(cli: Cli, tmp_path: Path) -> None:
+    """`synth` on an unrealizable specification exits with 1 and does not touch an existing policy.json."""
+    (tmp_path / "policy.json").write_text("precious")
+    assert cli("synth", "no_plan.tum").code == 1
+    assert (tmp_path / "policy.json").read_text() == "precious"
+
+
+def test_policy_on_the_standard_output(cli: Cli, tmp_path: Path) -> None:
+    """`-o -` writes the policy to the standard output, the report to the standard error stream, and no file."""
+    ran = cli("synth", "amr.tum", "-o", "-")
+    assert ran.code == 0
+    assert json.loads(ran.out)["Type"] == "policy"
+    assert "realizable" in ran.err
+    assert not (tmp_path / "policy.json").exists()
+
+
+def test_without_a_proof_the_report_says_so(cli: Cli) -> None:
+    """`--no-verify` writes the policy, exits with 0, and says that nothing was proved."""
+    ran = cli("synth", "amr.tum", "--no-verify")
+    assert ran.code == 0
+    assert "Not proved" in ran.out
+    assert "Z3" not in ran.out
+    assert json.loads(cli("synth", "amr.tum", "--no-verify", "--output-format", "json").out)["proof"] is None
+
+
+@pytest.mark.parametrize("command", [("synth", "typo.tum"), ("verify", "amr.json", "typo.tum"), ("check", "typo.tum")])
+def test_a_specification_with_errors_is_2(cli: Cli, command: tuple[str, ...], tmp_path: Path) -> None:
+    """Errors in a specification: exit 2 in every command, every mistake with its place, and no policy."""
+    ran = cli(*command)
+    assert ran.code == 2
+    assert "typo.tum:7:" in ran.out + ran.err
+    assert "typo.tum:8:" in ran.out + ran.err
+    assert "S_Battery" in ran.out + ran.err
+    assert not (tmp_path / "policy.json").exists()
+
+
+def test_warnings_alone_are_0(cli: Cli) -> None:
+    """A warning is shown and changes no exit code."""
+    check, synth = cli("check", "warned.tum"), cli("synth", "warned.tum")
+    assert (check.code, synth.code) == (0, 0)
+    assert "PLUG" in check.out
+    assert "PLUG" in synth.err
+    assert "PLUG" not in synth.out
+
+
+@pytest.mark.parametrize("name", ["missing.tum", ".", "binary.tum", "empty.tum", "no_block.tum", "latin1.tum"])
+def test_what_is_no_specification_is_2(cli: Cli, tmp_path: Path, name: str) -> None:
+    """A missing file, a folder, bytes, nothing, prose, another encoding: exit 2 and one message, never a traceback."""
+    (tmp_path / "binary.tum").write_bytes(bytes(range(256)))
+    (tmp_path / "empty.tum").write_text("")
+    (tmp_path / "no_block.tum").write_text("This is not a specification.\n")
+    (tmp_path / "latin1.tum").write_bytes("// für".encode("latin-1"))
+    for command in (("synth", name), ("check", name), ("verify", "amr.json", name)):
+        ran = cli(*command)
+        assert ran.code == 2
+        assert "Traceback" not in ran.err
+        assert "TUM" in ran.out + ran.err
+
+
+@pytest.mark.parametrize("name", ["missing.json", ".", "amr.tum", "half.json", "list.json", "empty.json"])
+def test_what_is_no_policy_is_2(cli: Cli, tmp_path: Path, name: str) -> None:
+    """A policy that cannot be read or used: exit 2 with a diagnostic in `verify` and `decide`."""
+    text = (tmp_path / "amr.json").read_text()
+    (tmp_path / "half.json").write_text(text[: len(text) // 2])
+    (tmp_path / "list.json").write_text("[]")
+    (tmp_path / "empty.json").write_text("")
+    for command in (("verify", name, "amr.tum"), ("decide", name, "S_Location=corridor")):
+        ran = cli(*command)
+        assert ran.code == 2
+        assert "TUM5" in ran.err
+        assert ran.out == ""
+
+
+def test_a_policy_for_another_specification_is_2(cli: Cli) -> None:
+    """A policy with other variables cannot be judged."""
+    ran = cli("verify", "amr.json", "warned.tum")
+    assert ran.code == 2
+    assert "S_Location" in ran.err
+
+
+@pytest.mark.parametrize("policy", ["slower.json", "unsafe.json", "lazy.json"])
+def test_a_refuted_policy_is_1(cli: Cli, policy: str) -> None:
+    """`verify` exits with 1 when a property that was asked does not hold."""
+    assert cli("verify", policy, "amr.tum").code == 1
+
+
+def test_only_what_is_asked_counts(cli: Cli) -> None:
+    """A policy that is not minimal passes when minimality is not asked, and the report says that it was not."""
+    ran = cli("verify", "slower.json", "amr.tum", "--properties", "total,safe,goals")
+    assert ran.code == 0
+    assert "Not asked: minimal" in ran.out
+
+
+@pytest.mark.parametrize("output", ["missing/policy.json", ".", "amr.tum/policy.json"])
+def test_where_nothing_can_be_written_is_2(cli: Cli, output: str) -> None:
+    """An output that cannot be is found out before the work: exit 2 with a way out, and no report."""
+    ran = cli("synth", "amr.tum", "-o", output)
+    assert ran.code == 2
+    assert "TUM510" in ran.err
+    assert ran.out == ""
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        [],
+        ["solve"],
+        ["synth"],
+        ["synth", "amr.tum", "extra.tum"],
+        ["synth", "amr.tum", "--effect-ordering", "last"],
+        ["synth", "amr.tum", "-o", ""],
+        ["verify", "amr.json"],
+        ["verify", "amr.json", "amr.tum", "--properties", "total,nice"],
+        ["decide", "amr.json"],
+        ["decide", "amr.json", "S_Location=corridor", "--stdin"],
+        ["check"],
+        ["check", "amr.tum", "--output", "x"],
+    ],
+    ids=" ".join,
+)
+def test_wrong_usage_is_2(cli: Cli, arguments: list[str]) -> None:
+    """A command line that makes no sense: exit 2, the usage on the standard error stream."""
+    ran = cli(*arguments)
+    assert ran.code == 2
+    assert "usage: tumato-sym" in ran.err
+    assert ran.out == ""
+
+
+@pytest.mark.parametrize("command", ["", "synth", "verify", "decide", "check"])
+def test_help_teaches_with_an_example(cli: Cli, command: str) -> None:
+    """`--help` shows a command to copy and the exit codes, everywhere."""
+    ran = cli(*command.split(), "--help")
+    assert ran.code == 0
+    assert f"  tumato-sym {command or 'check'} " in ran.out or f"| tumato-sym {command} " in ran.out
+    assert "exit codes:" in ran.out
+
+
+def test_decide(cli: Cli) -> None:
+    """`decide` prints one action a line."""
+    words = [f"{name}={value}" for name, value in state("corridor", "low", "free", "off").items()]
+    ran = cli("decide", "amr.json", *words)
+    assert (ran.code, ran.out, ran.err) == (0, "move_to_charger\n", "")
+
+
+def test_decide_where_nothing_is_to_be_done(cli: Cli) -> None:
+    """An empty decision prints nothing on the standard output, and says so beside it."""
+    words = [f"{name}={value}" for name, value in state("corridor", "ok", "free", "off").items()]
+    ran = cli("decide", "lazy.json", *words)
+    assert (ran.code, ran.out) == (0, "")
+    assert "nothing is to be done" in ran.err
+
+
+def test_decide_wants_a_whole_state(cli: Cli) -> None:
+    """A missing variable, an unknown value: exit 2 and both are named."""
+    ran = cli("decide", "amr.json", "S_Location=kitchen", "S_Battery=ok", "S_Load=free")
+    assert ran.code == 2
+    assert "kitchen" in ran.err
+    assert "S_Conveyor" in ran.err
+
+
+def test_decide_where_the_policy_is_silent(cli: Cli, tmp_path: Path) -> None:
+    """A state that the policy does not decide: exit 1, nothing on the standard output."""
+    policy = json.loads((tmp_path / "amr.json").read_text())
+    kept = {name: policy[name] for name in ("PolicyFrameworkVersion", "Type", "Actions", "States")}
+    (tmp_path / "part.json").write_text(json.dumps({**kept, "Policy": policy["Policy"][1:]}))
+    row = policy["Policy"][0]
+    ran = cli("decide", "part.json", *(f"{name}={value}" for name, value in row.items() if name != "Actions"))
+    assert (ran.code, ran.out) == (1, "")
+    assert "does not decide" in ran.err
+
+
+def test_a_bug_is_70_with_its_traceback(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
+    """An uncaught exception exits with 70, keeps the traceback and asks for a report."""
+    monkeypatch.setattr("tumato_symbolic.cli.check.run", lambda _: 1 // 0)
+    ran = cli("check", "amr.tum")
+    assert ran.code == 70
+    assert "ZeroDivisionError" in ran.err
+    assert "report" in ran.err
+
+
+def test_out_of_memory_is_undecided(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
+    """No memory, no verdict: exit 3."""
+
+    def exhausted(_: object) -> int:
+        raise MemoryError
+
+    monkeypatch.setattr("tumato_symbolic.cli.check.run", exhausted)
+    assert cli("check", "amr.tum").code == 3
+
+
+def test_our_own_refuted_policy_is_a_bug_and_is_not_written(
+    cli: Cli, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """If the verifier refutes what `synth` found, nothing is written and the exit code is 70."""
+    from tumato_symbolic import verify as module  # noqa: F401 - loads the room
+    from tumato_symbolic.policy import Policy
+    from tumato_symbolic.verify import verify
+
+    def against_the_wrong_policy(_: Policy, *arguments: object, **settings: object) -> object:
+        return verify(Policy.load("lazy.json"), *arguments, **settings)  # type: ignore[arg-type]
+
+    monkeypatch.setattr("tumato_symbolic.verify.verify", against_the_wrong_policy)
+    ran = cli("synth", "amr.tum")
+    assert ran.code == 70
+    assert not (tmp_path / "policy.json").exists()
+
+
+def test_an_unproved_policy_is_undecided_and_not_written(
+    cli: Cli, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """If the verifier meets its limits, nothing is written, the exit code is 3 and the verdict `undecided`."""
+    from dataclasses import replace
+
+    from tumato_symbolic.verify import verify
+
+    def giving_up(*arguments: object, **settings: object) -> object:
+        return replace(verify(*arguments, **settings), verdict="undecided")  # type: ignore[arg-type]
+
+    monkeypatch.setattr("tumato_symbolic.verify.verify", giving_up)
+    ran = cli("synth", "amr.tum", "--output-format", "json")
+    report = json.loads(ran.out)
+    assert (ran.code, report["verdict"], report["policy"]) == (3, "undecided", None)
+    assert not (tmp_path / "policy.json").exists()

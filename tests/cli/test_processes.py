@@ -1,0 +1,187 @@
+"""The command line as a process: pipes, signals, terminals."""
+
+import json
+import os
+import pty
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.cli.inputs import state, write_inputs
+
+TUMATO = str(Path(sys.executable).parent / "tumato-sym")
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """A folder with the shared inputs."""
+    write_inputs(tmp_path)
+    return tmp_path
+
+
+def _run(folder: Path, *arguments: str, stdin: str = "", **environment: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [TUMATO, *arguments],
+        cwd=folder,
+        input=stdin,
+        capture_output=True,
+        text=True,
+        env={**os.environ, **environment},
+        timeout=60,
+        check=False,
+    )
+
+
+def test_lines_in_lines_out(folder: Path) -> None:
+    """`decide --stdin` answers 10,000 lines, one list for each object, in order."""
+    states = [state("corridor", "low", "free", "off"), state("workstation_2", "ok", "free", "on")]
+    lines = [json.dumps(states[number % 2]) for number in range(10_000)]
+    ran = _run(folder, "decide", "amr.json", "--stdin", stdin="\n".join(lines) + "\n")
+    assert (ran.returncode, ran.stderr) == (0, "")
+    assert ran.stdout == ('["move_to_charger"]\n["stop_conveyor"]\n') * 5_000
+
+
+def test_a_silent_policy_answers_null(folder: Path) -> None:
+    """A line about which the policy says nothing is answered with null, the lines after it as usual; exit 1."""
+    policy = json.loads((folder / "amr.json").read_text())
+    rows = [row for row in policy["Policy"] if row["S_Location"] != "charger"]
+    kept = {name: policy[name] for name in ("PolicyFrameworkVersion", "Type", "Actions", "States")}
+    (folder / "part.json").write_text(json.dumps({**kept, "Policy": rows}))
+    asked = [state("charger", "ok", "free", "off"), state("corridor", "low", "free", "off")]
+    ran = _run(folder, "decide", "part.json", "--stdin", stdin="".join(json.dumps(each) + "\n" for each in asked))
+    assert (ran.returncode, ran.stdout) == (1, 'null\n["move_to_charger"]\n')
+    assert "line 1" in ran.stderr
+
+
+@pytest.mark.parametrize("line", ["", "{", "[]", '{"S_Location": "corridor"}', '{"S_Location": 3}', "\x00"])
+def test_a_bad_line_ends_it(folder: Path, line: str) -> None:
+    """A line that is not a state: exit 2, the number of the line, and the answers before it stand."""
+    good = json.dumps(state("corridor", "low", "free", "off"))
+    ran = _run(folder, "decide", "amr.json", "--stdin", stdin=f"{good}\n{line}\n{good}\n")
+    assert (ran.returncode, ran.stdout) == (2, '["move_to_charger"]\n')
+    assert "line 2" in ran.stderr
+    assert "Traceback" not in ran.stderr
+
+
+def test_answers_come_at_once(folder: Path) -> None:
+    """A robot that asks line by line gets each answer before it asks again."""
+    question = json.dumps(state("corridor", "low", "free", "off")) + "\n"
+    with subprocess.Popen(
+        [TUMATO, "decide", "amr.json", "--stdin"], cwd=folder, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    ) as process:
+        assert process.stdin is not None
+        assert process.stdout is not None
+        for _ in range(2):
+            process.stdin.write(question)
+            process.stdin.flush()
+            assert process.stdout.readline() == '["move_to_charger"]\n'
+        process.stdin.close()
+        assert process.wait(timeout=10) == 0
+
+
+def test_ctrl_c_is_130_and_leaves_nothing(folder: Path) -> None:
+    """Ctrl-C: exit 130, a word instead of a traceback, and no half-written file."""
+    before = set(folder.iterdir())
+    with subprocess.Popen(
+        [TUMATO, "decide", "amr.json", "--stdin"],
+        cwd=folder,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        assert process.stdin is not None
+        assert process.stdout is not None
+        assert process.stderr is not None
+        process.stdin.write(json.dumps(state("corridor", "low", "free", "off")) + "\n")
+        process.stdin.flush()
+        process.stdout.readline()  # the program is up and waits for more
+        process.send_signal(signal.SIGINT)
+        assert process.wait(timeout=10) == 130
+        assert process.stderr.read() == "tumato-sym: interrupted\n"
+    assert set(folder.iterdir()) == before
+
+
+@pytest.mark.parametrize("command", ["synth amr.tum -o -", "check amr.tum typo.tum", "--help"])
+def test_a_reader_that_goes_is_no_error(folder: Path, command: str) -> None:
+    """`tumato-sym … | true` prints nothing on the standard error stream."""
+    reader, writer = os.pipe()
+    os.close(reader)
+    ran = subprocess.run(
+        [TUMATO, *command.split()],
+        cwd=folder,
+        stdout=writer,
+        stderr=subprocess.PIPE,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    os.close(writer)
+    assert ran.returncode == 141
+    assert ran.stderr == ""
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+def test_a_full_disk_is_2(folder: Path) -> None:
+    """Output that cannot be written is not a success, for reports, for the policy and for a policy on a device."""
+    for command in ("check amr.tum > /dev/full", "synth amr.tum -o - > /dev/full", "synth amr.tum -o /dev/full"):
+        ran = subprocess.run(
+            ["sh", "-c", f"{TUMATO} {command}"], cwd=folder, capture_output=True, text=True, timeout=60, check=False
+        )
+        assert ran.returncode == 2, command
+        assert "No space left" in ran.stderr
+        assert "Traceback" not in ran.stderr
+
+
+def test_a_policy_replaces_the_old_one_as_a_whole(folder: Path) -> None:
+    """An old policy is replaced; nothing else is left in the folder."""
+    (folder / "policy.json").write_text("old")
+    before = set(folder.iterdir())
+    assert _run(folder, "synth", "amr.tum").returncode == 0
+    assert json.loads((folder / "policy.json").read_text())["Type"] == "policy"
+    assert set(folder.iterdir()) == before
+
+
+def test_two_runs_write_the_same_bytes(folder: Path) -> None:
+    """The same specification gives the same policy, whatever Python hashes."""
+    texts = [_run(folder, "synth", "amr.tum", "-o", "-", PYTHONHASHSEED=seed).stdout for seed in ("1", "2")]
+    assert texts[0] == texts[1] != ""
+
+
+def test_plain_text_in_a_pipe(folder: Path) -> None:
+    """No colour and no progress where the output is not a terminal."""
+    for arguments in (["synth", "amr.tum"], ["verify", "slower.json", "amr.tum"], ["check", "typo.tum"]):
+        ran = _run(folder, *arguments, TERM="xterm")
+        assert "\x1b" not in ran.stdout + ran.stderr
+
+
+@pytest.mark.parametrize(("settings", "coloured"), [({}, True), ({"NO_COLOR": "1"}, False), ({"TERM": "dumb"}, False)])
+def test_colour_on_a_terminal(folder: Path, settings: dict[str, str], coloured: bool) -> None:
+    """A terminal gets colour, unless its user does not want it."""
+    environment = {name: value for name, value in os.environ.items() if name != "NO_COLOR"}
+    parent, child = pty.openpty()
+    subprocess.run(
+        [TUMATO, "check", "amr.tum"],
+        cwd=folder,
+        stdout=child,
+        stderr=child,
+        env={**environment, "TERM": "xterm", **settings},
+        timeout=60,
+        check=True,
+    )
+    os.close(child)
+    shown = os.read(parent, 65536).decode()
+    os.close(parent)
+    assert ("\x1b[" in shown) is coloured
+    assert "no findings" in shown
+
+
+def test_names_that_the_terminal_cannot_show(folder: Path) -> None:
+    """An encoding without umlauts does not stop a report."""
+    (folder / "größe.tum").write_text((folder / "amr.tum").read_text())
+    ran = _run(folder, "check", "größe.tum", PYTHONIOENCODING="ascii")
+    assert ran.returncode == 0
+    assert "gr\\xf6\\xdfe.tum" in ran.stdout

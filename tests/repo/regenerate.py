@@ -1,0 +1,35 @@
+"""Write everything that is generated and committed: `make regenerate`.
+
+The proofs of the examples, the table of examples, the golden outputs, and the output shown in documents. Look at the
+difference before committing it.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+
+from tests.cli.golden import CASES, golden_path, produce
+from tests.repo.documents import renewed
+from tests.repo.examples import EXAMPLES, README, proof_path, proof_text, with_table
+from tests.repo.test_documents import DOCUMENTS
+
+
+def main() -> None:
+    """Regenerate all of it."""
+    for example in EXAMPLES:
+        text = proof_text(example)
+        if text is None:
+            proof_path(example).unlink(missing_ok=True)
+        else:
+            proof_path(example).write_text(text)
+    README.write_text(with_table(README.read_text()))
+    for case in CASES:
+        golden_path(case).write_text(produce(case))
+    for document in DOCUMENTS:
+        with tempfile.TemporaryDirectory() as folder:
+            document.write_text(renewed(document.read_text(), Path(folder)))
+
+
+if __name__ == "__main__":
+    main()
