@@ -2,6 +2,7 @@
 
 import json
 import random
+from copy import deepcopy
 
 VALUES = [
     None, True, False, -1, 0, 1, 2, 7, 1.5, 1e308, 10**30, "", "any", "hall", "go", "Actions", "\ud800",
@@ -53,10 +54,10 @@ def mutate(document, dice):
     """Change one place: drop it, double it, swap it, replace it by a strange value or by another place's value."""
     places = _places(document, [])
     if not places:
-        return dice.choice(VALUES)
+        return deepcopy(dice.choice(VALUES))
     container, key = dice.choice(places)
     other, other_key = dice.choice(places)
-    copy = json.loads(json.dumps(other[other_key]))
+    copy = deepcopy(other[other_key])
     match dice.randrange(6):
         case 0:
             del container[key]
@@ -71,5 +72,5 @@ def mutate(document, dice):
         case 4 if isinstance(container[key], str):
             container[key] += dice.choice(["x", "_", ""])
         case _:
-            container[key] = dice.choice(VALUES)
+            container[key] = deepcopy(dice.choice(VALUES))
     return document

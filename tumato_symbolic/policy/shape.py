@@ -82,7 +82,8 @@ def too_large(name: str) -> UserError:
 
 def wrong(where: str, expected: str, found: object) -> UserError:
     """The error for a value of the wrong kind."""
-    return fault(Code.TUM502, f"{where} is {show(found)}, expected {expected}")
+    text = f"the text {show(found)}" if isinstance(found, str) else show(found)
+    return fault(Code.TUM502, f"{where} is {text}, expected {expected}")
 
 
 def as_object(value: object, where: str) -> dict[str, Any]:
