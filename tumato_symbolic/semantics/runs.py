@@ -8,7 +8,7 @@ from typing import Literal
 
 from tumato_symbolic.semantics.goals import reached, residual_goal
 from tumato_symbolic.semantics.states import ActionSet, State
-from tumato_symbolic.semantics.step import successor
+from tumato_symbolic.semantics.step import nominal_agrees, successor
 from tumato_symbolic.spec import Spec
 
 
@@ -47,7 +47,8 @@ def follow(spec: Spec, policy: Mapping[State, ActionSet], start: State, first: A
             return Run(tuple(states), tuple(decisions), "bound")
         if here in met:
             return Run(tuple(states), tuple(decisions), "loop")
-        if here not in policy:
+        chosen = policy.get(here)
+        if chosen is None or not nominal_agrees(spec, chosen):
             return Run(tuple(states), tuple(decisions), "undefined")
         met.add(here)
-        decisions.append(policy[here])
+        decisions.append(chosen)

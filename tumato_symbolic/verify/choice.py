@@ -1,0 +1,89 @@
+"""A set of actions that the solver may choose, with the conditions of section 3 that are cheap to state."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import gcd
+from typing import Any
+
+import z3
+
+from tumato_symbolic.semantics import ActionSet
+from tumato_symbolic.verify.encoding import (
+    Place,
+    agreement_terms,
+    formula_term,
+    is_true,
+    safe_term,
+    successor_place,
+)
+from tumato_symbolic.verify.frame import Frame, Solver
+from tumato_symbolic.verify.terms import Number, Term, at_most_one, conjunction, disjunction, implies
+
+
+class Choice:
+    """`executed[a]` is `a ∈ A` for a set `A` to be chosen in the state of `frame`; `after` is `δ(s, A)`."""
+
+    def __init__(self, frame: Frame, solver: Solver) -> None:
+        self._frame = frame
+        self._spec = frame.spec
+        self.executed: list[Term] = [z3.Bool(f"a.{number}") for number in range(len(self._spec.actions))]
+        bits = successor_place(self._spec, frame.state, self.executed).bits
+        self.after = Place([[_named(solver, bit) for bit in code] for code in bits])
+
+    def conditions(self) -> list[Term]:
+        """Conditions 1 to 4 and 6, condition 5 for one effect alone, and that `A` is not empty.
+
+        They are necessary for a set that is allowed in an unsafe state, and sufficient but for condition 5.
+        """
+        spec, here, executed = self._spec, self._frame.state, self.executed
+        required: list[Term] = [disjunction(executed)]
+        for number, action in enumerate(spec.actions):
+            holds = conjunction(formula_term(rule.formula, here) for rule in action.preconditions)
+            safe = conjunction(safe_term(spec, here.after(effect)) for effect in action.effects)
+            required.append(implies(executed[number], conjunction((holds, safe))))
+        for resource in range(len(spec.resources)):
+            users = [executed[number] for number, action in enumerate(spec.actions) if resource in action.resources]
+            required.append(at_most_one(users))
+        required += agreement_terms(spec, executed)
+        required += [formula_term(rule.formula, here, executed) for rule in spec.reaction_rules]
+        required.append(safe_term(spec, self.after))
+        return required
+
+    def cheaper_than(self, other: Sequence[Term]) -> Term:
+        """`A` has a smaller duration than the set `other`."""
+        return z3.ULT(self._duration(self.executed), self._duration(other))
+
+    def lasts_at_most(self, duration: int) -> Term:
+        """`A` has at most this duration."""
+        unit, width = self._scale()
+        if duration < 0:
+            return False
+        return z3.ULE(self._duration(self.executed), z3.BitVecVal(min(duration // unit, (1 << width) - 1), width))
+
+    def _scale(self) -> tuple[int, int]:
+        """The greatest common divisor of all durations, and the bits that their sum takes in this unit."""
+        durations = [action.duration for action in self._spec.actions]
+        unit = gcd(*durations) or 1
+        return unit, max(1, (sum(durations) // unit).bit_length())
+
+    def _duration(self, executed: Sequence[Term]) -> Number:
+        unit, width = self._scale()
+        total = zero = z3.BitVecVal(0, width)
+        for term, action in zip(executed, self._spec.actions, strict=True):
+            if action.duration and term is not False:
+                amount = z3.BitVecVal(action.duration // unit, width)
+                total = total + (amount if term is True else z3.If(term, amount, zero))
+        return total
+
+    def read(self, model: Any) -> ActionSet:  # noqa: ANN401 - z3 has no types
+        """The set that a model gives."""
+        return frozenset(number for number, term in enumerate(self.executed) if is_true(model, term))
+
+
+def _named(solver: Solver, term: Term) -> Term:
+    if isinstance(term, bool):
+        return term
+    name = z3.FreshBool("next")
+    solver.add(name == term)
+    return name

@@ -1,0 +1,68 @@
+"""The goal tree as Z3 terms (`docs/semantics.md`, section 4)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from tumato_symbolic.semantics import Residual
+from tumato_symbolic.spec import ConditionalGoal, Goal, SimpleGoal, Spec, executing_atoms
+from tumato_symbolic.verify.encoding import Place, formula_term
+from tumato_symbolic.verify.terms import Term, conjunction, disjunction, negation
+
+
+@dataclass(frozen=True, slots=True)
+class GoalTerms:
+    """`active[b]`: goal body `b` is active. Bodies that are not listed are never active."""
+
+    spec: Spec
+    active: dict[int, Term]
+
+    @classmethod
+    def of(cls, spec: Spec, place: Place) -> GoalTerms:
+        """`Γ` of the state `place`."""
+        return cls(spec, {} if spec.goals is None else _walk(spec.goals, place)[1])
+
+    def spoken_of(self) -> dict[int, Term]:
+        """For every action that goal bodies speak of: one of these bodies is active."""
+        speakers: dict[int, list[Term]] = {}
+        for body, term in self.active.items():
+            for action in executing_atoms(self.spec.bodies[body].formula):
+                speakers.setdefault(action, []).append(term)
+        return {action: disjunction(terms) for action, terms in sorted(speakers.items())}
+
+    def is_residual(self, goal: Residual, executed: Sequence[Term]) -> Term:
+        """The residual goal is `goal` when the actions of `executed` are the first set."""
+        if not goal.bodies <= self.active.keys():
+            return False
+        spoken = frozenset[int]().union(*(executing_atoms(self.spec.bodies[body].formula) for body in goal.bodies))
+        return conjunction(
+            [
+                *(term if body in goal.bodies else negation(term) for body, term in self.active.items()),
+                *(executed[a] if a in goal.executed else negation(executed[a]) for a in sorted(spoken)),
+            ]
+        )
+
+
+def _walk(goal: Goal, place: Place) -> tuple[Term, dict[int, Term]]:
+    """When `goal` is entered, and when it makes which body active."""
+    if isinstance(goal, SimpleGoal):
+        return True, {goal.body: True}
+    if isinstance(goal, ConditionalGoal):
+        entered = formula_term(goal.condition.formula, place)
+        return entered, {body: conjunction((entered, term)) for body, term in _walk(goal.goal, place)[1].items()}
+    found: dict[int, list[Term]] = {}
+    tried: Term = True
+    for member in goal.members:
+        entered, active = _walk(member, place)
+        for body, term in active.items():
+            found.setdefault(body, []).append(conjunction((tried, term)))
+        if goal.kind == "priority":
+            tried = conjunction((tried, negation(entered)))
+    return True, {body: disjunction(terms) for body, terms in found.items()}
+
+
+def reached_term(spec: Spec, goal: Residual, place: Place) -> Term:
+    """The residual goal holds in `place`."""
+    executed = [number in goal.executed for number in range(len(spec.actions))]
+    return conjunction(formula_term(spec.bodies[body].formula, place, executed) for body in sorted(goal.bodies))

@@ -1,0 +1,149 @@
+"""Minimal: no cheaper allowed set restores safety and still serves the goal (`docs/semantics.md`, section 5)."""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+import z3
+
+from tumato_symbolic.semantics import (
+    ActionSet,
+    Objection,
+    Residual,
+    Run,
+    State,
+    duration,
+    follow,
+    objections,
+    residual_goal,
+)
+from tumato_symbolic.spec import Ordering
+from tumato_symbolic.verify.certificate import RankSource
+from tumato_symbolic.verify.choice import Choice
+from tumato_symbolic.verify.encoding import safe_term
+from tumato_symbolic.verify.frame import Frame, unknown_bits
+from tumato_symbolic.verify.rank_terms import RankFunction
+from tumato_symbolic.verify.result import PropertyResult, Refutation
+from tumato_symbolic.verify.terms import Term, conjunction, implies, negation
+
+Cheaper: TypeAlias = tuple[State, ActionSet, Run]
+
+LEMMAS_AT_ONCE = 20
+TOO_LATE = "Z3 did not answer within the time limit of one obligation: no cheaper allowed set serves as well"
+
+
+class UnknownError(Exception):
+    """The search for a cheaper set cannot be finished; says why."""
+
+
+def prove_minimal(frame: Frame, source: RankSource, ordering: Ordering) -> PropertyResult:
+    """No valid unsafe state has a cheaper allowed set whose run, continued by the policy, reaches its residual goal."""
+    search = _Search(frame, source, ordering)
+    try:
+        found = search.find()
+    except UnknownError as unknown:
+        return PropertyResult("minimal", "undecided", reason=str(unknown))
+    if found is None:
+        return PropertyResult("minimal", "proved", 1 + len(search.ranked), "z3")
+    state, cheaper, run = search.improve(found)
+    refutation = Refutation("not-minimal", state, source.decisions[state], run=run, cheaper=cheaper)
+    return PropertyResult("minimal", "refuted", refutation=refutation)
+
+
+class _Search:
+    """The search for an unsafe state with a better set, by lazy refinement.
+
+    The solver proposes a set that meets every condition but two, which speak of *all* outcomes and of a whole run.
+    Both are checked by `semantics`. A proposal that fails teaches a lemma that holds in all states: these effects in
+    this order must lead to a safe state; with this residual goal, the rank of the next state must be below the bound.
+    """
+
+    def __init__(self, frame: Frame, source: RankSource, ordering: Ordering) -> None:
+        self._frame = frame
+        self._source = source
+        self._ordering = ordering
+        self._solver = frame.new_solver()
+        self._choice = Choice(frame, self._solver)
+        self.ranked: dict[Residual, RankFunction] = {}
+        self._solver.add(frame.decided, negation(frame.safe), *self._choice.conditions())
+        self._solver.add(self._choice.cheaper_than(frame.executed))
+
+    def find(self, *literals: Term) -> Cheaper | None:
+        """An unsafe state that meets `literals` with a better set, confirmed, and its run; None where there is none."""
+        while True:
+            answer = self._solver.ask(*literals)
+            if answer == "unsat":
+                return None
+            if answer == "unknown":
+                raise UnknownError(TOO_LATE)
+            state, chosen = self._frame.state.read(self._solver.model), self._choice.read(self._solver.model)
+            run = self._confirm(state, chosen)
+            if run is not None:
+                return state, chosen, run
+
+    def _confirm(self, state: State, chosen: ActionSet) -> Run | None:
+        """The run of a proposal, if it is better than the policy; otherwise learn why it is not."""
+        spec = self._frame.spec
+        reasons = objections(spec, state, chosen, self._ordering)
+        failed = [objection for objection, _ in zip(reasons, range(LEMMAS_AT_ONCE), strict=False)]
+        if failed:
+            for objection in failed:
+                self._learn_outcome(objection)
+            return None
+        run = follow(spec, self._source.decisions, state, chosen)
+        if run.end != "goal":
+            self._learn_ranks(residual_goal(spec, state, chosen))
+            return None
+        if duration(spec, chosen) >= duration(spec, self._source.decisions[state]):
+            raise RuntimeError(f"{sorted(chosen)} is not cheaper in {state}, against the solver")
+        return run
+
+    def _learn_outcome(self, objection: Objection) -> None:
+        """Where these actions are executed, their effects in this order lead to a safe state."""
+        if objection.kind != "unsafe" or len(objection.outcome) < 2:
+            raise RuntimeError(f"the solver proposes a set that violates what it knows: {objection}")
+        written = dict(pair for step in objection.outcome for pair in step.effect)
+        reached = self._frame.state.after(tuple(sorted(written.items())))
+        together = conjunction(self._choice.executed[step.action] for step in objection.outcome)
+        self._solver.add(implies(together, safe_term(self._frame.spec, reached)))
+
+    def _learn_ranks(self, goal: Residual) -> None:
+        """A set with this residual goal steps to a state with a rank below the bound."""
+        known = self.ranked.get(goal)
+        if known is not None and not known.given:
+            raise RuntimeError(f"the ranks of {goal} hold, and a run takes longer")
+        ranks = self._source.lower_bound(goal) if known is None else self._source.exact(goal)
+        if isinstance(ranks, str):
+            raise UnknownError(ranks)
+        self.ranked[goal] = ranks
+        after = z3.FreshConst(z3.BitVecSort(ranks.width), "rank")
+        self._solver.add(after == ranks.at(self._frame, self._choice.after))
+        mine = self._frame.goals.is_residual(goal, self._choice.executed)
+        self._solver.add(implies(mine, ranks.within(after, self._frame.spec.max_plan_length)))
+
+    def improve(self, found: Cheaper) -> Cheaper:
+        """The first state, as declared, that has a better set, and its best one: cheapest, then smallest, then first.
+
+        When time runs out on the way, the best so far.
+        """
+        spec, executed = self._frame.spec, self._choice.executed
+        fixed: list[Term] = []
+        try:
+            for place, bit in enumerate(unknown_bits(self._frame.state)):
+                literal = self._frame.literals(found[0])[place]
+                if literal is bit and (better := self.find(*fixed, negation(bit))) is not None:
+                    found, literal = better, negation(bit)
+                fixed.append(literal)
+            while better := self.find(*fixed, self._choice.lasts_at_most(duration(spec, found[1]) - 1)):
+                found = better
+            fixed.append(self._choice.lasts_at_most(duration(spec, found[1])))
+            while better := self.find(*fixed, z3.AtMost(*executed, len(found[1]) - 1)):
+                found = better
+            fixed.append(z3.AtMost(*executed, len(found[1])))
+            for term in executed:
+                better = self.find(*fixed, term)
+                found = better or found
+                fixed.append(negation(term) if better is None else term)
+        except UnknownError:
+            return found
+        return found

@@ -1,0 +1,158 @@
+"""`Out(s, A) ⊆ S` as a Z3 problem: one outcome that is not safe, sought among all (`docs/semantics.md`, section 3)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import combinations
+from typing import Any
+
+import z3
+
+from tumato_symbolic.semantics import ActionSet, Effectuation, Objection, Outcome, State, apply, broken_rule, is_safe
+from tumato_symbolic.spec import Action, Ordering, Spec
+from tumato_symbolic.verify.encoding import Place, is_true, safe_term
+from tumato_symbolic.verify.terms import Number, Term, at_most_one, conjunction, disjunction, implies, negation
+
+
+class UnsafeOutcome:
+    """Some executed actions take effect, one effect each, in some order, and what they lead to is not safe.
+
+    Of the effects that write a variable the last one, its *winner*, gives the value. An order is needed only among
+    actions that may run together and write a common variable; for the others any order is the same.
+    """
+
+    def __init__(self, spec: Spec, place: Place, executed: Sequence[Term], ordering: Ordering) -> None:
+        self._spec = spec
+        self._taken: dict[int, list[Term]] = {
+            number: [z3.Bool(f"u.{number}.{effect}") for effect in range(len(action.effects))]
+            for number, action in enumerate(spec.actions)
+            if executed[number] is not False
+        }
+        self._used = {number: disjunction(taken) for number, taken in self._taken.items()}
+        self._ranks = self._rank_numbers() if ordering == "any" else {}
+        self.constraints = [
+            *(implies(used, executed[number]) for number, used in self._used.items()),
+            *(at_most_one(taken) for taken in self._taken.values()),
+            disjunction(self._used.values()),
+            *self._exclusions(ordering),
+        ]
+        reached = Place([self._code(variable, code) for variable, code in enumerate(place.bits)])
+        self.constraints.append(negation(safe_term(spec, reached)))
+
+    def _exclusions(self, ordering: Ordering) -> list[Term]:
+        """Who does not take effect beside whom: nobody under `first`, and never two that may not run together."""
+        actions = self._spec.actions
+        return [
+            negation(conjunction((self._used[one], self._used[other])))
+            for one, other in combinations(self._used, 2)
+            if ordering == "first" or not compatible(actions[one], actions[other])
+        ]
+
+    def _rank_numbers(self) -> dict[int, Number]:
+        """A place in the order for every action that must have one."""
+        actions = self._spec.actions
+        ordered = sorted(
+            {
+                number
+                for pair in combinations(self._taken, 2)
+                if compatible(actions[pair[0]], actions[pair[1]])
+                and written(actions[pair[0]]) & written(actions[pair[1]])
+                for number in pair
+            }
+        )
+        width = max(1, (len(ordered) - 1).bit_length())
+        return {number: z3.BitVec(f"o.{number}", width) for number in ordered}
+
+    def _code(self, variable: int, code: Sequence[Term]) -> list[Term]:
+        """The bits of a variable after the outcome."""
+        writing = {number: self._writing(number, variable) for number in self._taken}
+        writers = [number for number, terms in writing.items() if terms]
+        uses = {number: disjunction(term for term, _ in writing[number]) for number in writers}
+        ranked = [number for number in writers if number in self._ranks]
+        wins: dict[int, Term] = dict.fromkeys(writers, True)
+        if len(ranked) > 1:
+            wins.update({number: z3.Bool(f"w.{number}.{variable}") for number in ranked})
+            self.constraints.extend(self._winner(ranked, wins, uses))
+        untouched = negation(disjunction(uses.values()))
+        return [
+            disjunction(
+                [
+                    conjunction((untouched, bit)),
+                    *(
+                        conjunction((wins[number], term))
+                        for number in writers
+                        for term, value in writing[number]
+                        if value >> digit & 1
+                    ),
+                ]
+            )
+            for digit, bit in enumerate(code)
+        ]
+
+    def _writing(self, number: int, variable: int) -> list[tuple[Term, int]]:
+        """The effects of an action that write a variable, with the value."""
+        return [
+            (taken, value)
+            for taken, effect in zip(self._taken[number], self._spec.actions[number].effects, strict=True)
+            for changed, value in effect
+            if changed == variable
+        ]
+
+    def _winner(self, ranked: list[int], wins: dict[int, Term], uses: dict[int, Term]) -> list[Term]:
+        """If one of these actions writes the variable, one that writes it is later than all others that do."""
+        return [
+            implies(disjunction(uses[number] for number in ranked), disjunction(wins[number] for number in ranked)),
+            *(implies(wins[number], uses[number]) for number in ranked),
+            *(
+                implies(conjunction((wins[one], uses[other])), z3.ULT(self._ranks[other], self._ranks[one]))
+                for one in ranked
+                for other in ranked
+                if one != other
+            ),
+        ]
+
+    def objection(self, model: Any, state: State, chosen: ActionSet) -> Objection:  # noqa: ANN401 - z3 has no types
+        """The outcome that a model gives, replayed, without the effects that are not needed."""
+        used = [
+            (model.eval(self._ranks[number], model_completion=True).as_long() if number in self._ranks else 0, number)
+            for number, term in self._used.items()
+            if is_true(model, term)
+        ]
+        steps = [
+            (number, self._spec.actions[number].effects[effect])
+            for _, number in sorted(used)
+            for effect, term in enumerate(self._taken[number])
+            if is_true(model, term)
+        ]
+        way = replay(self._spec, state, steps)
+        if not steps or not {number for number, _ in steps} <= chosen or is_safe(self._spec, way[-1].after):
+            raise RuntimeError(f"the outcome {steps} of {sorted(chosen)} in {state} is safe, against the solver")
+        for step in list(steps):
+            shorter = [kept for kept in steps if kept is not step]
+            if shorter and not is_safe(self._spec, replay(self._spec, state, shorter)[-1].after):
+                steps = shorter
+        way = replay(self._spec, state, steps)
+        end = way[-1].after
+        return Objection("unsafe", tuple(sorted(chosen)), broken_rule(self._spec, end), way, end)
+
+
+def replay(spec: Spec, state: State, steps: Sequence[tuple[int, tuple[tuple[int, int], ...]]]) -> Outcome:
+    """The states met when effects strike in this order."""
+    way = []
+    for number, effect in steps:
+        state = apply(effect, state)
+        way.append(Effectuation(number, effect, state))
+    return tuple(way)
+
+
+def written(action: Action) -> frozenset[int]:
+    """The variables that an action may write."""
+    return frozenset(variable for effect in action.effects for variable, _ in effect)
+
+
+def compatible(one: Action, other: Action) -> bool:
+    """Whether two actions may ever run together: no common resource, nominal effects that agree."""
+    if one.resources & other.resources:
+        return False
+    given = dict(one.nominal)
+    return all(given.get(variable, value) == value for variable, value in other.nominal)

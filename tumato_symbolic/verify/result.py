@@ -1,0 +1,75 @@
+"""What verification answers: a verdict per property, each refutation with its witness."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from tumato_symbolic.semantics import ActionSet, Objection, Run, State
+from tumato_symbolic.spec import Ordering
+
+Verdict: TypeAlias = Literal["proved", "refuted", "undecided"]
+PropertyName: TypeAlias = Literal["total", "safe", "goals", "minimal", "ordering"]
+OrderingSource: TypeAlias = Literal["command line", "policy", "specification", "default"]
+
+PROPERTIES: tuple[PropertyName, ...] = ("total", "safe", "goals", "minimal")
+"""What is asked by default, in the order in which it is proved."""
+
+
+@dataclass(frozen=True, slots=True)
+class Refutation:
+    """A state in which a property fails, what the policy does there, and the witness for it.
+
+    `not-allowed` comes with `objection`, the first condition that fails; `goal-missed` with `run`, the run that loops,
+    ends without a decision or exceeds the bound; `not-minimal` with `cheaper`, the cheapest set that serves as well,
+    and its `run`. `ordering` has no state: the policy records `first` where the specification writes `any`.
+    """
+
+    kind: Literal["missing", "not-allowed", "goal-missed", "not-minimal", "ordering"]
+    state: State | None = None
+    decision: ActionSet | None = None
+    objection: Objection | None = None
+    run: Run | None = None
+    cheaper: ActionSet | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class PropertyResult:
+    """The verdict on one property.
+
+    `obligations` counts what had to be proved of all states and was; `proved_by` names the prover of a proved
+    property; `reason` tells why an undecided one is undecided.
+    """
+
+    name: PropertyName
+    verdict: Verdict
+    obligations: int = 0
+    proved_by: str | None = None
+    refutation: Refutation | None = None
+    reason: str | None = None
+    seconds: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class CertificateUse:
+    """What became of the policy's certificate, and why.
+
+    `used`: it carried the proof. `incomplete`: it carried a part, other ranks were recomputed. `absent`: there is none.
+    `stale`: it was made for another specification. `wrong`: it was made for this one, and is false. `unneeded`: no
+    property that was asked needs ranks. `set aside`: it fails, and so does the policy's own safety.
+    """
+
+    status: Literal["used", "incomplete", "absent", "stale", "wrong", "unneeded", "set aside"]
+    reason: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Verification:
+    """The answer of `verify`. `valid_states` is None where they could not be counted cheaply."""
+
+    verdict: Verdict
+    properties: tuple[PropertyResult, ...]
+    ordering: Ordering
+    ordering_source: OrderingSource
+    certificate: CertificateUse
+    valid_states: int | None

@@ -1,0 +1,97 @@
+"""Z3 terms with constants folded: a term is a Python bool or a Z3 Boolean.
+
+Folding keeps what a constant effect makes of a rule as small as it is on paper.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any, TypeAlias
+
+import z3
+
+Term: TypeAlias = Any
+"""`bool` or `z3.BoolRef`."""
+Number: TypeAlias = Any
+"""`z3.BitVecRef`."""
+
+
+def negation(term: Term) -> Term:
+    """Not `term`."""
+    return not term if isinstance(term, bool) else z3.Not(term)
+
+
+def conjunction(terms: Iterable[Term]) -> Term:
+    """All of `terms`."""
+    kept = []
+    for term in terms:
+        if term is False:
+            return False
+        if term is not True:
+            kept.append(term)
+    if not kept:
+        return True
+    return kept[0] if len(kept) == 1 else z3.And(kept)
+
+
+def disjunction(terms: Iterable[Term]) -> Term:
+    """One of `terms` at least."""
+    kept = []
+    for term in terms:
+        if term is True:
+            return True
+        if term is not False:
+            kept.append(term)
+    if not kept:
+        return False
+    return kept[0] if len(kept) == 1 else z3.Or(kept)
+
+
+def implies(left: Term, right: Term) -> Term:
+    """`right` wherever `left`."""
+    return disjunction((negation(left), right))
+
+
+def same(left: Term, right: Term) -> Term:
+    """Both or neither."""
+    if isinstance(left, bool):
+        return right if left else negation(right)
+    if isinstance(right, bool):
+        return left if right else negation(left)
+    return left == right
+
+
+def either(condition: Term, then: Term, otherwise: Term) -> Term:
+    """`then` where `condition` holds, `otherwise` elsewhere; both Booleans or both numbers."""
+    if isinstance(condition, bool):
+        return then if condition else otherwise
+    if then is otherwise:
+        return then
+    if isinstance(then, bool):
+        return disjunction((condition, otherwise)) if then else conjunction((negation(condition), otherwise))
+    if isinstance(otherwise, bool):
+        return disjunction((negation(condition), then)) if otherwise else conjunction((condition, then))
+    return z3.If(condition, then, otherwise)
+
+
+def at_most_one(terms: Sequence[Term]) -> Term:
+    """No two of `terms`."""
+    kept = [term for term in terms if term is not False]
+    if len(kept) < 2:
+        return True
+    pairs = [(one, other) for place, one in enumerate(kept) for other in kept[place + 1 :]]
+    return conjunction(negation(conjunction(pair)) for pair in pairs)
+
+
+def code_at_most(bits: Sequence[Term], largest: int) -> Term:
+    """The number with these bits (least significant first) is at most `largest`."""
+    term: Term = True
+    for place, bit in enumerate(bits):
+        zero = negation(bit)
+        term = disjunction((zero, term)) if largest >> place & 1 else conjunction((zero, term))
+    return term
+
+
+def z3_term(term: Term) -> Any:  # noqa: ANN401 - z3 has no types
+    """The same as a Z3 Boolean."""
+    return z3.BoolVal(term) if isinstance(term, bool) else term
