@@ -62,8 +62,8 @@ def test_words_describe_a_state():
         (["S_Place=hall", "S_Place=dock", "S_Load=odd"], "TUM509", "given two values, `hall` and `dock`", None),
         (["S_Place=hall", "S_Loed=odd"], "TUM503", "no variable `S_Loed`", "did you mean `S_Load`?"),
         (["S_Place=haul", "S_Load=odd"], "TUM504", "no value `haul`", "did you mean `hall`?"),
-        (["S_Place=qqq", "S_Load=odd"], "TUM504", "no value `qqq`", "values: `dock`, `hall`"),
-        (["S_Place=hall"], "TUM503", "`S_Load` has no value", "its values: `free`, `full`, `odd`"),
+        (["S_Place=qqq", "S_Load=odd"], "TUM504", "no value `qqq`", "values: `dock` and `hall`"),
+        (["S_Place=hall"], "TUM503", "`S_Load` has no value", "its values: `free`, `full` and `odd`"),
     ],
 )
 def test_wrong_words_have_a_way_out(words, code, message, way_out):

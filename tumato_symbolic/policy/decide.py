@@ -9,8 +9,9 @@ from itertools import islice
 from typing import Protocol
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
+from tumato_symbolic.diagnostics.wording import listed
 from tumato_symbolic.policy.model import DecisionDiagram, Policy, Table, Vocabulary
-from tumato_symbolic.policy.problems import MOST, fault, listed, plain, show, way_out
+from tumato_symbolic.policy.problems import MOST, described, fault, show, way_out
 from tumato_symbolic.policy.shape import as_object, as_text, parse_json
 
 
@@ -18,8 +19,7 @@ class UndecidedState(ValueError):  # noqa: N818 - no error of the user: a state 
     """The policy says nothing of a state: one that the assumptions exclude, or one that the policy forgot."""
 
     def __init__(self, state: Mapping[str, str]) -> None:
-        shown = ", ".join(f"{plain(name)} is {plain(value)}" for name, value in state.items())
-        super().__init__(f"the policy does not decide this state: {shown}")
+        super().__init__(f"the policy does not decide this state: {described(state)}")
         self.state = dict(state)
 
 

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source, UserError
-
-SHOWN = 60
-"""Names are cut after this many characters in messages."""
+from tumato_symbolic.diagnostics.wording import listed, nearest, quoted
 
 MOST = 20
-"""So many mistakes in a policy or state are reported at once."""
+"""So many mistakes in a policy or state are reported at once, and so many variables of a state are shown."""
 
 
 def fault(code: Code, message: str, help: str | None = None, source: Source | None = None) -> UserError:
@@ -18,44 +16,29 @@ def fault(code: Code, message: str, help: str | None = None, source: Source | No
     return UserError((Diagnostic(code, message, help=help),), source)
 
 
-def plain(name: str) -> str:
-    """A name as a message may print it: printable and not too long."""
-    short = name if len(name) <= SHOWN else name[:SHOWN] + "…"
-    return short if short.isprintable() else ascii(short)[1:-1]
-
-
 def show(value: object) -> str:
-    """A value out of a file as a message may print it: names in backticks, everything else by its kind."""
-    return f"`{plain(value)}`" if isinstance(value, str) else kind(value)
-
-
-def kind(value: object) -> str:
-    """What kind of JSON value this is."""
+    """A value out of a file as a message may print it: texts quoted, everything else by its kind."""
+    if isinstance(value, str):
+        return quoted(value)
     if value is None:
         return "null"
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, int | float):
         return "a number"
-    if isinstance(value, str):
-        return "a string"
     return "a list" if isinstance(value, list) else "an object"
 
 
-def listed(names: Iterable[str], limit: int = 8) -> str:
-    """Names in a row, cut after `limit`."""
-    shown = list(names)
-    rest = f" and {len(shown) - limit} more" if len(shown) > limit else ""
-    return ", ".join(show(name) for name in shown[:limit]) + rest
+def described(state: Mapping[str, str]) -> str:
+    """A state in words, cut where it has very many variables."""
+    parts = [f"{quoted(name)[1:-1]} is {quoted(value)[1:-1]}" for name, value in state.items()]
+    return ", ".join([*parts[:MOST], "…"] if len(parts) > MOST else parts)
 
 
 def way_out(name: object, known: Iterable[str], what: str) -> str:
     """The nearest known name, or all of them."""
     options = list(known)
-    if isinstance(name, str) and len(name) <= SHOWN:
-        import difflib
-
-        close = difflib.get_close_matches(name, [option for option in options[:1000] if len(option) <= SHOWN], 1)
-        if close:
-            return f"did you mean {show(close[0])}?"
+    close = nearest(name, options) if isinstance(name, str) else None
+    if close is not None:
+        return f"did you mean {quoted(close)}?"
     return f"{what}: {listed(options)}" if options else f"there are no {what}"

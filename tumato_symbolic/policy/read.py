@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from tumato_symbolic.diagnostics import Code, Source, UserError
+from tumato_symbolic.diagnostics.wording import listed
 from tumato_symbolic.policy.diagram import Diagram, Node, Reference, rebuild
 from tumato_symbolic.policy.model import Certificate, DecisionDiagram, Policy, RankedGoal, Table, Vocabulary
-from tumato_symbolic.policy.problems import fault, listed, plain, show, way_out
+from tumato_symbolic.policy.problems import described, fault, show, way_out
 from tumato_symbolic.policy.shape import as_list, as_names, as_object, as_text, as_whole, member, parse_json, wrong
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import Ordering
@@ -135,9 +136,8 @@ def _bad_row(row: object, place: int, vocabulary: Vocabulary) -> UserError:
 
 
 def _contradiction(vocabulary: Vocabulary, state: State, first: int, second: int) -> UserError:
-    pairs = zip(vocabulary.variables, state, strict=True)
-    named = ", ".join(f"{plain(name)} is {plain(values[value])}" for (name, values), value in pairs)
-    message = f"rows {first} and {second} of `Policy` decide the same state differently ({named})"
+    named = {name: values[value] for (name, values), value in zip(vocabulary.variables, state, strict=True)}
+    message = f"rows {first} and {second} of `Policy` decide the same state differently: {described(named)}"
     return fault(Code.TUM506, message, "keep one of the two rows")
 
 
