@@ -1,5 +1,8 @@
 """Specifications: names resolved, aliases expanded, effects normalised."""
 
+from typing import TYPE_CHECKING
+
+from tumato_symbolic.spec.canonical import canonical_text, digest
 from tumato_symbolic.spec.formula import (
     FALSE,
     TRUE,
@@ -30,6 +33,9 @@ from tumato_symbolic.spec.model import (
     Variable,
 )
 
+if TYPE_CHECKING:
+    from tumato_symbolic.spec.loading import Loaded, load
+
 __all__ = [
     "FALSE",
     "TRUE",
@@ -45,6 +51,7 @@ __all__ = [
     "GoalList",
     "Iff",
     "Is",
+    "Loaded",
     "Not",
     "Or",
     "Ordering",
@@ -53,7 +60,19 @@ __all__ = [
     "Spec",
     "Variable",
     "atoms",
+    "canonical_text",
     "children",
+    "digest",
     "executing_atoms",
+    "load",
     "variables_of",
 ]
+
+
+def __getattr__(name: str) -> object:
+    """Reading texts is imported on first use: whoever works with specifications only need not pay for it."""
+    if name not in ("load", "Loaded"):
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from tumato_symbolic.spec import loading
+
+    return getattr(loading, name)

@@ -1,1 +1,15 @@
 """Text to tree and back; the only room that knows lark."""
+
+from tumato_symbolic.diagnostics import Source
+from tumato_symbolic.syntax.model import Parsed
+from tumato_symbolic.syntax.printer import print_specification
+from tumato_symbolic.syntax.reading import read_source
+
+__all__ = ["Parsed", "parse", "print_specification", "read_source"]
+
+
+def parse(source: Source) -> Parsed:
+    """The tree of a text, and every mistake in its syntax. Never raises for a mistake of the user."""
+    from tumato_symbolic.syntax.parser import parse_text
+
+    return parse_text(source)

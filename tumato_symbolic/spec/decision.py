@@ -1,0 +1,118 @@
+"""What formulas say about their own variables, decided by a bounded search."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TypeAlias
+
+from tumato_symbolic.spec.formula import And, Constant, Executing, Formula, Iff, Is, Not, Or, atoms, children
+
+Known: TypeAlias = dict[tuple[str, int], int]
+"""Part of a state and of a set of actions: value by ("variable", number), 0 or 1 by ("action", number)."""
+
+
+class OutOfBudget(Exception):
+    """The search was given up."""
+
+
+class Budget:
+    """How many terms may still be looked at."""
+
+    def __init__(self, terms: int) -> None:
+        self._left = terms
+
+    def spend(self, terms: int) -> None:
+        """Take `terms` off, or raise `OutOfBudget`."""
+        self._left -= terms
+        if self._left < 0:
+            raise OutOfBudget
+
+
+def size(formula: Formula) -> int:
+    """How many atoms and operators a formula has."""
+    return 1 + sum(size(part) for part in children(formula))
+
+
+def unknowns(formula: Formula) -> list[tuple[str, int]]:
+    """What the truth of a formula depends on, in order of first mention."""
+    return list(
+        dict.fromkeys(
+            ("variable", each.variable) if isinstance(each, Is) else ("action", each.action) for each in atoms(formula)
+        )
+    )
+
+
+def models(formula: Formula, sizes: Mapping[int, int], budget: Budget) -> Iterator[Known]:
+    """Every assignment to the unknowns of `formula` that satisfies it, each once, in lexicographic order.
+
+    `sizes` tells how many values each variable has. Raises `OutOfBudget` rather than searching for long.
+    """
+    open_ = unknowns(formula)
+    known: Known = {}
+    parts = formula.operands if isinstance(formula, And) else (formula,)
+    for part in parts:
+        if isinstance(part, Is):
+            if known.setdefault(("variable", part.variable), part.value) != part.value:
+                return
+    rest = [part for part in parts if not isinstance(part, Is)]
+    remaining = And(tuple(rest)) if len(rest) > 1 else rest[0] if rest else Constant(True)
+    yield from _search(remaining, size(remaining), [each for each in open_ if each not in known], known, sizes, budget)
+
+
+def _search(
+    formula: Formula, cost: int, open_: list[tuple[str, int]], known: Known, sizes: Mapping[int, int], budget: Budget
+) -> Iterator[Known]:
+    """Depth first, without recursion, cutting off what cannot become true any more."""
+    options = [range(sizes[number]) if kind == "variable" else range(2) for kind, number in open_]
+    choices: list[Iterator[int]] = []
+    budget.spend(cost)
+    if truth(formula, known) is False:
+        return
+    while True:
+        if len(choices) == len(open_):
+            yield dict(known)
+        else:
+            choices.append(iter(options[len(choices)]))
+        while choices:
+            unknown = open_[len(choices) - 1]
+            value = next(choices[-1], None)
+            if value is None:
+                choices.pop()
+                known.pop(unknown, None)
+                continue
+            known[unknown] = value
+            budget.spend(cost)
+            if truth(formula, known) is not False:
+                break
+        else:
+            return
+
+
+def truth(formula: Formula, known: Mapping[tuple[str, int], int]) -> bool | None:
+    """The truth value of a formula as far as it is settled by `known`."""
+    match formula:
+        case Constant(value):
+            return value
+        case Is(variable, wanted):
+            found = known.get(("variable", variable))
+            return None if found is None else found == wanted
+        case Executing(action):
+            found = known.get(("action", action))
+            return None if found is None else found == 1
+        case Not(operand):
+            inner = truth(operand, known)
+            return None if inner is None else not inner
+        case And(operands):
+            return _all([truth(part, known) for part in operands])
+        case Or(operands):
+            none = _all([None if (inner := truth(part, known)) is None else not inner for part in operands])
+            return None if none is None else not none
+        case Iff(left, right):
+            sides = truth(left, known), truth(right, known)
+            return None if None in sides else sides[0] == sides[1]
+
+
+def _all(values: list[bool | None]) -> bool | None:
+    if False in values:
+        return False
+    return None if None in values else True

@@ -1,0 +1,139 @@
+"""Warnings for what is legal but surely unmeant, as far as it shows without the state space."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import prod
+
+from tumato_symbolic.diagnostics import Code, Diagnostic, Span
+from tumato_symbolic.diagnostics.wording import quoted
+from tumato_symbolic.spec.decision import Budget, OutOfBudget, models, unknowns
+from tumato_symbolic.spec.formula import And, Constant, Formula, Not
+from tumato_symbolic.spec.model import ConditionalGoal, Goal, GoalList, Rule, Spec
+from tumato_symbolic.spec.resolve import Resolution, heading
+from tumato_symbolic.syntax import ast
+
+MAX_DECIDED = 100_000
+"""A predicate is decided when its own variables, and the actions that it speaks of, have at most so many assignments."""
+
+MAX_LINT_WORK = 2_000_000
+"""How many terms are looked at to decide predicates, for a whole specification; the rest is left undecided."""
+
+
+def lint(spec: Spec, tree: ast.Specification, resolution: Resolution) -> tuple[Diagnostic, ...]:
+    """Every warning about a specification without errors."""
+    return (
+        *_unused(spec, resolution),
+        *_missing(spec, tree),
+        *_decided(spec),
+    )
+
+
+def _unused(spec: Spec, resolution: Resolution) -> Iterator[Diagnostic]:
+    used = frozenset[int]().union(*(action.resources for action in spec.actions))
+    for number, resource in enumerate(resolution.names.resources):
+        if number not in used:
+            message = f"no action controls the resource {quoted(resource.name.text)}"
+            yield Diagnostic(Code.TUM321, message, resource.name.span, "remove it, or control it where it is needed")
+    for number, alias in enumerate(resolution.names.aliases):
+        if number not in resolution.used_aliases:
+            message = f"nothing uses the alias {quoted(alias.name.text)}"
+            yield Diagnostic(Code.TUM322, message, alias.name.span, "remove it, or use it")
+
+
+def _missing(spec: Spec, tree: ast.Specification) -> Iterator[Diagnostic]:
+    end = Span(tree.span.end_line, tree.span.end_column, tree.span.end_line, tree.span.end_column)
+    if not spec.actions:
+        place = next((heading(each.span, "ACTIONS") for each in tree.blocks if isinstance(each, ast.Actions)), end)
+        yield Diagnostic(Code.TUM325, "there are no actions: nothing can ever change", place)
+    if spec.goals is None:
+        place = next((heading(each.span, "GOALS") for each in tree.blocks if isinstance(each, ast.Goals)), end)
+        yield Diagnostic(Code.TUM326, "there are no goals: every allowed step will do", place)
+    for block in tree.blocks:
+        for action in block.actions if isinstance(block, ast.Actions) else ():
+            if not any(isinstance(field, ast.NominalEffects) for field in action.fields):
+                message = f"the action {quoted(action.name.text)} has no nominal effects"
+                yield Diagnostic(
+                    Code.TUM327, message, action.name.span, "write `nominal effects: none` if that is meant"
+                )
+
+
+def _decided(spec: Spec) -> Iterator[Diagnostic]:
+    """Predicates that their own variables decide."""
+    sizes = {number: len(each.values) for number, each in enumerate(spec.variables)}
+    judge = _Judge(sizes)
+    for action in spec.actions:
+        single = [each for rule in action.preconditions for each in judge.of(rule, "precondition")]
+        yield from single
+        if not single and len(action.preconditions) > 1:
+            yield from judge.together(action.preconditions, action.name, action.span)
+    for rule in (*spec.reaction_rules, *spec.state_rules):
+        yield from judge.of(rule, "rule")
+    for rule in spec.assumptions:
+        yield from judge.of(rule, "assumption")
+    for rule in _conditions(spec.goals):
+        yield from judge.of(rule, "condition")
+    for rule in spec.bodies:
+        yield from judge.of(rule, "goal")
+
+
+def _conditions(goal: Goal | None) -> Iterator[Rule]:
+    if isinstance(goal, ConditionalGoal):
+        yield goal.condition
+        yield from _conditions(goal.goal)
+    elif isinstance(goal, GoalList):
+        for member in goal.members:
+            yield from _conditions(member)
+
+
+class _Judge:
+    """Decides predicates within one budget."""
+
+    def __init__(self, sizes: dict[int, int]) -> None:
+        self._sizes = sizes
+        self._budget = Budget(MAX_LINT_WORK)
+
+    def of(self, rule: Rule, kind: str) -> Iterator[Diagnostic]:
+        """The warning about one predicate, if it deserves one; a plain `true` is meant."""
+        if rule.formula == Constant(True):
+            return
+        if self._possible(rule.formula) is False:
+            yield Diagnostic(Code.TUM324, f"this {kind} is never true", rule.span, _NEVER[kind])
+        elif self._possible(Not(rule.formula)) is False:
+            yield Diagnostic(Code.TUM323, f"this {kind} is always true", rule.span, _ALWAYS[kind])
+
+    def together(self, rules: Sequence[Rule], action: str, span: Span) -> Iterator[Diagnostic]:
+        """The warning about preconditions that exclude each other."""
+        if self._possible(And(tuple(rule.formula for rule in rules))) is False:
+            yield Diagnostic(
+                Code.TUM324,
+                f"the preconditions of {quoted(action)} are never true together",
+                Span(rules[0].span.line, rules[0].span.column, rules[-1].span.end_line, rules[-1].span.end_column),
+                "a comma means AND; for alternatives write OR",
+            )
+
+    def _possible(self, formula: Formula) -> bool | None:
+        """Whether a formula can be true; None where that is not decided here."""
+        count = prod(self._sizes[number] if kind == "variable" else 2 for kind, number in unknowns(formula))
+        if count > MAX_DECIDED:
+            return None
+        try:
+            return next(models(formula, self._sizes, self._budget), None) is not None
+        except OutOfBudget:
+            return None
+
+
+_NEVER = {
+    "precondition": "the action can never be executed",
+    "rule": "no state and no set of actions can keep it",
+    "assumption": "no state is valid",
+    "condition": "the goal is never entered",
+    "goal": "it can never be reached",
+}
+_ALWAYS = {
+    "precondition": "it excludes nothing; remove it or correct it",
+    "rule": "it excludes nothing; remove it or correct it",
+    "assumption": "it excludes nothing; remove it or correct it",
+    "condition": "leave the condition out or correct it",
+    "goal": "write `goal: true` where there is nothing to reach",
+}

@@ -1,0 +1,264 @@
+"""Predicates with names resolved and aliases expanded."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from tumato_symbolic.diagnostics import Code, Note, Span
+from tumato_symbolic.diagnostics.wording import listed, quoted
+from tumato_symbolic.spec.findings import Findings
+from tumato_symbolic.spec.formula import FALSE, TRUE, And, Executing, Formula, Iff, Is, Not, Or
+from tumato_symbolic.spec.model import Rule
+from tumato_symbolic.spec.names import Declared, Kind, Names
+from tumato_symbolic.syntax import ast
+from tumato_symbolic.syntax.excerpts import Excerpts
+
+MAX_DEPTH = 100
+"""The most levels of a formula with its aliases expanded; an implication counts as two."""
+
+MAX_TERMS = 100_000
+"""The most atoms and operators of one predicate with its aliases expanded."""
+
+MAX_TERMS_IN_ALL = 1_000_000
+"""The same, for all predicates of a specification together."""
+
+
+@dataclass(frozen=True, slots=True)
+class Mention:
+    """Where a predicate says `executing`: `place` is in the predicate, `origin` in the alias that it came through."""
+
+    place: Span
+    origin: Span | None
+
+
+@dataclass(frozen=True, slots=True)
+class Resolved:
+    """A formula, its size, and its first `executing`."""
+
+    formula: Formula
+    terms: int
+    depth: int
+    executing: Mention | None
+
+
+class Predicates:
+    """Resolves predicates one by one; remembers the aliases and which names were used."""
+
+    def __init__(self, names: Names, excerpts: Excerpts, findings: Findings, lost: frozenset[str]) -> None:
+        self._names = names
+        self._excerpts = excerpts
+        self._findings = findings
+        self._lost = lost
+        self._aliases: dict[int, Resolved | None] = {}
+        self._terms = 0
+        self.used_aliases: set[int] = set()
+        self._references = tuple(self._references_of(each.predicate) for each in names.aliases)
+        for number in range(len(names.aliases)):
+            self._define(number)
+
+    def rule(self, predicate: ast.Predicate, no_executing_in: str | None) -> Rule | None:
+        """A predicate of the user with its text; None where it is in error.
+
+        `no_executing_in` names the place where `executing` has no meaning, or is None where it has one.
+        """
+        resolved = self._resolve(predicate)
+        self._use(self._references_of(predicate))
+        if resolved is None:
+            return None
+        self._terms += resolved.terms
+        if self._terms > MAX_TERMS_IN_ALL:
+            self._too_large(predicate.span, f"all predicates together have more than {MAX_TERMS_IN_ALL:,} terms")
+            self._terms = -(10**12)
+            return None
+        if no_executing_in is not None and resolved.executing is not None:
+            self._misplaced(resolved.executing, no_executing_in)
+            return None
+        return Rule(resolved.formula, self._excerpts.of(predicate.span), predicate.span)
+
+    def named(self, name: ast.Name, kind: Kind) -> Declared | None:
+        """The declaration of a name that has to be of one kind; None, and a report, where it is not."""
+        declared = self._names.table.get(name.text)
+        if declared is not None and declared.kind == kind:
+            return declared
+        if declared is not None:
+            self._findings.add(
+                Code.TUM207,
+                f"{quoted(name.text)} is not {_article(kind)} but {_article(declared.kind)}",
+                name.span,
+                self._instead(name.text, declared.kind, kind),
+                (Note("it is declared here", declared.span),),
+            )
+        elif name.text not in self._lost:
+            self._unknown(name, kind)
+        return None
+
+    def _unknown(self, name: ast.Name, kind: Kind) -> None:
+        near = self._findings.similar(name.text, self._names.of_kind(kind))
+        if near is None and kind == "alias":
+            near = self._findings.similar(name.text, self._names.of_kind("state variable"))
+            if near is not None:
+                near = f"{near} is …"
+        known = self._names.of_kind(kind)
+        way_out = f"did you mean `{near}`?" if near else f"there is no {kind} at all"
+        if near is None and known:
+            way_out = f"the {'aliases' if kind == 'alias' else kind + 's'} are {listed(known)}"
+        self._findings.add(Code.TUM201, f"there is no {kind} {quoted(name.text)}", name.span, way_out)
+
+    def _instead(self, name: str, actual: Kind, wanted: Kind) -> str | None:
+        if wanted == "alias" and actual == "state variable":
+            values = self._names.variables[self._names.table[name].number].values
+            return f"write `{name} is {values[0]}`" if values else None
+        if wanted == "alias" and actual == "action":
+            return f"write `executing {name}`"
+        near = self._findings.similar(name, self._names.of_kind(wanted))
+        return f"did you mean `{near}`?" if near else None
+
+    def _resolve(self, predicate: ast.Predicate) -> Resolved | None:
+        match predicate:
+            case ast.Truth(value):
+                return Resolved(TRUE if value else FALSE, 1, 1, None)
+            case ast.Comparison(variable, value):
+                return self._comparison(variable, value)
+            case ast.Execution(action, span):
+                declared = self.named(action, "action")
+                return None if declared is None else Resolved(Executing(declared.number), 1, 1, Mention(span, None))
+            case ast.Reference(name, span):
+                return self._reference(name, span)
+            case ast.Negation(operand):
+                return self._combined(predicate, (operand,))
+            case ast.Conjunction(operands) | ast.Disjunction(operands):
+                return self._combined(predicate, operands)
+            case ast.Implication(left, right) | ast.Equivalence(left, right):
+                return self._combined(predicate, (left, right))
+
+    def _comparison(self, variable: ast.Name, value: ast.Name) -> Resolved | None:
+        declared = self.named(variable, "state variable")
+        if declared is None:
+            return None
+        numbers = self._names.values[declared.number]
+        number = numbers.get(value.text)
+        if number is not None:
+            return Resolved(Is(declared.number, number), 1, 1, None)
+        if value.text not in self._lost:
+            near = self._findings.similar(value.text, list(numbers))
+            self._findings.add(
+                Code.TUM202,
+                f"{quoted(variable.text)} has no value {quoted(value.text)}",
+                value.span,
+                f"did you mean `{near}`?" if near else f"its values are {listed(list(numbers))}",
+                (Note(f"{quoted(variable.text)} is declared here", declared.span),),
+            )
+        return None
+
+    def _reference(self, name: ast.Name, span: Span) -> Resolved | None:
+        declared = self.named(name, "alias")
+        found = self._aliases.get(declared.number) if declared is not None else None
+        if found is None or found.executing is None:
+            return found
+        return Resolved(
+            found.formula, found.terms, found.depth, Mention(span, found.executing.origin or found.executing.place)
+        )
+
+    def _combined(self, predicate: ast.Predicate, operands: tuple[ast.Predicate, ...]) -> Resolved | None:
+        """An operator over its operands; every operand is looked at, so that every mistake in them is found."""
+        found = [self._resolve(each) for each in operands]
+        parts = [each for each in found if each is not None]
+        if len(parts) < len(found):
+            return None
+        terms, depth = 1 + sum(each.terms for each in parts), 1 + max(each.depth for each in parts)
+        formulas = tuple(each.formula for each in parts)
+        formula: Formula
+        match predicate:
+            case ast.Negation():
+                formula = Not(formulas[0])
+            case ast.Conjunction():
+                formula = And(formulas)
+            case ast.Disjunction():
+                formula = Or(formulas)
+            case ast.Implication():
+                formula = Or((Not(formulas[0]), formulas[1]))
+                terms, depth = terms + 1, max(parts[0].depth + 2, parts[1].depth + 1)
+            case _:
+                formula = Iff(*formulas)
+        if terms > MAX_TERMS or depth > MAX_DEPTH:
+            what = (
+                f"has more than {MAX_TERMS:,} terms" if terms > MAX_TERMS else f"is more than {MAX_DEPTH} levels deep"
+            )
+            self._too_large(predicate.span, f"with its aliases expanded, this {what}")
+            return None
+        return Resolved(formula, terms, depth, next((each.executing for each in parts if each.executing), None))
+
+    def _too_large(self, span: Span, message: str) -> None:
+        self._findings.add(Code.TUM308, message, span, "aliases that use aliases grow quickly; say less with them")
+
+    def _misplaced(self, mention: Mention, where: str) -> None:
+        notes = (Note("the alias says `executing` here", mention.origin),) if mention.origin else ()
+        message = "this alias says `executing`, which" if mention.origin else "`executing`"
+        self._findings.add(
+            Code.TUM304,
+            f"{message} has no meaning in {where}",
+            mention.place,
+            "`executing` belongs in reaction rules and goal bodies",
+            notes,
+        )
+
+    def _use(self, references: tuple[int, ...]) -> None:
+        waiting = list(references)
+        while waiting:
+            number = waiting.pop()
+            if number not in self.used_aliases:
+                self.used_aliases.add(number)
+                waiting.extend(self._references[number])
+
+    def _references_of(self, predicate: ast.Predicate) -> tuple[int, ...]:
+        """The aliases that a predicate names directly."""
+        match predicate:
+            case ast.Reference(name):
+                declared = self._names.table.get(name.text)
+                return (declared.number,) if declared is not None and declared.kind == "alias" else ()
+            case ast.Negation(operand):
+                return self._references_of(operand)
+            case ast.Conjunction(operands) | ast.Disjunction(operands):
+                return tuple(number for each in operands for number in self._references_of(each))
+            case ast.Implication(left, right) | ast.Equivalence(left, right):
+                return self._references_of(left) + self._references_of(right)
+            case _:
+                return ()
+
+    def _define(self, number: int) -> None:
+        """Resolve an alias after those that it uses; without recursion, since chains may be long."""
+        path = [number]
+        on_path = {number}
+        while path:
+            here = path[-1]
+            following = next((each for each in self._references[here] if each not in self._aliases), None)
+            if here in self._aliases or following is None:
+                if here not in self._aliases:
+                    self._aliases[here] = self._resolve(self._names.aliases[here].predicate)
+                path.pop()
+                on_path.discard(here)
+            elif following in on_path:
+                self._circular(path[path.index(following) :])
+            else:
+                path.append(following)
+                on_path.add(following)
+
+    def _circular(self, cycle: list[int]) -> None:
+        """Report aliases that are defined by each other, and give them up."""
+        names = [self._names.aliases[each].name for each in cycle]
+        for each in cycle:
+            self._aliases[each] = None
+        around = " → ".join(quoted(name.text) for name in [*names[:9], names[0]])
+        self._findings.add(
+            Code.TUM206,
+            f"the alias {quoted(names[0].text)} is defined by itself: {around}"
+            if len(names) > 1
+            else f"the alias {quoted(names[0].text)} is defined by itself",
+            names[0].span,
+            "an alias may use other aliases, never itself",
+            tuple(Note(f"{quoted(name.text)} is part of the circle", name.span) for name in names[1:9]),
+        )
+
+
+def _article(kind: str) -> str:
+    return f"an {kind}" if kind[0] in "ae" else f"a {kind}"

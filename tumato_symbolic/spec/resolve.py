@@ -1,0 +1,182 @@
+"""Tree to `Spec`: every name resolved, every alias expanded, every effect normalised."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from tumato_symbolic.diagnostics import Code, Diagnostic, Note, Source, Span
+from tumato_symbolic.diagnostics.wording import quoted
+from tumato_symbolic.spec.actions import Actions
+from tumato_symbolic.spec.findings import Findings
+from tumato_symbolic.spec.formula import Formula
+from tumato_symbolic.spec.model import ConditionalGoal, Goal, GoalList, Ordering, Rule, SimpleGoal, Spec
+from tumato_symbolic.spec.names import Names, collect
+from tumato_symbolic.spec.predicates import Predicates
+from tumato_symbolic.syntax import Parsed, ast
+from tumato_symbolic.syntax.excerpts import Excerpts
+
+MAX_PLAN_LENGTH = 1_000_000_000
+"""The largest plan bound."""
+
+_TITLES = {
+    ast.StateVector: "STATE VECTOR",
+    ast.Aliases: "ALIASES",
+    ast.Resources: "RESOURCES",
+    ast.Actions: "ACTIONS",
+    ast.ReactionRules: "REACTION RULES",
+    ast.StateRules: "STATE RULES",
+    ast.Assumptions: "ASSUMPTIONS",
+    ast.Goals: "GOALS",
+    ast.Config: "CONFIG",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Resolution:
+    """A specification, None where there is a mistake, what was found, and what lint needs to know beside it."""
+
+    spec: Spec | None
+    diagnostics: tuple[Diagnostic, ...]
+    names: Names
+    used_aliases: frozenset[int]
+
+
+def resolve(parsed: Parsed, tree: ast.Specification, source: Source) -> Resolution:
+    """Resolve what was parsed. After a mistake in the syntax, what the lost text may have declared is not missed."""
+    findings = Findings()
+    _once_each(tree, findings)
+    names = collect(tree, findings)
+    if not names.variables and not parsed.lost:
+        _no_state_vector(tree, findings)
+    predicates = Predicates(names, Excerpts(source), findings, parsed.lost)
+    actions = Actions(names, predicates, Excerpts(source), findings).resolve()
+    reaction_rules = _rules(predicates, _of(tree, ast.ReactionRules), None)
+    state_rules = _rules(predicates, _of(tree, ast.StateRules), "a state rule")
+    assumptions = _rules(predicates, _of(tree, ast.Assumptions), "an assumption")
+    goals = _Goals(predicates)
+    goal_list = goals.outermost(_of(tree, ast.Goals))
+    bound, ordering = _settings(tree, findings)
+    errors = bool(parsed.diagnostics) or any(each.severity == "error" for each in findings.diagnostics)
+    spec = None
+    if not errors:
+        spec = Spec(
+            names.variables,
+            tuple(each.name.text for each in names.resources),
+            actions,
+            reaction_rules,
+            state_rules,
+            assumptions,
+            goal_list,
+            tuple(goals.bodies.values()),
+            bound,
+            ordering,
+        )
+    return Resolution(spec, tuple(findings.diagnostics), names, frozenset(predicates.used_aliases))
+
+
+def _of(tree: ast.Specification, kind: type[ast.Block]) -> list[ast.Block]:
+    return [block for block in tree.blocks if isinstance(block, kind)]
+
+
+def _once_each(tree: ast.Specification, findings: Findings) -> None:
+    first: dict[str, Span] = {}
+    for block in tree.blocks:
+        title = _TITLES[type(block)]
+        if title in first:
+            findings.add(
+                Code.TUM302,
+                f"the block {quoted(title)} is repeated",
+                heading(block.span, title),
+                "join the two blocks into one",
+                (Note("the first one begins here", heading(first[title], title)),),
+            )
+        first.setdefault(title, block.span)
+
+
+def heading(block: Span, title: str) -> Span:
+    """The span of `BEGIN TITLE`, as it is usually written."""
+    return Span(block.line, block.column, block.line, block.column + len(f"BEGIN {title}"))
+
+
+def _no_state_vector(tree: ast.Specification, findings: Findings) -> None:
+    block = next(iter(_of(tree, ast.StateVector)), None)
+    findings.add(
+        Code.TUM301,
+        "the STATE VECTOR declares no state variable" if block else "there is no STATE VECTOR block",
+        heading(block.span, "STATE VECTOR") if block else Span(1, 1, 1, 1),
+        "a specification needs `BEGIN STATE VECTOR`, `state NAME can be VALUE, VALUE`, `END STATE VECTOR`",
+    )
+
+
+def _rules(predicates: Predicates, blocks: Iterable[ast.Block], no_executing_in: str | None) -> tuple[Rule, ...]:
+    found: list[Rule | None] = []
+    for block in blocks:
+        match block:
+            case ast.ReactionRules(rules) | ast.StateRules(rules) | ast.Assumptions(rules):
+                found.extend(predicates.rule(each, no_executing_in) for each in rules)
+            case _:
+                pass
+    return tuple(rule for rule in found if rule is not None)
+
+
+class _Goals:
+    """The tree of goals, its bodies numbered, each structure once."""
+
+    def __init__(self, predicates: Predicates) -> None:
+        self._predicates = predicates
+        self._numbers: dict[Formula, int] = {}
+        self.bodies: dict[int, Rule] = {}
+
+    def outermost(self, blocks: Iterable[ast.Block]) -> GoalList | None:
+        """The goal block; None where there is no goal in it."""
+        lists = [self._goal(block.goals) for block in blocks if isinstance(block, ast.Goals)]
+        first = next(iter(lists), None)
+        return first if isinstance(first, GoalList) and first.members else None
+
+    def _goal(self, goal: ast.Goal) -> Goal | None:
+        match goal:
+            case ast.SimpleGoal(predicate, span):
+                body = self._predicates.rule(predicate, None)
+                if body is None:
+                    return None
+                number = self._numbers.setdefault(body.formula, len(self._numbers))
+                self.bodies.setdefault(number, body)
+                return SimpleGoal(number, span)
+            case ast.ConditionalGoal(predicate, inner, span):
+                condition = self._predicates.rule(predicate, "the condition of a goal")
+                found = self._goal(inner)
+                if condition is None or found is None or isinstance(found, ConditionalGoal):
+                    return None
+                return ConditionalGoal(condition, found, span)
+            case ast.GoalList(kind, members, span):
+                parts = [self._goal(each) for each in members]
+                return GoalList(kind or "constraint", tuple(each for each in parts if each is not None), span)
+
+
+def _settings(tree: ast.Specification, findings: Findings) -> tuple[int | None, Ordering | None]:
+    bound: ast.MaxPlanLength | None = None
+    ordering: ast.EffectOrdering | None = None
+    for block in tree.blocks:
+        for setting in block.settings if isinstance(block, ast.Config) else ():
+            first = bound if isinstance(setting, ast.MaxPlanLength) else ordering
+            if first is not None:
+                name = "max_plan_length" if isinstance(setting, ast.MaxPlanLength) else "effect_ordering"
+                notes = (Note("it is set first here", first.span),)
+                findings.add(Code.TUM303, f"`{name}` is set twice", setting.span, "remove one", notes)
+            elif isinstance(setting, ast.MaxPlanLength):
+                bound = setting
+                _check_bound(setting, findings)
+            else:
+                ordering = setting
+    return bound.value if bound else None, ordering.value if ordering else None
+
+
+def _check_bound(setting: ast.MaxPlanLength, findings: Findings) -> None:
+    if not 1 <= setting.value <= MAX_PLAN_LENGTH:
+        findings.add(
+            Code.TUM310,
+            f"`max_plan_length` is {setting.value}; it has to be from 1 to {MAX_PLAN_LENGTH:,}",
+            setting.span,
+            "a plan has one step or more; leave the setting out for plans of any length",
+        )

@@ -1,0 +1,365 @@
+"""What is wrong where a token does not fit, in the user's terms, and the way out."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from difflib import get_close_matches
+
+from tumato_symbolic.diagnostics import Code, Diagnostic, Note, Span
+from tumato_symbolic.diagnostics.wording import listed, quoted
+from tumato_symbolic.syntax.tokens import MAX_DIGITS, Token
+
+BLOCKS = (
+    ("STATE", "VECTOR"),
+    ("ALIASES",),
+    ("RESOURCES",),
+    ("ACTIONS",),
+    ("REACTION", "RULES"),
+    ("STATE", "RULES"),
+    ("ASSUMPTIONS",),
+    ("GOALS",),
+    ("CONFIG",),
+)
+TITLES = frozenset(word for title in BLOCKS for word in title)
+
+_PREDICATE = frozenset({"NAME", "(", "executing", "true", "false"})
+_OPERATORS = ("AND", "OR", "IFONLYIF", "THEN")
+_FORMS = {
+    "state": "write `state NAME can be VALUE, VALUE`",
+    "define": "write `define NAME as PREDICATE`",
+    "resource": "write `resource NAME`",
+    "controlled": "write `controlled resources: NAME, NAME`",
+    "duration": "write `duration: 10`",
+    "cost": "write `cost: 10`",
+    "rule": "write `rule: PREDICATE`",
+    "assume": "write `assume: PREDICATE`",
+    "when": "write `when PREDICATE then goal: PREDICATE`",
+    "max_plan_length": "write `max_plan_length: 5`",
+    "effect_ordering": "write `effect_ordering: any` or `effect_ordering: first`",
+}
+_SYMBOLS = {"=": "is", "==": "is", "&": "AND", "&&": "AND", "|": "OR", "||": "OR", "!": "NOT", "->": "IF … THEN …"}
+_SYMBOLS |= {"=>": "IF … THEN …", "<->": "IFONLYIF", "<=>": "IFONLYIF", "!=": "NOT … is …", ";": ","}
+_AFTER = {
+    "is": "a value",
+    "be": "a value",
+    "executing": "the name of an action",
+    "state": "the name of a state variable",
+    "action": "the name of an action",
+    "resource": "the name of a resource",
+    "resources": "the name of a resource",
+    "define": "the name of an alias",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Situation:
+    """A token that does not fit.
+
+    `expected` is what could stand there: words and symbols as they are written, or NAME, NUMBER, $END. `open` holds
+    the keywords and symbols that are read and not yet part of something complete. `unclosed` tells that the token
+    begins a block although another is open.
+    """
+
+    tokens: tuple[Token, ...]
+    index: int
+    expected: frozenset[str]
+    open: tuple[Token, ...]
+    unclosed: bool = False
+
+    @property
+    def token(self) -> Token:
+        """The token that does not fit."""
+        return self.tokens[self.index]
+
+    @property
+    def previous(self) -> Token | None:
+        """The token before it."""
+        return self.tokens[self.index - 1] if self.index else None
+
+    @property
+    def begin(self) -> int | None:
+        """The position in `open` of the innermost BEGIN."""
+        return max((place for place, token in enumerate(self.open) if token.text == "BEGIN"), default=None)
+
+    @property
+    def title(self) -> tuple[str, ...]:
+        """The title of the innermost open block; empty where there is none."""
+        if self.begin is None:
+            return ()
+        words = tuple(token.text for token in self.open[self.begin + 1 : self.begin + 3])
+        return next((title for title in BLOCKS if words[: len(title)] == title), ())
+
+    @property
+    def end_words(self) -> tuple[Token, ...]:
+        """The words of the END that is half read; empty where there is none."""
+        since = self.open[(self.begin or 0) + 1 :]
+        ends = [place for place, token in enumerate(since) if token.text == "END"]
+        return since[ends[-1] :] if ends else ()
+
+    @property
+    def block_is_unclosed(self) -> bool:
+        """Whether the END of the open block is missing."""
+        return self.unclosed or ("END" in self.expected and (self.token.kind == "end" or self.token.text == "BEGIN"))
+
+    @property
+    def lacks_goal_type(self) -> bool:
+        """Whether a list of goals begins with a goal rather than with its type."""
+        recent = [token.text for token in self.open[-3:]]
+        return recent == ["BEGIN", "GOALS", "goal"] or (
+            recent[-2:] == ["BEGIN", "GOALS"] and self.expected == {"goal", "END"}
+        )
+
+    @property
+    def wants_predicate(self) -> bool:
+        """Whether a predicate could begin here."""
+        return self.expected >= _PREDICATE
+
+    def last(self, *texts: str) -> Token | None:
+        """The latest open token that is one of `texts`."""
+        return next((token for token in reversed(self.open) if token.text in texts), None)
+
+
+def explain(here: Situation) -> Diagnostic:
+    """The mistake, told as precisely as the detectors below know it."""
+    found = (detector(here) for detector in _DETECTORS)
+    return next((each for each in found if each is not None), None) or _unexpected(here)
+
+
+def _wrong_end(here: Situation) -> Diagnostic | None:
+    if not here.end_words or not here.title or here.begin is None:
+        return None
+    rest = here.tokens[here.index : here.index + 2]
+    same_line = [each.text for each in rest if each.kind == "word" and each.line == here.end_words[0].line]
+    written = " ".join([*(each.text for each in here.end_words), *same_line])
+    title = " ".join(here.title)
+    return Diagnostic(
+        Code.TUM108,
+        f"{quoted(written)} does not close `BEGIN {title}`",
+        _join(here.end_words[0].span, here.token.span if same_line else here.end_words[-1].span),
+        help=f"write `END {title}`",
+        notes=(Note("the block begins here", here.open[here.begin].span),),
+    )
+
+
+def _unclosed_block(here: Situation) -> Diagnostic | None:
+    if not here.block_is_unclosed or here.begin is None:
+        return None
+    title = " ".join(here.title)
+    return Diagnostic(
+        Code.TUM107,
+        f"the block `BEGIN {title}` is not closed",
+        here.token.span,
+        help=f"write `END {title}` before this",
+        notes=(Note("the block begins here", here.open[here.begin].span),),
+    )
+
+
+def _block_title(here: Situation) -> Diagnostic | None:
+    if here.previous is None or here.previous.text not in ("BEGIN", "STATE", "REACTION"):
+        return None
+    if "BEGIN" not in (here.previous.text, here.tokens[max(here.index - 2, 0)].text):
+        return None
+    start = here.index if here.previous.text == "BEGIN" else here.index - 1
+    words = [token.text for token in here.tokens[start : start + 2] if token.kind == "word"]
+    titles = [" ".join(title) for title in BLOCKS]
+    near = _nearest(" ".join(words).upper(), titles) or _nearest(words[0].upper() if words else "", titles)
+    return Diagnostic(
+        Code.TUM105,
+        f"there is no block named {quoted(' '.join(words))}" if words else "`BEGIN` needs the name of a block",
+        here.token.span,
+        help=f"did you mean `BEGIN {near}`?" if near else f"the blocks are {listed(titles)}",
+    )
+
+
+def _character(here: Situation) -> Diagnostic | None:
+    token = here.token
+    if token.kind != "other":
+        return None
+    meant = _SYMBOLS.get(token.text)
+    way_out = f"write `{meant}`" if meant else None
+    if re.match(r"\w", token.text):
+        return Diagnostic(Code.TUM113, f"{quoted(token.text)} is not a name", token.span, help=_NAME_HELP)
+    return Diagnostic(Code.TUM104, f"unexpected {quoted(token.text)}", token.span, help=way_out)
+
+
+_NAME_HELP = "a name is a letter (A-Z, a-z) or `_`, then letters, digits and `_`"
+
+
+def _malformed(here: Situation) -> Diagnostic | None:
+    token = here.token
+    if token.kind not in ("malformed", "number"):
+        return None
+    if "NUMBER" in here.expected:
+        long = token.text.lstrip("-").isdigit()
+        way_out = f"numbers have at most {MAX_DIGITS} digits" if long else "write a whole number, such as `10`"
+        return Diagnostic(Code.TUM114, f"{quoted(token.text)} is not a whole number in range", token.span, help=way_out)
+    if "NAME" in here.expected:
+        return Diagnostic(Code.TUM113, f"{quoted(token.text)} is not a name", token.span, help=_NAME_HELP)
+    return None
+
+
+def _wrong_case(here: Situation) -> Diagnostic | None:
+    keywords = {each.lower(): each for each in here.expected if each.isidentifier() and each not in ("NAME", "NUMBER")}
+    meant = keywords.get(here.token.text.lower())
+    if meant is not None and here.token.kind == "word":
+        return _case(here.token, meant)
+    before = here.previous
+    earlier = {"not": "NOT", "if": "IF", "executing": "executing"}
+    if before is not None and before.kind == "word" and before.text.lower() in earlier:
+        meant = earlier[before.text.lower()]
+        if before.text != meant:
+            return _case(before, meant)
+    return None
+
+
+def _case(token: Token, meant: str) -> Diagnostic:
+    return Diagnostic(
+        Code.TUM111, f"unexpected {quoted(token.text)}", token.span, help=f"did you mean `{meant}`? Case matters"
+    )
+
+
+def _when_when(here: Situation) -> Diagnostic | None:
+    if here.token.text != "when" or here.previous is None or here.previous.text != "then":
+        return None
+    return Diagnostic(
+        Code.TUM112,
+        "`when` cannot follow `then`",
+        here.token.span,
+        help="join the two conditions: `when p AND q then goal: …`",
+    )
+
+
+def _implication(here: Situation) -> Diagnostic | None:
+    text = here.token.text
+    if text == "IFONLYIF":
+        first = here.last("IFONLYIF", "(", ":", "THEN", "IF")
+        if first is not None and first.text == "IFONLYIF":
+            return Diagnostic(
+                Code.TUM109,
+                "`IFONLYIF` cannot be chained",
+                here.token.span,
+                help="say which belongs together: `(p IFONLYIF q) IFONLYIF r`",
+                notes=(Note("the first one is here", first.span),),
+            )
+        if first is not None and first.text == "IF":
+            return _parentheses(here, "p IFONLYIF q")
+    if text == "IF" and "NAME" in here.expected and "(" in here.expected:
+        return _parentheses(here, "IF p THEN q")
+    return None
+
+
+def _parentheses(here: Situation, form: str) -> Diagnostic:
+    return Diagnostic(
+        Code.TUM110,
+        f"`{here.token.text}` needs parentheses here",
+        here.token.span,
+        help=f"write `({form})`",
+    )
+
+
+def _goal_type(here: Situation) -> Diagnostic | None:
+    if not here.lacks_goal_type:
+        return None
+    return Diagnostic(
+        Code.TUM105,
+        "a list of goals begins with its type",
+        here.token.span,
+        help="write `goal type: priority` or `goal type: constraint` first",
+    )
+
+
+def _missing_colon(here: Situation) -> Diagnostic | None:
+    if here.expected != {":"} or here.previous is None:
+        return None
+    return Diagnostic(
+        Code.TUM105,
+        f"{_shown(here.token)} where `:` is expected",
+        here.token.span,
+        help=f"write `{here.previous.text}:`",
+    )
+
+
+def _misspelled(here: Situation) -> Diagnostic | None:
+    if here.token.kind != "word" or here.wants_predicate:
+        return None
+    words = [each for each in here.expected if each.isidentifier() and each not in ("NAME", "NUMBER")]
+    near = _nearest(here.token.text, words)
+    if near is None:
+        return None
+    return Diagnostic(
+        Code.TUM105, f"unexpected {quoted(here.token.text)}", here.token.span, help=f"did you mean `{near}`?"
+    )
+
+
+def _comma(here: Situation) -> Diagnostic | None:
+    if here.token.text != "," or "AND" not in here.expected:
+        return None
+    return Diagnostic(
+        Code.TUM105,
+        "a comma joins predicates in the fields of actions only",
+        here.token.span,
+        help="write `AND`",
+    )
+
+
+def _unexpected(here: Situation) -> Diagnostic:
+    opened = here.last("(") if ")" in here.expected else None
+    return Diagnostic(
+        Code.TUM105,
+        f"{_shown(here.token)} where {_wanted(here)} is expected",
+        here.token.span,
+        help=_form(here),
+        notes=(Note("this parenthesis is open", opened.span),) if opened else (),
+    )
+
+
+def _form(here: Situation) -> str | None:
+    """The form of the item that is half read, unless it is a predicate in it that is wrong."""
+    latest = here.last(*_FORMS)
+    in_predicate = here.wants_predicate or here.expected & {"AND", ")"}
+    after = here.previous.text if here.previous else ""
+    return None if latest is None or in_predicate or after in ("is", "executing") else _FORMS[latest.text]
+
+
+def _wanted(here: Situation) -> str:
+    if here.wants_predicate:
+        return "a predicate"
+    if here.expected == {"$END", "BEGIN"}:
+        return "`BEGIN` and the name of a block"
+    before = here.previous.text if here.previous else ""
+    rank = {text: place for place, text in enumerate((":", ",", *_OPERATORS, ")"))}
+    texts = sorted(here.expected, key=lambda text: (rank.get(text, len(rank)), text))
+    shown = {"NAME": _AFTER.get(before, "a name"), "NUMBER": "a number", "$END": "the end of the text"}
+    return listed([shown.get(text, f"`{text}`") for text in texts], "or", plain=True)
+
+
+def _shown(token: Token) -> str:
+    return "the text ends" if token.kind == "end" else f"unexpected {quoted(token.text)}"
+
+
+def _nearest(word: str, words: Iterable[str]) -> str | None:
+    if len(word) > 60:
+        return None
+    return next(iter(get_close_matches(word, sorted(words), n=1, cutoff=0.7)), None)
+
+
+def _join(first: Span, last: Span) -> Span:
+    return Span(first.line, first.column, last.end_line, last.end_column)
+
+
+_DETECTORS: tuple[Callable[[Situation], Diagnostic | None], ...] = (
+    _wrong_end,
+    _unclosed_block,
+    _block_title,
+    _character,
+    _malformed,
+    _wrong_case,
+    _when_when,
+    _implication,
+    _goal_type,
+    _missing_colon,
+    _misspelled,
+    _comma,
+)

@@ -1,0 +1,21 @@
+"""What parsing yields."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from tumato_symbolic.diagnostics import Diagnostic
+from tumato_symbolic.syntax import ast
+
+
+@dataclass(frozen=True, slots=True)
+class Parsed:
+    """The tree of a text and the mistakes in it.
+
+    After a mistake the tree holds what could be read all the same, or is None where reading had to be given up.
+    `lost` holds the words that were passed over: what they may have declared is not to be missed.
+    """
+
+    tree: ast.Specification | None
+    diagnostics: tuple[Diagnostic, ...]
+    lost: frozenset[str] = frozenset()

@@ -1,0 +1,39 @@
+"""A bound on depth, so that everything after the parser may recurse over trees."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+
+from tumato_symbolic.diagnostics import Span
+from tumato_symbolic.syntax import ast
+
+MAX_NESTING = 100
+"""The most levels that parentheses, operators and goal lists may nest, each operator being one level."""
+
+_CONTAINERS = (
+    ast.Negation,
+    ast.Conjunction,
+    ast.Disjunction,
+    ast.Implication,
+    ast.Equivalence,
+    ast.SimpleGoal,
+    ast.ConditionalGoal,
+    ast.GoalList,
+)
+
+
+def deepest(tree: ast.Specification) -> Span | None:
+    """The place of a node that lies too deep, found without recursion; None where there is none."""
+    waiting: list[tuple[object, int]] = [(tree, 0)]
+    while waiting:
+        node, depth = waiting.pop()
+        if isinstance(node, tuple):
+            waiting.extend((part, depth) for part in node)
+            continue
+        if isinstance(node, _CONTAINERS):
+            depth += 1
+            if depth > MAX_NESTING:
+                return node.span
+        if not isinstance(node, ast.Name | Span) and hasattr(node, "__dataclass_fields__"):
+            waiting.extend((getattr(node, each.name), depth) for each in fields(node))  # type: ignore[arg-type]
+    return None

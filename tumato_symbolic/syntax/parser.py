@@ -1,0 +1,214 @@
+"""Tokens to a tree, going on after a mistake so that one run reports them all.
+
+Keywords are soft: which words are keywords is decided here, by what the parser can take next.
+"""
+
+from __future__ import annotations
+
+from lark import Token as Fed
+
+from tumato_symbolic.diagnostics import Code, Diagnostic, Source, Span
+from tumato_symbolic.syntax import ast
+from tumato_symbolic.syntax.grammar import HARD, Grammar, grammar
+from tumato_symbolic.syntax.mistakes import TITLES, Situation, explain
+from tumato_symbolic.syntax.model import Parsed
+from tumato_symbolic.syntax.nesting import MAX_NESTING, deepest
+from tumato_symbolic.syntax.stack import Row, Stack
+from tumato_symbolic.syntax.tokens import Token, tokenize
+
+MAX_SYNTAX_ERRORS = 100
+"""Reading stops after so many mistakes in the syntax."""
+
+_FOLLOWED_BY = {
+    "duration": (":",),
+    "cost": (":",),
+    "controlled": ("resources",),
+    "preconditions": (":",),
+    "nominal": ("effects",),
+    "effects": (":",),
+    "alternative": ("effects",),
+}
+"""What shows that a word is the keyword, where it could be the name of a variable or an alias as well."""
+
+_RESTARTS = frozenset(
+    ("BEGIN", "END", "state", "define", "resource", "action", "rule", "assume", "goal", "when")
+    + ("max_plan_length", "effect_ordering", *_FOLLOWED_BY)
+)
+"""Words at which reading can go on after a mistake."""
+
+
+def parse_text(source: Source) -> Parsed:
+    """Parse a whole text. The tree is what could be read; `lost` holds the words that were passed over."""
+    compiled = grammar()
+    text = tokenize(source, compiled.token_pattern)
+    run = _Run(compiled, text.tokens)
+    tree = run.read()
+    found = run.found
+    if text.unclosed_comment is not None:
+        end = text.tokens[-1].span
+        found = [*(each for each in found if each.span != end), text.unclosed_comment]
+    return Parsed(tree, tuple(found), frozenset(run.lost))
+
+
+class _Run:
+    """One pass over the tokens of a text."""
+
+    def __init__(self, compiled: Grammar, tokens: tuple[Token, ...]) -> None:
+        self.grammar = compiled
+        self.tokens = tokens
+        self.stack = Stack(compiled.parser)
+        self.index = 0
+        self.found: list[Diagnostic] = []
+        self.lost: set[str] = set()
+        self.open: list[Token] = []
+        self.denials = 0
+
+    def read(self) -> ast.Specification | None:
+        """Feed every token, recovering where one does not fit. None where reading had to be given up."""
+        while len(self.found) <= MAX_SYNTAX_ERRORS:
+            token = self.tokens[self.index]
+            terminal = self._terminal(self.index, self.stack.row())
+            if self._too_deep(token):
+                return None
+            if not self.stack.fits(terminal):
+                self._recover()
+                continue
+            result = self.stack.feed(_fed(terminal, token))
+            if token.kind == "end":
+                return self._checked(result)
+            self.index += 1
+        self.found[-1] = Diagnostic(Code.TUM116, "too many mistakes; the rest was left unread", token.span)
+        return None
+
+    def _checked(self, tree: ast.Specification) -> ast.Specification | None:
+        deep = deepest(tree)
+        if deep is None:
+            return tree
+        self._give_up_nesting(deep)
+        return None
+
+    def _too_deep(self, token: Token) -> bool:
+        """Keep the books of open parentheses and of `NOT` in a row; report where either goes too deep."""
+        if token.text == "(":
+            self.open.append(token)
+        elif token.text == ")" and self.open:
+            self.open.pop()
+        elif token.text in ("BEGIN", "END"):
+            self.open.clear()
+        self.denials = self.denials + 1 if token.text == "NOT" else 0
+        if max(len(self.open), self.denials) <= MAX_NESTING:
+            return False
+        self._give_up_nesting(token.span)
+        return True
+
+    def _give_up_nesting(self, span: Span) -> None:
+        self.found.append(
+            Diagnostic(
+                Code.TUM115,
+                f"nested more than {MAX_NESTING} levels deep",
+                span,
+                help="give parts of it names in the ALIASES block" if not self.found else None,
+            )
+        )
+
+    def _terminal(self, index: int, row: Row) -> str:
+        """The terminal that a token is, in a state with this row of the parse table."""
+        token = self.tokens[index]
+        if token.kind == "word":
+            keyword = self.grammar.terminals.get(token.text)
+            if keyword is None:
+                return "NAME"
+            if token.text in HARD or (keyword in row and ("NAME" not in row or self._confirmed(index))):
+                return keyword
+            return "NAME"
+        if token.kind == "symbol":
+            return self.grammar.terminals[token.text]
+        return {"number": "NUMBER", "end": "$END"}.get(token.kind, "OTHER")
+
+    def _confirmed(self, index: int) -> bool:
+        """Whether a word that may be a keyword or a name is the keyword."""
+        text, following = self.tokens[index].text, self.tokens[index + 1]
+        if text == "action":
+            return following.kind == "word" and following.text not in HARD | {"is"}
+        return text not in _FOLLOWED_BY or following.text in _FOLLOWED_BY[text]
+
+    def _recover(self) -> None:
+        """Report the token at `index`, and make the parser ready to go on with the token at the new `index`."""
+        situation = self._situation()
+        self.found.append(explain(situation))
+        if situation.end_words and situation.title:
+            line = situation.end_words[0].line
+            while self.tokens[self.index].kind == "word" and self.tokens[self.index].line == line:
+                self.index += 1
+            self._supply(*situation.title[len(situation.end_words) - 1 :])
+        elif situation.block_is_unclosed and situation.title:
+            self._supply("END", *situation.title)
+        elif situation.lacks_goal_type and situation.token.text == "when":
+            self._supply("goal", "type", ":", "priority")
+        elif situation.lacks_goal_type and situation.token.text == ":":
+            self._supply("type", ":", "priority")
+            self.index -= 1
+        else:
+            self._panic()
+
+    def _situation(self) -> Situation:
+        """What surrounds the token at `index`.
+
+        A block that begins while a list of goals is open was taken for a nested list: its BEGIN is put back.
+        """
+        opened = _open_tokens(self.stack.values)
+        text = self.tokens[self.index].text
+        begins = sum(token.text == "BEGIN" for token in opened)
+        unclosed = begins > 1 and opened[-1].text == "BEGIN" and text in TITLES and text != "GOALS"
+        if unclosed:
+            self.stack.cut(len(self.stack.values) - 1)
+            opened = opened[:-1]
+            self.index -= 1
+        expected = frozenset(self.grammar.spellings.get(each, each) for each in self.stack.accepted())
+        return Situation(self.tokens, self.index, expected, opened, unclosed)
+
+    def _supply(self, *words: str) -> None:
+        """Feed words that are missing from the text."""
+        here = self.tokens[self.index]
+        for word in words:
+            self.stack.feed(_fed(self.grammar.terminals[word], here, word))
+
+    def _panic(self) -> None:
+        """Drop what is half read, and pass over text up to a word with which something complete can begin."""
+        depths = self.stack.topmost()
+        for index in range(self.index, len(self.tokens)):
+            if self.tokens[index].text in _RESTARTS and self.tokens[index].kind == "word":
+                depth = next((depth for depth in depths if self._can_restart(depth, index)), None)
+                if depth is not None:
+                    self._drop(depth, index)
+                    return
+        self._drop(self.stack.outermost(), len(self.tokens) - 1)
+
+    def _can_restart(self, depth: int, index: int) -> bool:
+        """Whether the two tokens at `index` fit with the stack cut to `depth`, where nothing lies half read on it."""
+        first = self._terminal(index, self.stack.row(depth))
+        after = self.stack.after(first, depth)
+        if after is None or self._terminal(index + 1, after) not in after:
+            return False
+        return self.stack.shifts(first, depth) or self.stack.ends_field(depth)
+
+    def _drop(self, depth: int, index: int) -> None:
+        """Cut the stack to `depth` and go on at `index`; remember every word that this loses."""
+        start = self.stack.cut(depth)
+        first = self.index
+        while start is not None and first > 0 and (self.tokens[first - 1].line, self.tokens[first - 1].column) >= start:
+            first -= 1
+        self.lost.update(token.text for token in self.tokens[first:index])
+        self.index = index
+        self.open.clear()
+
+
+def _fed(terminal: str, token: Token, text: str | None = None) -> Fed:
+    return Fed(terminal, token.text if text is None else text, line=token.line, column=token.column)
+
+
+def _open_tokens(values: list[object]) -> tuple[Token, ...]:
+    """The tokens that are read and not yet part of something complete."""
+    return tuple(
+        Token("word", str(value), value.line or 1, value.column or 1) for value in values if isinstance(value, Fed)
+    )
