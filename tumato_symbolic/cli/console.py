@@ -39,7 +39,7 @@ def write(text: str) -> None:
     except OSError as error:
         close_quietly()
         reason = error.strerror or str(error)
-        raise UserError((Diagnostic(Code.TUM109, f"the output cannot be written: {reason}"),)) from error
+        raise UserError((Diagnostic(Code.TUM117, f"the output cannot be written: {reason}"),)) from error
 
 
 def note(text: str) -> None:
