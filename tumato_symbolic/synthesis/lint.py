@@ -42,15 +42,11 @@ def _idle_rules(problem: Problem) -> Iterator[Diagnostic]:
             broken = ~encoding.formula(rule.formula)
             if (broken & tried) == problem.false and (broken & everything) != problem.false:
                 message = f"no {where} breaks this rule, so it changes nothing"
-                yield Diagnostic(
-                    Code.TUM352, message, rule.span, "remove it, or check the assumptions and preconditions"
-                )
+                yield Diagnostic(Code.TUM352, message, rule.span, "remove it, or check what it was meant to forbid")
 
 
 def _idle_actions(problem: Problem) -> Iterator[Diagnostic]:
     for number, action in enumerate(problem.spec.actions):
         if (problem.steps.allowed & problem.encoding.executing(number)) == problem.false:
             message = f"`{action.name}` is allowed in no valid state, alone or together with others"
-            yield Diagnostic(
-                Code.TUM353, message, action.span, "check its preconditions and what its effects can break"
-            )
+            yield Diagnostic(Code.TUM353, message, action.span, "check its preconditions, and what its effects break")

@@ -57,7 +57,7 @@ def _towards(problem: Problem, policy: Bdd, failing: Bdd, distances: tuple[Layer
 
 
 def give_back(problem: Problem, before: Bdd, after: Bdd) -> Bdd:
-    """`after`, with as many decisions of `before` as can be had without making any state fail; halving what does not go.
+    """`after` with as many decisions of `before` as fit without a failing state; what does not go is halved.
 
     Both policies are defined in every safe state, and none fails under `after`.
     """

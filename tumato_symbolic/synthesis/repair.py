@@ -29,6 +29,14 @@ class Option:
     chosen: ActionSet
 
 
+ROUNDS = 5_000
+"""After so many rounds the answer is `Undecided`."""
+
+
+class RoundsExhaustedError(Exception):
+    """The solver was asked `ROUNDS` times without an answer."""
+
+
 @dataclass(frozen=True, slots=True)
 class Conflict:
     """Valid states that no policy serves together, though it does so without any one of them."""
@@ -48,10 +56,11 @@ class Repair:
         self._options: list[tuple[Option, ...]] = []
         self._states: list[State] = []
         self._picked: list[int] = []
+        self._rounds = 0
         self._distance: dict[tuple[int, State], int | None] = {}
 
     def run(self) -> Bdd | Conflict:
-        """The repaired policy, or the conflict that proves that there is none."""
+        """The repaired policy, or the conflict that proves that there is none. Raises `RoundsExhaustedError`."""
         result = self._serve(self._problem.steps.valid, None)
         if isinstance(result, frozenset):
             return Conflict(self._minimal(result))
@@ -59,7 +68,8 @@ class Repair:
 
     def _serve(self, required: Bdd, guards: list[int] | None) -> Bdd | frozenset[int]:
         """A policy that serves the required states, or starts (by number) that cannot be served together."""
-        while True:
+        while self._rounds < ROUNDS:
+            self._rounds += 1
             picked = self._choices.solve(guards)
             if isinstance(picked, frozenset):
                 return picked
@@ -69,6 +79,7 @@ class Repair:
             if failing == self._problem.false:
                 return candidate
             self._explain_some(failing)
+        raise RoundsExhaustedError
 
     def _minimal(self, core: frozenset[int]) -> tuple[State, ...]:
         """An inclusion-minimal part of a core: each state in turn is left out, and what remains is tried."""

@@ -20,6 +20,7 @@ from tumato_symbolic.synthesis.outcome import (
     Outcome,
     Realizable,
     Statistics,
+    Undecided,
     Unrealizable,
 )
 from tumato_symbolic.synthesis.overriding import give_back, override
@@ -73,6 +74,8 @@ def synthesize(
             failures = (_failure(problem, "no-allowed-set", stuck), _failure(problem, "no-plan", helpless))
             return Unrealizable(tuple(failure for failure in failures if failure is not None), statistics, warnings)
         resolved = _resolve(problem, policy, distances, statistics, tell)
+        if isinstance(resolved, Undecided):
+            return replace(resolved, warnings=warnings)
         if isinstance(resolved, Failure):
             return Unrealizable((resolved,), statistics, warnings)
         policy, statistics = resolved.policy, resolved.statistics
@@ -95,7 +98,7 @@ class _Resolved:
 
 def _resolve(
     problem: Problem, policy: Bdd, distances: tuple[Layers, ...], statistics: Statistics, tell: Callable[[str], None]
-) -> _Resolved | Failure:
+) -> _Resolved | Failure | Undecided:
     """Decide what the own regions leave open, changing earlier decisions only where that is needed."""
     steps = problem.steps
     tell("routing through solved states")
@@ -109,10 +112,13 @@ def _resolve(
     tell("overriding decisions of other goals")
     changed = override(problem, policy, distances)
     if evaluate(problem, changed).failing != problem.false:
-        from tumato_symbolic.synthesis.repair import Conflict, Repair
+        from tumato_symbolic.synthesis.repair import ROUNDS, Conflict, Repair, RoundsExhaustedError
 
         tell("repairing decisions where goals interact")
-        repaired = Repair(problem, changed, distances).run()
+        try:
+            repaired = Repair(problem, changed, distances).run()
+        except RoundsExhaustedError:
+            return Undecided(f"{ROUNDS:,} rounds of repair did not settle how the goals interact", statistics)
         if isinstance(repaired, Conflict):
             return Failure("conflict", len(repaired.states), repaired.states[0], repaired.states)
         changed = repaired

@@ -1,0 +1,144 @@
+"""The symbolic step relation equals the explicit one, on both backends."""
+
+from __future__ import annotations
+
+from itertools import chain, combinations
+
+import pytest
+
+from tests.generate import PROFILES, random_spec
+from tumato_symbolic.semantics import (
+    ActionSet,
+    State,
+    active_goals,
+    all_states,
+    allowed_sets,
+    is_safe,
+    is_valid,
+    nominal_agrees,
+    reached,
+    residual_goal,
+    successor,
+)
+from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.symbolic import (
+    Backend,
+    Encoding,
+    Manager,
+    Steps,
+    available_backend,
+    build_steps,
+    encode,
+    lasting,
+    preferred,
+    regions,
+    targets,
+)
+
+BACKENDS: list[Backend] = sorted({"autoref", available_backend()})
+SEEDS = range(12)
+
+
+def every_set(spec: Spec) -> list[ActionSet]:
+    """All subsets of the actions."""
+    numbers = range(len(spec.actions))
+    return [frozenset(s) for s in chain.from_iterable(combinations(numbers, size) for size in range(len(numbers) + 1))]
+
+
+def relation(steps: Steps) -> set[tuple[State, ActionSet]]:
+    """`Ok` as the engine has it, pair by pair."""
+    encoding = steps.encoding
+    return {
+        (state, chosen)
+        for state in all_states(encoding.spec)
+        for chosen in every_set(encoding.spec)
+        if encodes(encoding, chosen)
+        and (encoding.at(steps.allowed, state) & encoding.choices_cube(chosen)) != encoding.manager.false
+    }
+
+
+def encodes(encoding: Encoding, chosen: ActionSet) -> bool:
+    """Whether a set is a combination of choices: at most one action of each group."""
+    return all(len(chosen & set(group.actions)) <= 1 for group in encoding.groups)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+@pytest.mark.parametrize("ordering", ["any", "first"])
+@pytest.mark.parametrize("seed", SEEDS)
+def test_allowed_pairs_are_those_of_the_semantics(seed: int, ordering: Ordering, backend: Backend) -> None:
+    """`Ok(s, A)` of section 3, for every state and set of a generated specification."""
+    spec = random_spec(seed, PROFILES["restoring" if seed % 2 else "mixed"])
+    steps = build_steps(encode(spec, backend), ordering)
+    valid = [state for state in all_states(spec) if is_valid(spec, state)]
+    assert relation(steps) == {(state, chosen) for state in valid for chosen in allowed_sets(spec, state, ordering)}
+    assert list(steps.encoding.states_in(steps.valid)) == valid
+    assert list(steps.encoding.states_in(steps.safe)) == [state for state in valid if is_safe(spec, state)]
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_predecessors_and_successors_follow_all_nominal_effects_at_once(seed: int) -> None:
+    """`before` and `successors` agree with `δ`."""
+    spec = random_spec(seed, PROFILES["mixed"])
+    steps = build_steps(encode(spec, available_backend()), "any")
+    encoding, false = steps.encoding, steps.encoding.manager.false
+    states = list(all_states(spec))
+    goal = states[len(states) // 2]
+    before = steps.before(encoding.state_cube(goal))
+    for state in states[:20]:
+        for chosen in every_set(spec):
+            if encodes(encoding, chosen) and nominal_agrees(spec, chosen):
+                pair = encoding.state_cube(state) & encoding.choices_cube(chosen)
+                end = successor(spec, state, chosen)
+                assert ((pair & before) != false) == (end == goal)
+                assert steps.successors(pair) == encoding.state_cube(end)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_regions_and_targets_are_the_active_and_residual_goals(seed: int) -> None:
+    """Every valid state lies in the region of `Γ(s)` alone, every allowed pair owes the target of its residual goal."""
+    spec = random_spec(seed, PROFILES["interacting"])
+    steps = build_steps(encode(spec, available_backend()), "any")
+    encoding = steps.encoding
+    active = regions(encoding, steps.valid)
+    found = targets(steps, active)
+    for state in all_states(spec):
+        inside = [goals for goals, region in active.items() if encoding.contains(region, state)]
+        assert inside == ([active_goals(spec, state)] if is_valid(spec, state) else [])
+    for state, chosen in sorted(relation(steps), key=str)[:100]:
+        pair = encoding.state_cube(state) & encoding.choices_cube(chosen)
+        owed = [target for target in found if (target.owed & pair) != encoding.manager.false]
+        residual = residual_goal(spec, state, chosen)
+        assert [
+            [r for r, owing in target.residuals if (owing & pair) != encoding.manager.false] for target in owed
+        ] == [[residual]]
+        goal = {t for t in all_states(spec) if is_safe(spec, t) and reached(spec, residual, t)}
+        assert set(encoding.states_in(owed[0].states)) == goal
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_preferred_set_is_the_smallest_then_the_one_declared_first(seed: int) -> None:
+    """Section 6: fewest actions, then the first in the order of sorted positions; `lasting` sums durations exactly."""
+    spec = random_spec(seed, PROFILES["restoring"])
+    steps = build_steps(encode(spec, available_backend()), "any")
+    encoding = steps.encoding
+    chosen = preferred(encoding, steps.allowed)
+    for state in encoding.states_in(steps.valid):
+        sets = sorted(allowed_sets(spec, state, "any"), key=lambda one: (len(one), sorted(one)))
+        here = encoding.at(chosen, state)
+        assert here == (encoding.choices_cube(sets[0]) if sets else encoding.manager.false)
+    for some in every_set(spec):
+        if encodes(encoding, some):
+            total = sum(spec.actions[action].duration for action in some)
+            assert (encoding.choices_cube(some) & lasting(encoding, total)) != encoding.manager.false
+            assert (encoding.choices_cube(some) & lasting(encoding, total + 1)) == encoding.manager.false
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_counts_are_exact_beyond_machine_words(backend: Backend) -> None:
+    """A set over 200 bits has exactly as many members as it has, which no float can hold."""
+    bits = [f"b{number}" for number in range(200)]
+    manager = Manager(bits, backend)
+    assert manager.count(manager.true, bits) == 2**200
+    assert manager.count(~manager.cube(dict.fromkeys(bits, True)), bits) == 2**200 - 1
+    assert manager.count(manager.cube({"b7": True, "b150": False}), bits) == 2**198
+    assert manager.count(manager.false, bits) == 0

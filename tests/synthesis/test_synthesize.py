@@ -1,0 +1,249 @@
+"""Synthesis on specifications made by hand: one for each way in which a policy comes about, or does not."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from importlib import import_module
+
+import pytest
+
+from tests.semantics.build import Build, chosen, constraint, priority, when
+from tumato_symbolic.diagnostics import Code, UserError
+from tumato_symbolic.policy import Policy, Table, as_table, dumps
+from tumato_symbolic.semantics import ActionSet, State, judge
+from tumato_symbolic.spec import FALSE, And, Not, Or, Spec
+from tumato_symbolic.symbolic import available_backend
+from tumato_symbolic.synthesis import Outcome, Realizable, Undecided, Unrealizable, synthesize
+
+pipeline = import_module("tumato_symbolic.synthesis.synthesize")
+
+
+def rows(outcome: Outcome) -> dict[State, ActionSet]:
+    """The decisions of a realizable outcome."""
+    assert isinstance(outcome, Realizable)
+    assert isinstance(outcome.policy.decisions, Table)
+    return dict(outcome.policy.decisions.rows)
+
+
+def line(bound: int | None = None) -> tuple[Build, Spec]:
+    """Four places in a row, one step to the right or left at a time; the goal is the last one."""
+    build = Build({"x": "abcd"})
+    for here, there in ("ab", "bc", "cd", "dc", "cb", "ba"):
+        build.action(f"x={there}", when=[build.atom(f"x={here}")])
+    return build, build.spec(priority(build.goal(build.atom("x=d"))), bound=bound)
+
+
+def test_a_policy_takes_the_fewest_steps() -> None:
+    """Section 6: in a safe state the nominal run is as short as it can be; at the goal, doing nothing is one step."""
+    build, spec = line()
+    outcome = synthesize(spec)
+    assert rows(outcome) == {
+        build.state("a"): {0},
+        build.state("b"): {1},
+        build.state("c"): {2},
+        build.state("d"): frozenset(),
+    }
+    assert outcome.statistics.longest_run == 3
+
+
+@pytest.mark.parametrize(("bound", "failing"), [(3, ""), (2, "a"), (1, "ab")])
+def test_the_plan_bound_counts_steps(bound: int, failing: str) -> None:
+    """A state fails with `no-plan` exactly when its shortest run is longer than the bound."""
+    build, spec = line(bound)
+    outcome = synthesize(spec)
+    if not failing:
+        assert isinstance(outcome, Realizable)
+        return
+    assert isinstance(outcome, Unrealizable)
+    (failure,) = outcome.failures
+    assert (failure.kind, failure.count) == ("no-plan", len(failing))
+    assert failure.states == tuple(build.state(letter) for letter in failing)
+    assert outcome.statistics.longest_run is None
+
+
+def test_unsafe_states_are_left_by_the_shortest_duration() -> None:
+    """Sections 5 and 6: the duration of a set is a sum, and the smallest wins even when its run is longer."""
+    build = Build({"x": "abcd"})
+    bad = build.atom("x=a")
+    build.action("x=d", when=[bad], duration=7)
+    build.action("x=b", when=[bad], duration=6)
+    build.action("x=c", when=[build.atom("x=b")])
+    build.action("x=d", when=[build.atom("x=c")])
+    spec = build.spec(priority(build.goal(build.atom("x=d"))), state_rules=[Not(bad)])
+    outcome = synthesize(spec)
+    assert rows(outcome)[build.state("a")] == {1}
+    assert outcome.statistics.restoring_durations == 1
+
+
+def test_huge_durations_are_exact() -> None:
+    """Durations beyond machine integers are compared as they are written."""
+    build = Build({"x": "ab"})
+    build.action("x=b", duration=10**30 + 1)
+    build.action("x=b", duration=10**30)
+    spec = build.spec(state_rules=[build.atom("x=b")])
+    assert rows(synthesize(spec))[build.state("a")] == {1}
+
+
+def interacting() -> Spec:
+    """Load both, then deliver: a half-loaded robot would deliver at once, but then nobody ever loads both."""
+    build = Build({"p": "ny", "q": "ny"})
+    for name in "pq":
+        build.action(f"{name}=y", when=[build.atom(f"{name}=n")])
+        build.action(f"{name}=n", when=[build.atom(f"{name}=y")])
+    p, q = build.atom("p=y"), build.atom("q=y")
+    empty = And((Not(p), Not(q)))
+    goals = priority(
+        when(empty, build.goal(And((p, q)))),
+        when(p, build.goal(Not(p))),
+        when(q, build.goal(Not(q))),
+    )
+    return build.spec(goals)
+
+
+def exclusive(spec: Spec) -> Spec:
+    """The same with at most one action at a time."""
+    single = tuple(replace(action, resources=frozenset((0,))) for action in spec.actions)
+    return replace(spec, actions=single, resources=("ARM",))
+
+
+def test_goals_that_interact_are_solved_and_little_is_changed() -> None:
+    """One half-loaded state has to load before it delivers; the other keeps its own shortest run."""
+    spec = interacting()
+    spec = exclusive(spec)
+    outcome = synthesize(spec)
+    judgement = judge(spec, rows(outcome), "any")
+    assert judgement.sound_and_complete
+    assert judgement.longest_run == outcome.statistics.longest_run
+    assert outcome.statistics.changed == 1
+
+
+def test_repair_alone_solves_what_overriding_would(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Lazy repair does not lean on the phases before it."""
+    monkeypatch.setattr(pipeline, "override", lambda problem, policy, distances: policy)
+    spec = interacting()
+    spec = exclusive(spec)
+    outcome = synthesize(spec)
+    assert judge(spec, rows(outcome), "any").sound_and_complete
+    assert outcome.statistics.changed == 1
+
+
+def test_a_limit_ends_in_undecided(monkeypatch: pytest.MonkeyPatch) -> None:
+    """When repair runs out of rounds the answer is neither yes nor no."""
+    monkeypatch.setattr(pipeline, "override", lambda problem, policy, distances: policy)
+    monkeypatch.setattr(import_module("tumato_symbolic.synthesis.repair"), "ROUNDS", 1)
+    spec = interacting()
+    outcome = synthesize(exclusive(spec))
+    assert isinstance(outcome, Undecided)
+    assert "rounds" in outcome.limit
+
+
+def test_goals_that_conflict_are_named_by_a_minimal_set() -> None:
+    """Section 7: each state has a plan alone, but the state between them can serve only one side."""
+    build = Build({"x": "lmrLR"})
+    for here, there in ("lm", "rm", "mL", "mR", "LL", "RR"):
+        build.action(f"x={there}", when=[build.atom(f"x={here}")])
+    goals = priority(
+        when(build.atom("x=l"), build.goal(build.atom("x=R"))),
+        when(build.atom("x=r"), build.goal(build.atom("x=L"))),
+    )
+    outcome = synthesize(build.spec(goals))
+    assert isinstance(outcome, Unrealizable)
+    (failure,) = outcome.failures
+    assert (failure.kind, failure.states) == ("conflict", (build.state("l"), build.state("r")))
+    assert (failure.count, failure.example) == (2, build.state("l"))
+
+
+def test_a_state_can_conflict_with_itself() -> None:
+    """A run that has to pass one state twice, deciding differently, is a plan alone but no policy's run."""
+    build = Build({"x": "stg"})
+    start, goal = build.atom("x=s"), build.atom("x=g")
+    away = build.action("x=t", when=[start])
+    build.action("x=s", when=[build.atom("x=t")])
+    build.action("x=g", when=[start])
+    goals = priority(when(start, build.goal(And((away, goal)))))
+    outcome = synthesize(build.spec(goals))
+    assert isinstance(outcome, Unrealizable)
+    assert [(failure.kind, failure.states) for failure in outcome.failures] == [("conflict", (build.state("s"),))]
+
+
+def test_states_without_an_allowed_set_and_without_a_plan_are_told_apart() -> None:
+    """Section 7: both kinds are reported at once, each state once."""
+    build = Build({"x": "abcd"})
+    build.action("x=d", when=[build.atom("x=c")])
+    bad = build.atom("x=a")
+    spec = build.spec(priority(build.goal(build.atom("x=d"))), state_rules=[Not(bad)])
+    outcome = synthesize(spec)
+    assert isinstance(outcome, Unrealizable)
+    assert [(failure.kind, failure.states) for failure in outcome.failures] == [
+        ("no-allowed-set", (build.state("a"),)),
+        ("no-plan", (build.state("b"),)),
+    ]
+
+
+def test_executing_in_a_goal_is_settled_by_the_first_set() -> None:
+    """A goal `executing a` is reached after one step by whoever can run it, and by nobody else."""
+    build = Build({"x": "ab"})
+    act = build.action("x=b", when=[build.atom("x=a")])
+    either = build.goal(Or((act, build.atom("x=b"))))
+    outcome = synthesize(build.spec(constraint(either)))
+    assert rows(outcome) == {build.state("a"): chosen(act), build.state("b"): frozenset()}
+    only = build.goal(act)
+    refused = synthesize(build.spec(constraint(only)))
+    assert isinstance(refused, Unrealizable)
+    assert refused.failures[0].states == (build.state("b"),)
+
+
+def test_no_valid_state_is_an_error_of_the_specification() -> None:
+    """Section 1: an empty `V` is an error, with the assumption to blame."""
+    build = Build({"x": "ab"})
+    with pytest.raises(UserError) as error:
+        synthesize(build.spec(assumptions=[build.atom("x=a"), build.atom("x=b")]))
+    assert error.value.diagnostics[0].code is Code.TUM312
+
+
+def test_warnings_that_need_the_state_space() -> None:
+    """A hidden goal, a rule that nothing breaks, and an action that is never allowed are reported."""
+    build = Build({"x": "ab", "y": "ab"})
+    build.action("y=b", when=[build.atom("x=b")])
+    goals = priority(build.goal(build.atom("x=a")), when(build.atom("y=a"), build.goal(build.atom("y=b"))))
+    spec = build.spec(goals, state_rules=[build.atom("x=a")], assumptions=[build.atom("x=a")])
+    outcome = synthesize(spec)
+    assert sorted(warning.code.name for warning in outcome.warnings) == ["TUM351", "TUM352", "TUM353"]
+
+
+def test_a_predicate_decided_by_its_own_variables_is_not_reported_twice() -> None:
+    """Always-true rules and never-true conditions are found when the text is read."""
+    build = Build({"x": "ab"})
+    goals = priority(when(FALSE, build.goal(build.atom("x=a"))))
+    outcome = synthesize(build.spec(goals, state_rules=[Or((build.atom("x=a"), build.atom("x=b")))]))
+    assert outcome.warnings == ()
+
+
+@pytest.mark.skipif(available_backend() == "autoref", reason="there is only one backend here")
+def test_backends_and_formats_agree_byte_for_byte() -> None:
+    """The same policy file from CUDD and from pure Python; a diagram holds the same decisions as the table."""
+    spec = interacting()
+    spec = exclusive(spec)
+
+    def policy(**options: object) -> Policy:
+        outcome = synthesize(spec, **options)  # type: ignore[arg-type]
+        assert isinstance(outcome, Realizable)
+        return outcome.policy
+
+    assert dumps(policy(backend="cudd")) == dumps(policy(backend="autoref"))
+    diagram = policy(policy_format="diagram", backend="autoref")
+    assert dumps(diagram) == dumps(policy(policy_format="diagram", backend="cudd"))
+    assert as_table(diagram, 100) == policy().decisions
+
+
+def test_tables_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Above a limit a policy is a diagram, and a table that is too large is refused with the way out."""
+    _, spec = line()
+    monkeypatch.setattr(pipeline, "TABLE_LIMIT", 3)
+    outcome = synthesize(spec)
+    assert isinstance(outcome, Realizable)
+    assert not isinstance(outcome.policy.decisions, Table)
+    monkeypatch.setattr(pipeline, "TABLE_MAXIMUM", 3)
+    with pytest.raises(UserError) as error:
+        synthesize(spec, policy_format="table")
+    assert error.value.diagnostics[0].code is Code.TUM508
