@@ -187,7 +187,7 @@ class _Run:
     def _can_restart(self, depth: int, index: int) -> bool:
         """Whether the two tokens at `index` fit with the stack cut to `depth`, where nothing lies half read on it."""
         first = self._terminal(index, self.stack.row(depth))
-        after = self.stack.after(first, depth)
+        after = self.stack.after(first, depth) if first != "NAME" else None
         if after is None or self._terminal(index + 1, after) not in after:
             return False
         return self.stack.shifts(first, depth) or self.stack.ends_field(depth)
