@@ -7,7 +7,9 @@ the package costs next to nothing.
 
 from __future__ import annotations
 
+import sys
 from importlib import import_module
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -15,7 +17,8 @@ if TYPE_CHECKING:
     from tumato_symbolic.policy import Policy
     from tumato_symbolic.spec import Spec
     from tumato_symbolic.synthesis import Failure, Realizable, Statistics, Undecided, Unrealizable, synthesize
-    from tumato_symbolic.verify import Verification, verify
+    from tumato_symbolic.verify import Verification
+    from tumato_symbolic.verify.prove import verify
 
 __version__ = "0.1.0"
 
@@ -31,7 +34,6 @@ _HOMES = {
     "Unrealizable": "synthesis",
     "synthesize": "synthesis",
     "Verification": "verify",
-    "verify": "verify",
 }
 
 __all__ = [
@@ -72,3 +74,19 @@ def __getattr__(name: str) -> Any:  # noqa: ANN401 - the kinds differ, and type 
 
 def __dir__() -> list[str]:
     return __all__
+
+
+class _Package(ModuleType):
+    """The package, in which `verify` is the function although a subpackage has the same name."""
+
+    @property
+    def verify(self) -> Any:  # noqa: ANN401 - as above
+        """See `tumato_symbolic.verify.prove.verify`."""
+        return import_module(f"{__name__}.verify.prove").verify
+
+    @verify.setter
+    def verify(self, subpackage: ModuleType) -> None:
+        """Importing a subpackage binds its name here; this one is reached by its path only."""
+
+
+sys.modules[__name__].__class__ = _Package

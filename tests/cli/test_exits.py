@@ -7,6 +7,7 @@ import pytest
 
 from tests.cli.conftest import Cli
 from tests.cli.inputs import state
+from tumato_symbolic.verify import prove
 
 
 def test_synth_then_verify(cli: Cli, tmp_path: Path) -> None:
@@ -213,14 +214,13 @@ def test_our_own_refuted_policy_is_a_bug_and_is_not_written(
     cli: Cli, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     """If the verifier refutes what `synth` found, nothing is written and the exit code is 70."""
-    from tumato_symbolic import verify as module  # noqa: F401 - loads the room
+    from tumato_symbolic import verify
     from tumato_symbolic.policy import Policy
-    from tumato_symbolic.verify import verify
 
     def against_the_wrong_policy(_: Policy, *arguments: object, **settings: object) -> object:
         return verify(Policy.load("lazy.json"), *arguments, **settings)  # type: ignore[arg-type]
 
-    monkeypatch.setattr("tumato_symbolic.verify.verify", against_the_wrong_policy)
+    monkeypatch.setattr(prove, "verify", against_the_wrong_policy)
     ran = cli("synth", "amr.tum")
     assert ran.code == 70
     assert not (tmp_path / "policy.json").exists()
@@ -232,12 +232,12 @@ def test_an_unproved_policy_is_undecided_and_not_written(
     """If the verifier meets its limits, nothing is written, the exit code is 3 and the verdict `undecided`."""
     from dataclasses import replace
 
-    from tumato_symbolic.verify import verify
+    from tumato_symbolic import verify
 
     def giving_up(*arguments: object, **settings: object) -> object:
         return replace(verify(*arguments, **settings), verdict="undecided")  # type: ignore[arg-type]
 
-    monkeypatch.setattr("tumato_symbolic.verify.verify", giving_up)
+    monkeypatch.setattr(prove, "verify", giving_up)
     ran = cli("synth", "amr.tum", "--output-format", "json")
     report = json.loads(ran.out)
     assert (ran.code, report["verdict"], report["policy"]) == (3, "undecided", None)

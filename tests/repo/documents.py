@@ -88,8 +88,8 @@ def perform(step: Step | Given, folder: Path) -> str:
 
 def matches(expected: str, printed: str) -> bool:
     """Whether output is what a document says, up to `...` and times."""
-    pattern = re.escape(_TIME.sub("0 s", expected.strip()))
-    pattern = re.sub(r"(?m)^\\\.\\\.\\\.$", r"(?s:.*?)", pattern).replace(r"\.\.\.", ".*?")
+    lines = _TIME.sub("0 s", expected.strip()).split("\n")
+    pattern = "\n".join("(?s:.*?)" if line == "..." else re.escape(line).replace(r"\.\.\.", ".*?") for line in lines)
     return re.fullmatch(pattern, _TIME.sub("0 s", printed.strip())) is not None
 
 

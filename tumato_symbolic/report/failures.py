@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
+from typing import Final
+
+from tumato_symbolic.diagnostics import Code
 from tumato_symbolic.report.layout import count
 from tumato_symbolic.report.reasons import Place, broken_here, why_no_set
 from tumato_symbolic.semantics import named
 from tumato_symbolic.spec import Ordering, Spec
-from tumato_symbolic.synthesis.outcome import Failure
+from tumato_symbolic.synthesis.outcome import Failure, FailureKind
+
+FAILURE_CODES: Final[dict[FailureKind, Code]] = {
+    "no-allowed-set": Code.TUM401,
+    "no-plan": Code.TUM402,
+    "conflict": Code.TUM403,
+}
 
 _STATES_IN_JSON = 100
 _STATES_IN_TEXT = 8
@@ -21,7 +30,7 @@ def failure_text(place: Place, failure: Failure, ordering: Ordering) -> str:
             lines = _no_plan(place, failure)
         case "conflict":
             lines = _conflict(place, failure)
-    return "\n".join(lines)
+    return f"error[{FAILURE_CODES[failure.kind].name}]: " + "\n".join(lines)
 
 
 def _head(place: Place, failure: Failure, what: str) -> list[str]:
@@ -42,10 +51,10 @@ def _no_allowed_set(place: Place, failure: Failure, ordering: Ordering) -> list[
 
 def _no_plan(place: Place, failure: Failure) -> list[str]:
     bound = place.spec.max_plan_length
-    runs = "no run, however long," if bound is None else f"no run of at most {count(bound, 'step')} (max_plan_length)"
+    length = ", however long," if bound is None else f" of at most {count(bound, 'step')} (max_plan_length)"
     return [
         *_head(place, failure, "allowed sets, but no plan"),
-        f"Its goal is {place.goals(failure.example)}, and {runs} of allowed steps reaches it.",
+        f"Its goal is {place.goals(failure.example)}, and no run of allowed sets{length} reaches it.",
         "Give the robot an action towards the goal, relax a rule or the goal"
         + ("." if bound is None else ", or raise max_plan_length."),
     ]
@@ -69,6 +78,7 @@ def failure_json(spec: Spec, failure: Failure) -> dict[str, object]:
     """One kind of failure for a program: the exact count, an example, and the first states."""
     return {
         "kind": failure.kind,
+        "code": FAILURE_CODES[failure.kind].name,
         "count": failure.count,
         "example": named(spec, failure.example),
         "states": [named(spec, state) for state in failure.states[:_STATES_IN_JSON]],

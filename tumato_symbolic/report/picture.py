@@ -41,10 +41,11 @@ def _tree(spec: Spec, rows: _Rows, free: frozenset[int], depth: int) -> list[_Li
     labels = {label for _, label in rows}
     if len(labels) == 1:
         return [_Line(depth, "always", labels.pop())]
-    best = min(sorted(free), key=lambda variable: _cost(_split(rows, variable)))
+    splits = {variable: _split(rows, variable) for variable in sorted(free)}
+    best = min((each for each in splits if len(splits[each]) > 1), key=lambda each: _cost(splits[each]))
     variable = spec.variables[best]
     lines = []
-    for values, part in _split(rows, best):
+    for values, part in splits[best]:
         question = f"{variable.name} {' or '.join(variable.values[value] for value in values)}"
         below = _tree(spec, part, free - {best}, depth + 1)
         if len(below) == 1:

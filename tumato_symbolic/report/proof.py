@@ -23,17 +23,24 @@ _CLAIMS: Final[dict[PropertyName, str]] = {
     "ordering": "the policy assumes the effect ordering that the specification writes",
 }
 
+_PROVERS: Final = {"z3": "Z3"}
+
 _STEPS_SHOWN = 12
 
 
 def proof_text(verification: Verification, valid: int, took: float, paint: Paint) -> str:
     """What is proved of a policy, property by property, and what stayed open."""
     results = verification.properties
-    provers = enumeration(list(dict.fromkeys(each.proved_by for each in results if each.proved_by)))
-    head = f"{paint.good('Proved')} by {provers} for all {valid:,} valid states, in {seconds(took)}:"
+    head = f"{paint.good('Proved')} by {provers(verification)} for all {valid:,} valid states, in {seconds(took)}:"
     if verification.verdict != "proved":
         head = f"{paint.doubt('Not everything could be proved')}; it took {seconds(took)}:"
     return "\n".join((head, *(f"  {property_line(result, paint)}" for result in results)))
+
+
+def provers(verification: Verification) -> str:
+    """Who proved what is proved."""
+    names = dict.fromkeys(result.proved_by for result in verification.properties if result.proved_by)
+    return enumeration([_PROVERS.get(name, name) for name in names])
 
 
 def property_line(result: PropertyResult, paint: Paint) -> str:
@@ -104,7 +111,6 @@ def proof_json(spec: Spec, verification: Verification) -> dict[str, object]:
         "verdict": verification.verdict,
         "properties": {result.name: _property_json(spec, result) for result in verification.properties},
         "effect_ordering": verification.ordering,
-        "effect_ordering_from": verification.ordering_source,
         "valid_states": verification.valid_states,
         "certificate": {"status": verification.certificate.status, "reason": verification.certificate.reason},
     }

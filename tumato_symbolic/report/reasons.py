@@ -16,6 +16,7 @@ from tumato_symbolic.semantics import (
     State,
     action_names,
     active_goals,
+    duration,
     holds,
     is_safe,
     named,
@@ -107,12 +108,14 @@ def broken_here(place: Place, state: State) -> str:
 def why_no_set(place: Place, state: State, ordering: Ordering, limit: int = 3) -> list[str]:
     """The sets that come nearest to being allowed in a state where none is, each with what speaks against it.
 
-    Nearest: the nominal effects at least would do; then the fewest objections; then the fewest actions.
+    Nearest: the nominal effects at least would do; then the fewest objections; the fewest actions; the
+    smallest duration.
     """
     tried = []
     for chosen in _candidates(place.spec, state):
         found = list(objections(place.spec, state, chosen, ordering))
-        distance = (any(each.kind == "nominal-unsafe" for each in found), len(found), len(chosen))
+        wrong_end = any(each.kind == "nominal-unsafe" for each in found)
+        distance = (wrong_end, len(found), len(chosen), duration(place.spec, chosen))
         tried.append((distance, chosen, found))
     tried.sort(key=lambda entry: (entry[0], sorted(entry[1])))
     lines = [f"{place.actions(chosen)}: {_together(place, found)}" for _, chosen, found in tried[:limit]]

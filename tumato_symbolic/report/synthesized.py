@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import shlex
 from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Diagnostic, Source
-from tumato_symbolic.policy import as_table
-from tumato_symbolic.report.failures import failure_json, failure_text
+from tumato_symbolic.policy import Table, as_table
+from tumato_symbolic.report.failures import FAILURE_CODES, failure_json, failure_text
 from tumato_symbolic.report.findings import finding_json, github_command, github_commands
 from tumato_symbolic.report.layout import Paint, count, seconds
 from tumato_symbolic.report.picture import picture
@@ -103,10 +104,11 @@ def _next(done: Synthesized, outcome: Realizable) -> str:
         return "The policy was not written. With --no-verify it would be, unproved."
     if done.output == "-":
         return "The policy is on the standard output."
-    example = outcome.policy.vocabulary.variables
-    state = " ".join(f"{name}={values[0]}" for name, values in example)
-    lines = [f"{done.output} is written. Next:", f"  tumato-sym decide {done.output} {state}"]
-    return "\n".join((*lines, f"  tumato-sym verify {done.output} {done.source.name}"))
+    decisions, file = outcome.policy.decisions, shlex.quote(done.output)
+    example = next(iter(decisions.rows), None) if isinstance(decisions, Table) else None
+    state = "VARIABLE=VALUE …" if example is None else done.place.state(example)
+    lines = [f"{done.output} is written. Next:", f"  tumato-sym decide {file} {state}"]
+    return "\n".join((*lines, f"  tumato-sym verify {file} {shlex.quote(done.source.name)}"))
 
 
 def _unrealizable(done: Synthesized, outcome: Unrealizable, paint: Paint) -> list[str]:
@@ -176,5 +178,5 @@ def as_github(done: Synthesized) -> str:
     if isinstance(outcome, Unrealizable):
         for failure in outcome.failures:
             message = f"not realizable: {failure_text(done.place, failure, outcome.statistics.ordering)}"
-            commands.append(github_command("error", message, file))
+            commands.append(github_command("error", message, file, title=FAILURE_CODES[failure.kind].name))
     return "\n".join(commands)

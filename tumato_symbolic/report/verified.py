@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from tumato_symbolic.diagnostics import Diagnostic, Source
 from tumato_symbolic.report.findings import finding_json, github_command, github_commands
 from tumato_symbolic.report.layout import Paint, enumeration, seconds
-from tumato_symbolic.report.proof import ORDERINGS, proof_json, property_line, refutation_text
+from tumato_symbolic.report.proof import ORDERINGS, proof_json, property_line, provers, refutation_text
 from tumato_symbolic.report.reasons import Place
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.verify.result import PROPERTIES, CertificateUse, Verification
@@ -63,9 +63,10 @@ def _verdict(done: Verified, paint: Paint) -> str:
     found = done.verification
     match found.verdict:
         case "proved":
-            provers = enumeration(list(dict.fromkeys(each.proved_by for each in found.properties if each.proved_by)))
             states = "all valid states" if found.valid_states is None else f"all {found.valid_states:,} valid states"
-            return f"{done.policy} is {paint.good('proved')} against {done.source.name} by {provers}, for {states}."
+            return (
+                f"{done.policy} is {paint.good('proved')} against {done.source.name} by {provers(found)}, for {states}."
+            )
         case "refuted":
             return f"{done.policy} is {paint.bad('refuted')} against {done.source.name}."
         case "undecided":
@@ -81,6 +82,7 @@ def as_json(done: Verified) -> dict[str, object]:
     """The report for a program."""
     return {
         **proof_json(done.spec, done.verification),
+        "effect_ordering_from": done.verification.ordering_source,
         "policy": done.policy,
         "specification": done.source.name,
         "seconds": round(done.took, 3),
@@ -93,7 +95,7 @@ def as_github(done: Verified) -> str:
     commands = [github_commands(done.warnings, done.source.name)] if done.warnings else []
     open_results = [result for result in done.verification.properties if result.verdict != "proved"]
     for result in open_results:
-        message = property_line(result, Paint(False))
+        message = " ".join(property_line(result, Paint(False)).split())
         span = None
         file = done.policy
         if result.refutation is not None:
