@@ -11,7 +11,7 @@ Known: TypeAlias = dict[tuple[str, int], int]
 """Part of a state and of a set of actions: value by ("variable", number), 0 or 1 by ("action", number)."""
 
 
-class OutOfBudget(Exception):
+class OutOfBudgetError(Exception):
     """The search was given up."""
 
 
@@ -22,10 +22,10 @@ class Budget:
         self._left = terms
 
     def spend(self, terms: int) -> None:
-        """Take `terms` off, or raise `OutOfBudget`."""
+        """Take `terms` off, or raise `OutOfBudgetError`."""
         self._left -= terms
         if self._left < 0:
-            raise OutOfBudget
+            raise OutOfBudgetError
 
 
 def size(formula: Formula) -> int:
@@ -45,25 +45,26 @@ def unknowns(formula: Formula) -> list[tuple[str, int]]:
 def models(formula: Formula, sizes: Mapping[int, int], budget: Budget) -> Iterator[Known]:
     """Every assignment to the unknowns of `formula` that satisfies it, each once, in lexicographic order.
 
-    `sizes` tells how many values each variable has. Raises `OutOfBudget` rather than searching for long.
+    `sizes` tells how many values each variable has. Raises `OutOfBudgetError` rather than searching for long.
     """
     open_ = unknowns(formula)
     known: Known = {}
     parts = formula.operands if isinstance(formula, And) else (formula,)
-    for part in parts:
-        if isinstance(part, Is):
-            if known.setdefault(("variable", part.variable), part.value) != part.value:
-                return
+    pinned = [part for part in parts if isinstance(part, Is)]
+    if any(known.setdefault(("variable", part.variable), part.value) != part.value for part in pinned):
+        return
     rest = [part for part in parts if not isinstance(part, Is)]
     remaining = And(tuple(rest)) if len(rest) > 1 else rest[0] if rest else Constant(True)
-    yield from _search(remaining, size(remaining), [each for each in open_ if each not in known], known, sizes, budget)
+    waiting = [each for each in open_ if each not in known]
+    options = [range(sizes[number]) if kind == "variable" else range(2) for kind, number in waiting]
+    yield from _search(remaining, list(zip(waiting, options, strict=True)), known, budget)
 
 
 def _search(
-    formula: Formula, cost: int, open_: list[tuple[str, int]], known: Known, sizes: Mapping[int, int], budget: Budget
+    formula: Formula, open_: list[tuple[tuple[str, int], range]], known: Known, budget: Budget
 ) -> Iterator[Known]:
     """Depth first, without recursion, cutting off what cannot become true any more."""
-    options = [range(sizes[number]) if kind == "variable" else range(2) for kind, number in open_]
+    cost = size(formula)
     choices: list[Iterator[int]] = []
     budget.spend(cost)
     if truth(formula, known) is False:
@@ -72,9 +73,9 @@ def _search(
         if len(choices) == len(open_):
             yield dict(known)
         else:
-            choices.append(iter(options[len(choices)]))
+            choices.append(iter(open_[len(choices)][1]))
         while choices:
-            unknown = open_[len(choices) - 1]
+            unknown = open_[len(choices) - 1][0]
             value = next(choices[-1], None)
             if value is None:
                 choices.pop()

@@ -7,7 +7,7 @@ from itertools import islice
 
 from tumato_symbolic.diagnostics import Code, Span
 from tumato_symbolic.diagnostics.wording import quoted
-from tumato_symbolic.spec.decision import Budget, OutOfBudget, models
+from tumato_symbolic.spec.decision import Budget, OutOfBudgetError, models
 from tumato_symbolic.spec.findings import Findings
 from tumato_symbolic.spec.formula import TRUE, And, Formula
 from tumato_symbolic.spec.model import Assignment, Rule, Variable
@@ -15,7 +15,7 @@ from tumato_symbolic.spec.model import Assignment, Rule, Variable
 MAX_OUTCOMES = 10_000
 """The most assignments that one entry of alternative effects may denote."""
 
-MAX_EFFECT_WORK = 5_000_000
+MAX_EFFECT_WORK = 2_000_000
 """How many terms are looked at, for all actions together, to find the assignments that effects denote."""
 
 _SHOWN = 5
@@ -76,7 +76,7 @@ class Effects:
     def _assignments(self, parts: Sequence[Rule], limit: int, action: str, span: Span) -> list[Assignment] | None:
         try:
             known = list(islice(models(_conjunction(parts), self._sizes, self._budget), limit))
-        except OutOfBudget:
+        except OutOfBudgetError:
             self._too_many(action, span)
             return None
         return [tuple(sorted((number, value) for (_, number), value in each.items())) for each in known]

@@ -7,14 +7,14 @@ from math import prod
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Span
 from tumato_symbolic.diagnostics.wording import quoted
-from tumato_symbolic.spec.decision import Budget, OutOfBudget, models, unknowns
+from tumato_symbolic.spec.decision import Budget, OutOfBudgetError, models, unknowns
 from tumato_symbolic.spec.formula import And, Constant, Formula, Not
 from tumato_symbolic.spec.model import ConditionalGoal, Goal, GoalList, Rule, Spec
 from tumato_symbolic.spec.resolve import Resolution, heading
 from tumato_symbolic.syntax import ast
 
 MAX_DECIDED = 100_000
-"""A predicate is decided when its own variables, and the actions that it speaks of, have at most so many assignments."""
+"""The most assignments to the variables and actions of a predicate with which it is decided."""
 
 MAX_LINT_WORK = 2_000_000
 """How many terms are looked at to decide predicates, for a whole specification; the rest is left undecided."""
@@ -119,7 +119,7 @@ class _Judge:
             return None
         try:
             return next(models(formula, self._sizes, self._budget), None) is not None
-        except OutOfBudget:
+        except OutOfBudgetError:
             return None
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Diagnostic, Source
+from tumato_symbolic.spec.findings import MAX_FINDINGS
 from tumato_symbolic.spec.lint import lint
 from tumato_symbolic.spec.model import Spec
 from tumato_symbolic.spec.resolve import resolve
@@ -26,7 +27,7 @@ def load(source: Source) -> Loaded:
     if parsed.tree is None:
         return Loaded(None, _ordered(parsed.diagnostics))
     resolution = resolve(parsed, parsed.tree, source)
-    warnings = () if resolution.spec is None else lint(resolution.spec, parsed.tree, resolution)
+    warnings = () if resolution.spec is None else lint(resolution.spec, parsed.tree, resolution)[:MAX_FINDINGS]
     return Loaded(resolution.spec, _ordered((*parsed.diagnostics, *resolution.diagnostics, *warnings)))
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
@@ -49,37 +49,38 @@ class Names:
 def collect(tree: ast.Specification, findings: Findings) -> Names:
     """Find every declaration; report names that are declared twice, shadow another kind, or are reserved."""
     table: dict[str, Declared] = {}
-    variables: list[Variable] = []
-    aliases: list[ast.AliasDefinition] = []
-    resources: list[ast.ResourceDeclaration] = []
-    actions: list[ast.ActionDeclaration] = []
+    declared: dict[Kind, list[ast.Declaration]] = {"state variable": [], "alias": [], "resource": [], "action": []}
     for block in tree.blocks:
-        match block:
-            case ast.StateVector(declarations):
-                for each in declarations:
-                    if _declare(table, each.name, "state variable", len(variables), findings):
-                        values = tuple(_distinct_values(each, findings))
-                        variables.append(Variable(each.name.text, values, each.name.span))
-            case ast.Aliases(definitions):
-                for definition in definitions:
-                    if _declare(table, definition.name, "alias", len(aliases), findings):
-                        aliases.append(definition)
-            case ast.Resources(declared):
-                for resource in declared:
-                    if _declare(table, resource.name, "resource", len(resources), findings):
-                        resources.append(resource)
-            case ast.Actions(declared_actions):
-                for action in declared_actions:
-                    if _declare(table, action.name, "action", len(actions), findings):
-                        actions.append(action)
-            case _:
-                pass
-    if len(variables) > MAX_VARIABLES:
-        _too_many("state variables", MAX_VARIABLES, variables[MAX_VARIABLES].span, findings)
-    if len(actions) > MAX_ACTIONS:
-        _too_many("actions", MAX_ACTIONS, actions[MAX_ACTIONS].name.span, findings)
-    numbers = tuple({value: number for number, value in enumerate(each.values)} for each in variables)
-    return Names(tuple(variables), numbers, tuple(aliases), tuple(resources), tuple(actions), table)
+        kind, declarations = _declarations(block)
+        for each in declarations:
+            if _declare(table, each.name, kind, len(declared[kind]), findings):
+                declared[kind].append(each)
+    _limit(declared["state variable"], MAX_VARIABLES, "state variables", findings)
+    _limit(declared["action"], MAX_ACTIONS, "actions", findings)
+    variables = [each for each in declared["state variable"] if isinstance(each, ast.VariableDeclaration)]
+    values = [tuple(_distinct_values(each, findings)) for each in variables]
+    return Names(
+        tuple(Variable(each.name.text, own, each.name.span) for each, own in zip(variables, values, strict=True)),
+        tuple({value: number for number, value in enumerate(own)} for own in values),
+        tuple(each for each in declared["alias"] if isinstance(each, ast.AliasDefinition)),
+        tuple(each for each in declared["resource"] if isinstance(each, ast.ResourceDeclaration)),
+        tuple(each for each in declared["action"] if isinstance(each, ast.ActionDeclaration)),
+        table,
+    )
+
+
+def _declarations(block: ast.Block) -> tuple[Kind, tuple[ast.Declaration, ...]]:
+    match block:
+        case ast.StateVector(variables):
+            return "state variable", variables
+        case ast.Aliases(definitions):
+            return "alias", definitions
+        case ast.Resources(resources):
+            return "resource", resources
+        case ast.Actions(actions):
+            return "action", actions
+        case _:
+            return "alias", ()
 
 
 def _declare(table: dict[str, Declared], name: ast.Name, kind: Kind, number: int, findings: Findings) -> bool:
@@ -90,7 +91,7 @@ def _declare(table: dict[str, Declared], name: ast.Name, kind: Kind, number: int
         if name.text in _RESERVED:
             findings.add(
                 Code.TUM205,
-                f"{quoted(name.text)} is a word of the language and cannot name {_article(kind)}",
+                f"{quoted(name.text)} is a word of the language and cannot name {article(kind)}",
                 name.span,
                 "choose another name",
             )
@@ -101,7 +102,7 @@ def _declare(table: dict[str, Declared], name: ast.Name, kind: Kind, number: int
         return False
     findings.add(
         Code.TUM204,
-        f"{quoted(name.text)} names {_article(first.kind)} already and cannot name {_article(kind)}",
+        f"{quoted(name.text)} names {article(first.kind)} already and cannot name {article(kind)}",
         name.span,
         "choose another name for one of them",
         notes,
@@ -125,14 +126,17 @@ def _distinct_values(declaration: ast.VariableDeclaration, findings: Findings) -
                 "remove one",
                 (Note("it is listed first here", places[value.text]),),
             )
-    if len(places) > MAX_VALUES:
-        _too_many("values of one state variable", MAX_VALUES, declaration.name.span, findings)
+    _limit(list(declaration.values), MAX_VALUES, "values of one state variable", findings)
     return places
 
 
-def _too_many(what: str, limit: int, span: Span, findings: Findings) -> None:
-    findings.add(Code.TUM311, f"there are more than {limit:,} {what}", span, "split the specification")
+def _limit(declared: Sequence[ast.Declaration | ast.Name], limit: int, what: str, findings: Findings) -> None:
+    if len(declared) > limit:
+        first = declared[limit]
+        span = first.span if isinstance(first, ast.Name) else first.name.span
+        findings.add(Code.TUM311, f"there are more than {limit:,} {what}", span, "split the specification")
 
 
-def _article(kind: str) -> str:
+def article(kind: str) -> str:
+    """A kind with its article."""
     return f"an {kind}" if kind[0] in "ae" else f"a {kind}"

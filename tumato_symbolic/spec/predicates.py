@@ -9,7 +9,7 @@ from tumato_symbolic.diagnostics.wording import listed, quoted
 from tumato_symbolic.spec.findings import Findings
 from tumato_symbolic.spec.formula import FALSE, TRUE, And, Executing, Formula, Iff, Is, Not, Or
 from tumato_symbolic.spec.model import Rule
-from tumato_symbolic.spec.names import Declared, Kind, Names
+from tumato_symbolic.spec.names import Declared, Kind, Names, article
 from tumato_symbolic.syntax import ast
 from tumato_symbolic.syntax.excerpts import Excerpts
 
@@ -83,7 +83,7 @@ class Predicates:
         if declared is not None:
             self._findings.add(
                 Code.TUM207,
-                f"{quoted(name.text)} is not {_article(kind)} but {_article(declared.kind)}",
+                f"{quoted(name.text)} is not {article(kind)} but {article(declared.kind)}",
                 name.span,
                 self._instead(name.text, declared.kind, kind),
                 (Note("it is declared here", declared.span),),
@@ -258,7 +258,3 @@ class Predicates:
             "an alias may use other aliases, never itself",
             tuple(Note(f"{quoted(name.text)} is part of the circle", name.span) for name in names[1:9]),
         )
-
-
-def _article(kind: str) -> str:
-    return f"an {kind}" if kind[0] in "ae" else f"a {kind}"

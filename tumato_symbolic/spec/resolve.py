@@ -100,13 +100,19 @@ def heading(block: Span, title: str) -> Span:
 
 
 def _no_state_vector(tree: ast.Specification, findings: Findings) -> None:
+    if not tree.blocks:
+        findings.add(Code.TUM301, "the specification is empty", Span(1, 1, 1, 1), _STATE_VECTOR)
+        return
     block = next(iter(_of(tree, ast.StateVector)), None)
     findings.add(
         Code.TUM301,
         "the STATE VECTOR declares no state variable" if block else "there is no STATE VECTOR block",
         heading(block.span, "STATE VECTOR") if block else Span(1, 1, 1, 1),
-        "a specification needs `BEGIN STATE VECTOR`, `state NAME can be VALUE, VALUE`, `END STATE VECTOR`",
+        _STATE_VECTOR,
     )
+
+
+_STATE_VECTOR = "a specification needs `BEGIN STATE VECTOR`, `state NAME can be VALUE, VALUE`, `END STATE VECTOR`"
 
 
 def _rules(predicates: Predicates, blocks: Iterable[ast.Block], no_executing_in: str | None) -> tuple[Rule, ...]:

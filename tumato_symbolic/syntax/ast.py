@@ -181,6 +181,9 @@ class ActionDeclaration:
     span: Span = field(default=NOWHERE, compare=False)
 
 
+Declaration: TypeAlias = VariableDeclaration | AliasDefinition | ResourceDeclaration | ActionDeclaration
+
+
 @dataclass(frozen=True, slots=True)
 class SimpleGoal:
     """`goal: PREDICATE`."""

@@ -1,5 +1,8 @@
 """Bottom-up construction of the tree: one method per rule of the grammar."""
 
+# The methods are named and explained by the rules; what they are given depends on the rule.
+# ruff: noqa: D102, N802, ANN401
+
 from __future__ import annotations
 
 from dataclasses import replace

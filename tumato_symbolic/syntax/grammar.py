@@ -13,9 +13,6 @@ from lark import Lark
 from tumato_symbolic.syntax.builder import Builder
 from tumato_symbolic.syntax.tokens import pattern
 
-HARD = frozenset({"AND", "OR", "NOT", "IF", "THEN", "IFONLYIF", "BEGIN", "END"})
-"""Words that are keywords everywhere."""
-
 
 @dataclass(frozen=True)
 class Grammar:

@@ -4,27 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from difflib import get_close_matches
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Note, Span
 from tumato_symbolic.diagnostics.wording import listed, quoted
-from tumato_symbolic.syntax.tokens import MAX_DIGITS, Token
+from tumato_symbolic.syntax.situation import BLOCKS, Situation
+from tumato_symbolic.syntax.tokens import HARD, MAX_DIGITS, Token
 
-BLOCKS = (
-    ("STATE", "VECTOR"),
-    ("ALIASES",),
-    ("RESOURCES",),
-    ("ACTIONS",),
-    ("REACTION", "RULES"),
-    ("STATE", "RULES"),
-    ("ASSUMPTIONS",),
-    ("GOALS",),
-    ("CONFIG",),
-)
-TITLES = frozenset(word for title in BLOCKS for word in title)
-
-_PREDICATE = frozenset({"NAME", "(", "executing", "true", "false"})
 _OPERATORS = ("AND", "OR", "IFONLYIF", "THEN")
 _FORMS = {
     "state": "write `state NAME can be VALUE, VALUE`",
@@ -51,74 +37,6 @@ _AFTER = {
     "resources": "the name of a resource",
     "define": "the name of an alias",
 }
-
-
-@dataclass(frozen=True, slots=True)
-class Situation:
-    """A token that does not fit.
-
-    `expected` is what could stand there: words and symbols as they are written, or NAME, NUMBER, $END. `open` holds
-    the keywords and symbols that are read and not yet part of something complete. `unclosed` tells that the token
-    begins a block although another is open.
-    """
-
-    tokens: tuple[Token, ...]
-    index: int
-    expected: frozenset[str]
-    open: tuple[Token, ...]
-    unclosed: bool = False
-
-    @property
-    def token(self) -> Token:
-        """The token that does not fit."""
-        return self.tokens[self.index]
-
-    @property
-    def previous(self) -> Token | None:
-        """The token before it."""
-        return self.tokens[self.index - 1] if self.index else None
-
-    @property
-    def begin(self) -> int | None:
-        """The position in `open` of the innermost BEGIN."""
-        return max((place for place, token in enumerate(self.open) if token.text == "BEGIN"), default=None)
-
-    @property
-    def title(self) -> tuple[str, ...]:
-        """The title of the innermost open block; empty where there is none."""
-        if self.begin is None:
-            return ()
-        words = tuple(token.text for token in self.open[self.begin + 1 : self.begin + 3])
-        return next((title for title in BLOCKS if words[: len(title)] == title), ())
-
-    @property
-    def end_words(self) -> tuple[Token, ...]:
-        """The words of the END that is half read; empty where there is none."""
-        since = self.open[(self.begin or 0) + 1 :]
-        ends = [place for place, token in enumerate(since) if token.text == "END"]
-        return since[ends[-1] :] if ends else ()
-
-    @property
-    def block_is_unclosed(self) -> bool:
-        """Whether the END of the open block is missing."""
-        return self.unclosed or ("END" in self.expected and (self.token.kind == "end" or self.token.text == "BEGIN"))
-
-    @property
-    def lacks_goal_type(self) -> bool:
-        """Whether a list of goals begins with a goal rather than with its type."""
-        recent = [token.text for token in self.open[-3:]]
-        return recent == ["BEGIN", "GOALS", "goal"] or (
-            recent[-2:] == ["BEGIN", "GOALS"] and self.expected == {"goal", "END"}
-        )
-
-    @property
-    def wants_predicate(self) -> bool:
-        """Whether a predicate could begin here."""
-        return self.expected >= _PREDICATE
-
-    def last(self, *texts: str) -> Token | None:
-        """The latest open token that is one of `texts`."""
-        return next((token for token in reversed(self.open) if token.text in texts), None)
 
 
 def explain(here: Situation) -> Diagnostic:
@@ -162,7 +80,7 @@ def _block_title(here: Situation) -> Diagnostic | None:
     if "BEGIN" not in (here.previous.text, here.tokens[max(here.index - 2, 0)].text):
         return None
     start = here.index if here.previous.text == "BEGIN" else here.index - 1
-    words = [token.text for token in here.tokens[start : start + 2] if token.kind == "word"]
+    words = [token.text for token in here.tokens[start : start + 2] if token.kind == "word" and token.text not in HARD]
     titles = [" ".join(title) for title in BLOCKS]
     near = _nearest(" ".join(words).upper(), titles) or _nearest(words[0].upper() if words else "", titles)
     return Diagnostic(
@@ -201,10 +119,8 @@ def _malformed(here: Situation) -> Diagnostic | None:
 
 
 def _wrong_case(here: Situation) -> Diagnostic | None:
-    keywords = {each.lower(): each for each in here.expected if each.isidentifier() and each not in ("NAME", "NUMBER")}
-    meant = keywords.get(here.token.text.lower())
-    if meant is not None and here.token.kind == "word":
-        return _case(here.token, meant)
+    if here.in_another_case is not None:
+        return _case(here.token, here.in_another_case)
     before = here.previous
     earlier = {"not": "NOT", "if": "IF", "executing": "executing"}
     if before is not None and before.kind == "word" and before.text.lower() in earlier:
@@ -282,10 +198,7 @@ def _missing_colon(here: Situation) -> Diagnostic | None:
 
 
 def _misspelled(here: Situation) -> Diagnostic | None:
-    if here.token.kind != "word" or here.wants_predicate:
-        return None
-    words = [each for each in here.expected if each.isidentifier() and each not in ("NAME", "NUMBER")]
-    near = _nearest(here.token.text, words)
+    near = here.misspelled
     if near is None:
         return None
     return Diagnostic(

@@ -9,12 +9,13 @@ from lark import Token as Fed
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source, Span
 from tumato_symbolic.syntax import ast
-from tumato_symbolic.syntax.grammar import HARD, Grammar, grammar
-from tumato_symbolic.syntax.mistakes import TITLES, Situation, explain
+from tumato_symbolic.syntax.grammar import Grammar, grammar
+from tumato_symbolic.syntax.mistakes import explain
 from tumato_symbolic.syntax.model import Parsed
 from tumato_symbolic.syntax.nesting import MAX_NESTING, deepest
+from tumato_symbolic.syntax.situation import TITLES, Situation
 from tumato_symbolic.syntax.stack import Row, Stack
-from tumato_symbolic.syntax.tokens import Token, tokenize
+from tumato_symbolic.syntax.tokens import HARD, Token, tokenize
 
 MAX_SYNTAX_ERRORS = 100
 """Reading stops after so many mistakes in the syntax."""
@@ -31,8 +32,8 @@ _FOLLOWED_BY = {
 """What shows that a word is the keyword, where it could be the name of a variable or an alias as well."""
 
 _RESTARTS = frozenset(
-    ("BEGIN", "END", "state", "define", "resource", "action", "rule", "assume", "goal", "when")
-    + ("max_plan_length", "effect_ordering", *_FOLLOWED_BY)
+    {"BEGIN", "END", "state", "define", "resource", "action", "rule", "assume", "goal", "when"}
+    | {"max_plan_length", "effect_ordering", *_FOLLOWED_BY}
 )
 """Words at which reading can go on after a mistake."""
 
@@ -62,6 +63,7 @@ class _Run:
         self.lost: set[str] = set()
         self.open: list[Token] = []
         self.denials = 0
+        self.blocks = 0
 
     def read(self) -> ast.Specification | None:
         """Feed every token, recovering where one does not fit. None where reading had to be given up."""
@@ -88,15 +90,16 @@ class _Run:
         return None
 
     def _too_deep(self, token: Token) -> bool:
-        """Keep the books of open parentheses and of `NOT` in a row; report where either goes too deep."""
+        """Keep the books of open parentheses, of `NOT` in a row and of open blocks; report what goes too deep."""
         if token.text == "(":
             self.open.append(token)
         elif token.text == ")" and self.open:
             self.open.pop()
         elif token.text in ("BEGIN", "END"):
             self.open.clear()
+            self.blocks = max(0, self.blocks + (1 if token.text == "BEGIN" else -1))
         self.denials = self.denials + 1 if token.text == "NOT" else 0
-        if max(len(self.open), self.denials) <= MAX_NESTING:
+        if max(len(self.open), self.denials, self.blocks) <= MAX_NESTING:
             return False
         self._give_up_nesting(token.span)
         return True
@@ -143,6 +146,11 @@ class _Run:
             self._supply(*situation.title[len(situation.end_words) - 1 :])
         elif situation.block_is_unclosed and situation.title:
             self._supply("END", *situation.title)
+        elif (meant := situation.in_another_case or situation.misspelled) is not None:
+            self._supply(meant)
+            self.index += 1
+        elif situation.expected == {":"} and not situation.lacks_goal_type:
+            self._supply(":")
         elif situation.lacks_goal_type and situation.token.text == "when":
             self._supply("goal", "type", ":", "priority")
         elif situation.lacks_goal_type and situation.token.text == ":":

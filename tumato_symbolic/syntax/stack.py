@@ -36,6 +36,9 @@ class Stack:
 
     def fits(self, terminal: str) -> bool:
         """Whether a terminal can come next. Nothing is reduced by asking."""
+        action = self.row().get(terminal)
+        if action is None or action[0] is Shift:
+            return action is not None
         return self.after(terminal, len(self._states) - 1) is not None
 
     def accepted(self) -> frozenset[str]:

@@ -11,6 +11,9 @@ from typing import Literal, NamedTuple, TypeAlias
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source, Span
 
+HARD = frozenset({"AND", "OR", "NOT", "IF", "THEN", "IFONLYIF", "BEGIN", "END"})
+"""Words that are keywords everywhere."""
+
 MAX_DIGITS = 18
 """The most digits a number may have; every sensible bound is far below."""
 

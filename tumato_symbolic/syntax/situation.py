@@ -1,0 +1,108 @@
+"""What surrounds a token that does not fit."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from difflib import get_close_matches
+
+from tumato_symbolic.diagnostics.wording import MAX_QUOTED
+from tumato_symbolic.syntax.tokens import Token
+
+BLOCKS = (
+    ("STATE", "VECTOR"),
+    ("ALIASES",),
+    ("RESOURCES",),
+    ("ACTIONS",),
+    ("REACTION", "RULES"),
+    ("STATE", "RULES"),
+    ("ASSUMPTIONS",),
+    ("GOALS",),
+    ("CONFIG",),
+)
+TITLES = frozenset(word for title in BLOCKS for word in title)
+
+_PREDICATE = frozenset({"NAME", "(", "executing", "true", "false"})
+
+
+@dataclass(frozen=True, slots=True)
+class Situation:
+    """A token that does not fit.
+
+    `expected` is what could stand there: words and symbols as they are written, or NAME, NUMBER, $END. `open` holds
+    the keywords and symbols that are read and not yet part of something complete. `unclosed` tells that the token
+    begins a block although another is open.
+    """
+
+    tokens: tuple[Token, ...]
+    index: int
+    expected: frozenset[str]
+    open: tuple[Token, ...]
+    unclosed: bool = False
+
+    @property
+    def token(self) -> Token:
+        """The token that does not fit."""
+        return self.tokens[self.index]
+
+    @property
+    def previous(self) -> Token | None:
+        """The token before it."""
+        return self.tokens[self.index - 1] if self.index else None
+
+    @property
+    def begin(self) -> int | None:
+        """The position in `open` of the innermost BEGIN."""
+        return max((place for place, token in enumerate(self.open) if token.text == "BEGIN"), default=None)
+
+    @property
+    def title(self) -> tuple[str, ...]:
+        """The title of the innermost open block; empty where there is none."""
+        if self.begin is None:
+            return ()
+        words = tuple(token.text for token in self.open[self.begin + 1 : self.begin + 3])
+        return next((title for title in BLOCKS if words[: len(title)] == title), ())
+
+    @property
+    def end_words(self) -> tuple[Token, ...]:
+        """The words of the END that is half read; empty where there is none."""
+        since = self.open[(self.begin or 0) + 1 :]
+        ends = [place for place, token in enumerate(since) if token.text == "END"]
+        return since[ends[-1] :] if ends else ()
+
+    @property
+    def block_is_unclosed(self) -> bool:
+        """Whether the END of the open block is missing."""
+        return self.unclosed or ("END" in self.expected and (self.token.kind == "end" or self.token.text == "BEGIN"))
+
+    @property
+    def lacks_goal_type(self) -> bool:
+        """Whether a list of goals begins with a goal rather than with its type."""
+        recent = [token.text for token in self.open[-3:]]
+        return recent == ["BEGIN", "GOALS", "goal"] or (
+            recent[-2:] == ["BEGIN", "GOALS"] and self.expected == {"goal", "END"}
+        )
+
+    @property
+    def wants_predicate(self) -> bool:
+        """Whether a predicate could begin here."""
+        return self.expected >= _PREDICATE
+
+    @property
+    def in_another_case(self) -> str | None:
+        """The keyword that the token would be in upper or lower case."""
+        keywords = {each.lower(): each for each in self._keywords()}
+        return keywords.get(self.token.text.lower()) if self.token.kind == "word" else None
+
+    @property
+    def misspelled(self) -> str | None:
+        """The keyword that the token resembles, where no name can stand."""
+        if self.token.kind != "word" or "NAME" in self.expected or len(self.token.text) > MAX_QUOTED:
+            return None
+        return next(iter(get_close_matches(self.token.text, self._keywords(), n=1, cutoff=0.7)), None)
+
+    def _keywords(self) -> list[str]:
+        return sorted(each for each in self.expected if each.isidentifier() and each not in ("NAME", "NUMBER"))
+
+    def last(self, *texts: str) -> Token | None:
+        """The latest open token that is one of `texts`."""
+        return next((token for token in reversed(self.open) if token.text in texts), None)
