@@ -14,7 +14,7 @@ from multiprocessing import Pool
 from pathlib import Path
 
 from tests.differential import Case, Report, examine
-from tests.generate import PROFILES
+from tests.profiles import PROFILES
 from tumato_symbolic.spec import Ordering
 
 Job = tuple[Case, int]

@@ -7,8 +7,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from random import Random
 
-from tests.generate import PROFILES, random_spec
+from tests.generate import random_spec
 from tests.oracle import OracleVerdict, Together, World, decide_world
+from tests.profiles import PROFILES
 from tests.reference_policy import reference_policy
 from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.policy import Policy, Table, as_table, dumps, loads, policy_from_rows

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import product
 from math import prod
 from random import Random
-from typing import Literal, TypeAlias
+from typing import Literal
 
 from tests.printing import formula_text, print_spec
+from tests.profiles import MIXED, PROFILES, Profile, Range
 from tumato_symbolic.diagnostics import Span
 from tumato_symbolic.semantics import all_states, holds, is_valid
 from tumato_symbolic.spec import (
@@ -34,84 +35,9 @@ from tumato_symbolic.spec import (
     variables_of,
 )
 
+__all__ = ["NOWHERE", "PROFILES", "Profile", "denoted", "random_spec", "random_text"]
+
 NOWHERE = Span(1, 1, 1, 1)
-
-Range: TypeAlias = tuple[int, int]
-
-
-@dataclass(frozen=True)
-class Profile:
-    """What specifications look like: inclusive ranges of counts, and probabilities between 0 and 1."""
-
-    variables: Range = (2, 5)
-    values: Range = (1, 4)
-    states: Range = (4, 100)
-    actions: Range = (1, 6)
-    durations: Range = (0, 4)
-    preconditions: Range = (0, 2)
-    state_rules: Range = (0, 2)
-    reaction_rules: Range = (0, 2)
-    assumptions: Range = (0, 1)
-    goals: Range = (1, 3)
-    resources: Range = (0, 2)
-    helpers: float = 0.7  # an action becomes a strong one: no alternatives, no preconditions, one variable
-    alternatives: float = 0.4  # another action has alternatives
-    wide: float = 0.4  # an alternative denotes several assignments
-    owns: float = 0.35  # an action controls a given resource
-    forcing: float = 0.2  # a reaction rule forces an action rather than forbidding one
-    no_goals: float = 0.08
-    nested: float = 0.2
-    conditional: float = 0.65
-    executing: float = 0.25
-    bounded: float = 0.5
-    bound: Range = (1, 6)
-    aliases: float = 0.15
-
-
-MIXED = Profile()
-INTERACTING = Profile(
-    variables=(2, 3),
-    values=(2, 3),
-    states=(6, 60),
-    actions=(5, 6),
-    preconditions=(0, 1),
-    state_rules=(0, 1),
-    reaction_rules=(0, 1),
-    assumptions=(0, 0),
-    goals=(2, 3),
-    resources=(1, 1),
-    owns=1.0,
-    helpers=0.3,
-    alternatives=0.05,
-    no_goals=0.0,
-    nested=0.05,
-    conditional=0.95,
-    executing=0.2,
-    bounded=0.15,
-    bound=(3, 9),
-)
-"""Goals that need each other's help: about one in twenty is realizable and defeats the fixpoint of the own region."""
-
-RESTORING = Profile(
-    variables=(2, 4),
-    values=(2, 3),
-    actions=(4, 6),
-    preconditions=(0, 1),
-    state_rules=(1, 2),
-    reaction_rules=(0, 1),
-    goals=(1, 2),
-    durations=(0, 3),
-    alternatives=0.3,
-    wide=0.5,
-    owns=0.2,
-    no_goals=0.1,
-    nested=0.35,
-    executing=0.4,
-    bounded=0.3,
-)
-"""Unsafe states, and actions that strike together on the same variables."""
-
-PROFILES = {"mixed": MIXED, "interacting": INTERACTING, "restoring": RESTORING}
 
 
 def random_spec(seed: int, profile: Profile = MIXED) -> Spec:
@@ -134,9 +60,10 @@ class _Maker:
         self.names = [(f"S_{letter}", tuple(f"v{n}" for n in range(size))) for letter, size in self._lettered()]
         self.action_count = self._count(profile.actions)
         self.bodies: list[Formula] = []
+        self.written: list[Is] = []
 
     def _lettered(self) -> list[tuple[str, int]]:
-        return list(zip("ABCDE", self.sizes, strict=False))
+        return list(zip("ABCDEFGHIJKLM", self.sizes, strict=False))
 
     def _count(self, bounds: Range) -> int:
         return self.random.randint(*bounds)
@@ -210,6 +137,12 @@ class _Maker:
 
     def _clause(self) -> Formula:
         """A rule that most states keep."""
+        if self.profile.collisions and self._chance(self.profile.collisions):
+            first, second = (
+                self.random.sample(self.written, 2) if len(self.written) > 1 else (self._atom(), self._atom())
+            )
+            if first.variable != second.variable:
+                return Not(And((first, second)))
         draw = self.random.random()
         if draw < 0.5:
             first, second = self._atom(), self._atom()
@@ -223,6 +156,8 @@ class _Maker:
     def _reaction(self) -> Formula:
         action = Executing(self.random.randrange(self.action_count))
         other = Executing(self.random.randrange(self.action_count))
+        if self.profile.together and self._chance(self.profile.together):
+            return Iff(action, other)
         if self._chance(self.profile.forcing):
             return Or((Not(self._several(And, 2)), self.random.choice((action, Or((action, other))))))
         draw = self.random.random()
@@ -251,6 +186,7 @@ class _Maker:
 
     def _assignment(self, count: int) -> Assignment:
         atoms = [self._atom() for _ in range(count)]
+        self.written += atoms
         return tuple(sorted({atom.variable: atom.value for atom in atoms}.items()))
 
     def _alternative(self) -> Alternative:
@@ -284,6 +220,8 @@ class _Maker:
 
     def _executing_body(self) -> Formula:
         action = Executing(self.random.randrange(self.action_count))
+        if self.profile.together and self._chance(self.profile.together):
+            return And((action, Executing(self.random.randrange(self.action_count))))
         shapes: tuple[Formula, ...] = (
             action,
             Not(action),

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import pytest
 
-pytest.importorskip("tumato_symbolic.synthesis", exc_type=ImportError)
-pytest.importorskip("tests.differential", exc_type=ImportError)
-
 from tests.differential import Case, examine
-from tests.generate import PROFILES
+from tests.generate import random_spec
+from tests.oracle import decide
+from tests.profiles import PROFILES
 from tumato_symbolic.spec import Ordering
 
-SAMPLE = [(profile, seed) for profile in PROFILES for seed in range(10)]
+PLAIN = [(profile, seed) for profile in PROFILES for seed in range(8)]
+INTERACTING = [("interacting", 37), ("interacting", 45), ("interacting", 80), ("restoring", 123), ("mixed", 626)]
+CONFLICTING = [("interacting", 48), ("interacting", 189), ("restoring", 74)]
+SAMPLE = [*PLAIN, *INTERACTING, *CONFLICTING]
 
 
 @pytest.mark.parametrize("ordering", ["any", "first"])
@@ -19,3 +21,16 @@ SAMPLE = [(profile, seed) for profile in PROFILES for seed in range(10)]
 def test_synthesizer_and_verifier_agree_with_the_explicit_meaning(profile: str, seed: int, ordering: Ordering) -> None:
     """Verdict, failing states, policy, longest run, and the verdicts on right and wrong policies are the oracle's."""
     assert examine(Case(profile, seed, ordering), mutants=2).complaints == []
+
+
+@pytest.mark.parametrize(("profile", "seed"), INTERACTING)
+def test_the_sample_has_goals_that_interact(profile: str, seed: int) -> None:
+    """These have a policy, though runs inside the goals' own regions do not make one."""
+    verdict = decide(random_spec(seed, PROFILES[profile]), "any")
+    assert (verdict.kind, verdict.own_region) == ("realizable", False)
+
+
+@pytest.mark.parametrize(("profile", "seed"), CONFLICTING)
+def test_the_sample_has_goals_that_conflict(profile: str, seed: int) -> None:
+    """In these every state taken alone has a plan, and no policy serves them all."""
+    assert decide(random_spec(seed, PROFILES[profile]), "any").kind == "conflict"

@@ -7,7 +7,8 @@ from typing import Any
 
 import pytest
 
-from tests.generate import NOWHERE, PROFILES, Profile, random_spec, random_text
+from tests.generate import NOWHERE, random_spec, random_text
+from tests.profiles import PROFILES, Profile
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.spec import Spec, load
 

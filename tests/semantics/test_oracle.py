@@ -7,8 +7,9 @@ from math import prod
 
 import pytest
 
-from tests.generate import INTERACTING, MIXED, Profile, random_spec
+from tests.generate import random_spec
 from tests.oracle import Together, World, conflict_is_minimal, decide, decide_world
+from tests.profiles import INTERACTING, MIXED, Profile
 from tumato_symbolic.semantics import judge
 from tumato_symbolic.spec import Ordering
 

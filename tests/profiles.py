@@ -1,0 +1,108 @@
+"""What generated specifications look like: four profiles, each with its own weight on what is hard."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+Range: TypeAlias = tuple[int, int]
+
+
+@dataclass(frozen=True)
+class Profile:
+    """What specifications look like: inclusive ranges of counts, and probabilities between 0 and 1."""
+
+    variables: Range = (2, 5)
+    values: Range = (1, 4)
+    states: Range = (4, 100)
+    actions: Range = (1, 6)
+    durations: Range = (0, 4)
+    preconditions: Range = (0, 2)
+    state_rules: Range = (0, 2)
+    reaction_rules: Range = (0, 2)
+    assumptions: Range = (0, 1)
+    goals: Range = (1, 3)
+    resources: Range = (0, 2)
+    helpers: float = 0.7  # an action becomes a strong one: no alternatives, no preconditions, one variable
+    alternatives: float = 0.4  # another action has alternatives
+    wide: float = 0.4  # an alternative denotes several assignments
+    owns: float = 0.35  # an action controls a given resource
+    forcing: float = 0.2  # a reaction rule forces an action rather than forbidding one
+    collisions: float = 0.0  # a state rule or an assumption excludes two effects at once
+    together: float = 0.0  # a reaction rule ties two actions: both run, or neither
+    no_goals: float = 0.08
+    nested: float = 0.2
+    conditional: float = 0.65
+    executing: float = 0.25
+    bounded: float = 0.5
+    bound: Range = (1, 6)
+    aliases: float = 0.15
+
+
+MIXED = Profile()
+INTERACTING = Profile(
+    variables=(2, 3),
+    values=(2, 3),
+    states=(6, 60),
+    actions=(5, 6),
+    preconditions=(0, 1),
+    state_rules=(0, 1),
+    reaction_rules=(0, 1),
+    assumptions=(0, 0),
+    goals=(2, 3),
+    resources=(1, 1),
+    owns=1.0,
+    helpers=0.3,
+    alternatives=0.05,
+    no_goals=0.0,
+    nested=0.05,
+    conditional=0.95,
+    executing=0.2,
+    bounded=0.15,
+    bound=(3, 9),
+)
+"""Goals that need each other's help: about one in twenty is realizable and defeats the fixpoint of the own region."""
+
+RESTORING = Profile(
+    variables=(2, 4),
+    values=(2, 3),
+    actions=(4, 6),
+    preconditions=(0, 1),
+    state_rules=(1, 2),
+    reaction_rules=(0, 1),
+    goals=(1, 2),
+    durations=(0, 3),
+    alternatives=0.3,
+    wide=0.5,
+    owns=0.2,
+    no_goals=0.1,
+    nested=0.35,
+    executing=0.4,
+    bounded=0.3,
+)
+"""Unsafe states, and actions that strike together on the same variables."""
+
+CONCURRENT = Profile(
+    variables=(3, 4),
+    values=(2, 3),
+    states=(8, 60),
+    actions=(3, 5),
+    preconditions=(0, 0),
+    state_rules=(0, 1),
+    reaction_rules=(1, 2),
+    assumptions=(2, 4),
+    goals=(1, 2),
+    resources=(0, 0),
+    helpers=0.1,
+    alternatives=0.6,
+    wide=0.15,
+    forcing=0.1,
+    collisions=0.9,
+    together=0.8,
+    no_goals=0.25,
+    executing=0.6,
+    bounded=0.3,
+)
+"""Sets of actions for which the order of effects matters: one in five has states where `any` and `first` differ."""
+
+PROFILES = {"mixed": MIXED, "interacting": INTERACTING, "restoring": RESTORING, "concurrent": CONCURRENT}
