@@ -16,9 +16,8 @@ from tumato_symbolic.spec import Spec
 def bind(policy: Policy, spec: Spec) -> Policy:
     """The same policy, renumbered so that its vocabulary is that of `spec`.
 
-    Raises `UserError` with (at most 20 of) the variables and values that only one side has (TUM503, TUM504) and the
-    actions that `spec` does not have (TUM505). An action that only `spec` has is never executed. A certificate that
-    speaks of unknown actions is set aside.
+    Raises `UserError` with (at most 20 of) the variables, values and actions that only one side has (TUM503, TUM504,
+    TUM505). A certificate that speaks of unknown actions is set aside.
     """
     target = Vocabulary.of(spec)
     problems = tuple(islice(_problems(policy.vocabulary, target), MOST))
@@ -59,6 +58,10 @@ def _problems(source: Vocabulary, target: Vocabulary) -> Iterator[Diagnostic]:
         if action not in target.actions:
             message = f"the policy speaks of the action {show(action)}, which the specification does not have"
             yield Diagnostic(Code.TUM505, message, help=way_out(action, target.actions, "actions of the specification"))
+    for action in target.actions:
+        if action not in source.actions:
+            message = f"the policy does not know the action {show(action)} of the specification"
+            yield Diagnostic(Code.TUM505, message, help="add it to `Actions`, or synthesize the policy again")
 
 
 def _certificate(policy: Policy, target: Vocabulary) -> tuple[Certificate | None, str | None]:

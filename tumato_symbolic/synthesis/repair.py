@@ -56,6 +56,7 @@ class Repair:
         self._options: list[tuple[Option, ...]] = []
         self._states: list[State] = []
         self._picked: list[int] = []
+        self._cubes: dict[State, Bdd] = {}
         self._rounds = 0
         self._distance: dict[tuple[int, State], int | None] = {}
 
@@ -105,7 +106,9 @@ class Repair:
         return kept | (added & self._problem.steps.safe)
 
     def _cube(self, state: State) -> Bdd:
-        return self._problem.encoding.state_cube(state)
+        if state not in self._cubes:
+            self._cubes[state] = self._problem.encoding.state_cube(state)
+        return self._cubes[state]
 
     def _explain_some(self, failing: Bdd) -> None:
         """Clauses for some failing starts that have no state of an explained run in common."""

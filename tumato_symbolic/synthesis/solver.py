@@ -43,7 +43,7 @@ class CheapestSet:
         """The smallest duration in what is left of the relation: Z3 found none below. None where nothing is left."""
         best: int | None = None
         self._solver.push()
-        while self._solver.check() == z3.sat:
+        while _satisfiable(self._solver):
             model = self._solver.model()
             best = sum(d for term, d in self._terms if z3.is_true(model.eval(term, model_completion=True)))
             if best == 0:
@@ -80,39 +80,76 @@ class Choices:
         self._solver = z3.SolverFor("QF_FD")
         self._options: list[list[Term]] = []
         self._guards: dict[int, Term] = {}
-        self._free: set[int] = set()
+        self._kept: dict[int, Term] = {}
+        self._names: dict[int, tuple[int, bool]] = {}
 
     def add_choice(self, options: int) -> int:
         """A new choice among so many options; its number."""
         number = len(self._options)
         literals = [z3.Bool(f"x{number}.{option}") for option in range(options)]
         self._options.append(literals)
-        self._solver.add(z3.Or(literals), z3.AtMost(*literals, 1))
+        self._kept[number] = literals[0]
+        self._names[literals[0].get_id()] = (number, False)
+        self._solver.add(_any(literals), z3.AtMost(*literals, 1))
         return number
 
     def require(self, guard: int, picks: Iterable[Pick]) -> None:
         """Where the guard is assumed, at least one of the picks is made."""
-        literal = self._guards.setdefault(guard, z3.Bool(f"g{guard}"))
-        self._solver.add(z3.Or(z3.Not(literal), *(self._options[p.choice][p.option] for p in picks)))
+        if guard not in self._guards:
+            literal = self._guards[guard] = z3.Bool(f"g{guard}")
+            self._names[literal.get_id()] = (guard, True)
+        self._solver.add(_any([z3.Not(self._guards[guard]), *(self._options[p.choice][p.option] for p in picks)]))
 
     def solve(self, guards: Sequence[int] | None = None) -> list[int] | frozenset[int]:
         """An option for every choice, as few as can be seen different from 0; or guards that cannot hold together.
 
         All guards are assumed where none are given.
         """
-        assumed = [
-            self._guards[guard] for guard in (self._guards if guards is None else guards) if guard in self._guards
-        ]
-        while True:
-            kept = [options[0] for number, options in enumerate(self._options) if number not in self._free]
-            if self._solver.check(*assumed, *kept) == z3.sat:
-                model = self._solver.model()
-                return [
-                    next(n for n, x in enumerate(options) if z3.is_true(model.eval(x, model_completion=True)))
-                    for options in self._options
-                ]
-            names = {literal.decl().name() for literal in self._solver.unsat_core()}
-            freed = {int(name[1:].split(".")[0]) for name in names if name.startswith("x")}
+        wanted = self._guards if guards is None else guards
+        assumed = [self._guards[guard] for guard in wanted if guard in self._guards]
+        while not _satisfiable(self._solver, *assumed, *self._kept.values()):
+            named = [self._names[literal.get_id()] for literal in self._solver.unsat_core()]
+            freed = [number for number, is_guard in named if not is_guard]
             if not freed:
-                return frozenset(int(name[1:]) for name in names)
-            self._free |= freed
+                return frozenset(number for number, _ in named)
+            for number in freed:
+                del self._kept[number]
+        return self._read(self._solver.model())
+
+    def _read(self, model: Term) -> list[int]:
+        """The option that the model makes for every choice."""
+        return [
+            0 if number in self._kept else next(n for n, x in enumerate(options) if _is_true(model, x))
+            for number, options in enumerate(self._options)
+        ]
+
+
+# What repair does most is made of direct calls: z3's Python layer inspects every part of every term.
+
+
+def _is_true(model: Term, literal: Term) -> bool:
+    """Whether a model makes a constant true."""
+    context = z3.main_ctx().ref()
+    declaration = z3.Z3_get_app_decl(context, literal.as_ast())
+    found = z3.Z3_model_get_const_interp(context, model.model, declaration)
+    return bool(found) and z3.Z3_get_bool_value(context, found) == z3.Z3_L_TRUE
+
+
+def _any(literals: Sequence[Term]) -> Term:
+    """A disjunction."""
+    context = z3.main_ctx()
+    parts = (z3.Ast * len(literals))(*(literal.as_ast() for literal in literals))
+    return z3.BoolRef(z3.Z3_mk_or(context.ref(), len(literals), parts), context)
+
+
+def _satisfiable(solver: Term, *assumptions: Term) -> bool:
+    """Z3's answer, which must not be `unknown`: that is neither a minimum nor a proof of conflict.
+
+    Z3 takes Ctrl-C for itself and stops with `unknown`; it is handed on as the `KeyboardInterrupt` that it was.
+    """
+    answer = solver.check(*assumptions)
+    if answer == z3.unknown:
+        if "interrupted" in solver.reason_unknown():
+            raise KeyboardInterrupt
+        raise RuntimeError(f"Z3 gave no answer: {solver.reason_unknown()}")
+    return bool(answer == z3.sat)
