@@ -11,6 +11,7 @@ from tumato_symbolic.verify.decisions import Decisions, Ranks
 from tumato_symbolic.verify.frame import Frame
 from tumato_symbolic.verify.rank_terms import RankFunction, RankProof
 from tumato_symbolic.verify.result import CertificateUse
+from tumato_symbolic.verify.solver import UndecidedError
 
 _UNNEEDED = CertificateUse("unneeded")
 
@@ -66,14 +67,15 @@ class RankSource:
         self.use = CertificateUse("wrong" if self._policy_is_safe else "set aside", reason)
 
     def check_given(self, goals: Iterable[Residual]) -> bool:
-        """Whether the certificate ranks all of `goals`, and all its ranks decrease; otherwise it is set aside."""
+        """Whether the certificate ranks all of `goals`, and all its ranks decrease; otherwise it is set aside.
+
+        Raises `UndecidedError`.
+        """
         if self.use != _UNNEEDED:
             return False
         for goal, ranks in self.given.items():
-            answer = RankProof(self._frame, ranks).decreasing()
-            if answer != "unsat":
-                why = "cannot be proved in time" if answer == "unknown" else "do not go down to it"
-                self.reject(f"the ranks of {self._described(goal)} {why}")
+            if not RankProof(self._frame, ranks).decreases():
+                self.reject(f"the ranks of {self._described(goal)} do not go down to it")
                 return False
         missing = next((goal for goal in goals if goal not in self.given), None)
         if missing is not None:
@@ -89,11 +91,11 @@ class RankSource:
             self._recomputed[goal] = RankFunction(goal, diagram, root, given=False)
         return self._recomputed[goal]
 
-    def lower_bound(self, goal: Residual) -> RankFunction | str:
-        """Ranks proved to be nowhere larger than the run is long; or why there are none."""
+    def lower_bound(self, goal: Residual) -> RankFunction:
+        """Ranks proved to be nowhere larger than the run is long. Raises `UndecidedError`."""
         given = self.given.get(goal)
         if given is not None:
-            if RankProof(self._frame, given).lower_bound() == "unsat":
+            if RankProof(self._frame, given).is_lower_bound():
                 if self.use == _UNNEEDED:
                     self.use = CertificateUse("used")
                 return given
@@ -101,22 +103,17 @@ class RankSource:
             self._partly(f"it has no ranks of {self._described(goal)}")
         return self.exact(goal)
 
-    def exact(self, goal: Residual) -> RankFunction | str:
-        """The lengths of the runs themselves, proved as a lower bound; or why there are none."""
+    def exact(self, goal: Residual) -> RankFunction:
+        """The lengths of the runs themselves, proved as a lower bound. Raises `UndecidedError`."""
         if goal in self.given:
             self._partly(f"its ranks of {self._described(goal)} are not the lengths of the runs")
         if self.decisions.rows is None:
-            return (
-                f"the policy is too large to follow all runs, and comes without exact ranks of {self._described(goal)}"
-            )
+            why = f"there are no exact ranks of {self._described(goal)}, and too many states to follow all runs"
+            raise UndecidedError("no cheaper allowed set serves as well", why)
         ranks = self.recomputed(goal)
-        match RankProof(self._frame, ranks).lower_bound():
-            case "unsat":
-                return ranks
-            case "sat":
-                raise RuntimeError(f"the lengths of runs are no ranks of {goal}")
-            case _:
-                return f"Z3 did not prove the ranks of {self._described(goal)} within the time limit of one obligation"
+        if not RankProof(self._frame, ranks).is_lower_bound():
+            raise RuntimeError(f"the lengths of runs are no ranks of {goal}")
+        return ranks
 
     def _partly(self, reason: str) -> None:
         if self.use.status in ("used", "unneeded"):

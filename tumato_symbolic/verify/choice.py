@@ -17,7 +17,8 @@ from tumato_symbolic.verify.encoding import (
     safe_term,
     successor_place,
 )
-from tumato_symbolic.verify.frame import Frame, Solver
+from tumato_symbolic.verify.frame import Frame
+from tumato_symbolic.verify.solver import Solver
 from tumato_symbolic.verify.terms import Number, Term, at_most_one, conjunction, disjunction, implies
 
 

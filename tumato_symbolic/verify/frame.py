@@ -1,12 +1,12 @@
-"""One policy in one specification as a Z3 problem: what every obligation speaks of, and the solver that is asked."""
+"""One policy in one specification as a Z3 problem: what every obligation speaks of, and who is asked."""
 
 from __future__ import annotations
 
+import math
 import time
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from functools import cached_property
-from typing import Any, Literal, TypeAlias
+from typing import Any
 
 import z3
 
@@ -23,62 +23,8 @@ from tumato_symbolic.verify.encoding import (
     valid_term,
 )
 from tumato_symbolic.verify.goal_terms import GoalTerms
-from tumato_symbolic.verify.terms import Term, conjunction, negation, z3_term
-
-Answer: TypeAlias = Literal["sat", "unsat", "unknown"]
-
-
-class Solver:
-    """A Z3 solver for finite domains. Every question has the same time budget (seconds, None: unlimited)."""
-
-    def __init__(self, budget: float | None) -> None:
-        self._solver = z3.SolverFor("QF_FD")
-        self._depth = 0
-        self._lost: list[Term] = []
-        self.budget = budget
-
-    def add(self, *terms: Term) -> None:
-        """Assume `terms` from now on."""
-        for term in terms:
-            if term is not True:
-                self._solver.add(z3_term(term))
-
-    def define(self, term: Term) -> None:
-        """Assume a definition for good, also when a scope is open."""
-        self.add(term)
-        if self._depth:
-            self._lost.append(term)
-
-    @contextmanager
-    def scope(self, *terms: Term) -> Iterator[None]:
-        """Assume `terms`, and whatever is added meanwhile, for a while."""
-        self._solver.push()
-        self._depth += 1
-        try:
-            self.add(*terms)
-            yield
-        finally:
-            self._solver.pop()
-            self._depth -= 1
-            self.add(*self._lost)
-            if not self._depth:
-                self._lost = []
-
-    def ask(self, *terms: Term, budget: float | None = None) -> Answer:
-        """Whether `terms` can hold together with the assumptions."""
-        if any(term is False for term in terms):
-            return "unsat"
-        limit = self.budget if budget is None else budget
-        self._solver.set("timeout", 4294967295 if limit is None else max(1, int(limit * 1000)))
-        with self.scope(*terms):
-            answer = str(self._solver.check())
-            self._model = self._solver.model() if answer == "sat" else None
-        return "sat" if answer == "sat" else "unsat" if answer == "unsat" else "unknown"
-
-    @property
-    def model(self) -> Any:  # noqa: ANN401 - z3 has no types
-        """The model of the last `sat`."""
-        return self._model
+from tumato_symbolic.verify.solver import Solver, UndecidedError
+from tumato_symbolic.verify.terms import Term, conjunction, disjunction, negation
 
 
 class Frame:
@@ -90,10 +36,11 @@ class Frame:
 
     def __init__(self, spec: Spec, decisions: DecisionDiagram, budget: float | None) -> None:
         self.spec = spec
-        self.budget = budget
-        self.solver = Solver(budget)
+        self._budget = budget
+        self.solver = Solver()
         self._solvers = [self.solver]
         self._definitions: list[Term] = []
+        self._decisions: list[list[Term]] | None = None
         self._names = 0
         self.state = Place.fresh(spec, "s")
         self.assume(self.state.in_range(spec))
@@ -122,7 +69,7 @@ class Frame:
 
     def new_solver(self) -> Solver:
         """Another solver that knows the same definitions, those to come included."""
-        solver = Solver(self.budget)
+        solver = Solver()
         solver.add(*self._definitions)
         self._solvers.append(solver)
         return solver
@@ -158,25 +105,48 @@ class Frame:
         """The decision that a model gives."""
         return frozenset(number for number, term in enumerate(self.executed) if is_true(model, term))
 
-    def first_state(self, *terms: Term) -> tuple[Answer, Any]:
-        """The model of `terms` whose state comes first in the order of declaration, so that witnesses are repeatable.
+    def deadline(self) -> float:
+        """When the time for an obligation that is begun now is over, on the monotonic clock."""
+        return math.inf if self._budget is None else time.monotonic() + self._budget
 
-        When time runs out on the way, the best state so far is taken.
+    def first_model(self, claim: str, *terms: Term, deadline: float | None = None) -> Any:  # noqa: ANN401
+        """A model of `terms` whose state comes first in the order of declaration, so that witnesses are repeatable.
+
+        None where `claim` is proved, for it has none. When time runs out on the way, the best state so far is taken;
+        raises `UndecidedError` where there is none yet.
         """
-        answer = self.solver.ask(*terms)
-        if answer != "sat":
-            return answer, None
+        deadline = self.deadline() if deadline is None else deadline
+        answer = self.solver.ask(*terms, deadline=deadline)
+        if answer == "unknown":
+            raise UndecidedError(claim)
+        if answer == "unsat":
+            return None
         best = self.solver.model
-        deadline = time.monotonic() + (self.budget or 3600.0)
         with self.solver.scope(*terms):
             for bit in unknown_bits(self.state):
-                if is_true(best, bit) and time.monotonic() < deadline:
-                    if self.solver.ask(negation(bit)) != "sat":
-                        self.solver.add(bit)
-                        continue
+                if is_true(best, bit) and self.solver.ask(negation(bit), deadline=deadline) == "sat":
                     best = self.solver.model
-                self.solver.add(negation(bit) if not is_true(best, bit) else True)
-        return "sat", best
+                self.solver.add(bit if is_true(best, bit) else negation(bit))
+        return best
+
+    def decision_literals(self, deadline: float) -> list[list[Term]]:
+        """Every case of what the policy does, as literals: it does not act; or its decision is this one."""
+        if self._decisions is None:
+            solver, found = self.new_solver(), [[negation(self.acting)]]
+            solver.add(self.acting)
+            while (answer := solver.ask(deadline=deadline)) == "sat":
+                chosen = self.decision(solver.model)
+                literals = [
+                    term if number in chosen else negation(term)
+                    for number, term in enumerate(self.executed)
+                    if not isinstance(term, bool)
+                ]
+                found.append([self.acting, *literals])
+                solver.add(disjunction(negation(literal) for literal in literals))
+            if answer == "unknown":
+                raise UndecidedError("there are no other decisions")
+            self._decisions = found
+        return self._decisions
 
     def read(self, model: Any) -> tuple[State, ActionSet]:  # noqa: ANN401 - z3 has no types
         """The state and the decision that a model gives."""

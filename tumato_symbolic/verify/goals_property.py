@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from tumato_symbolic.semantics import Residual, State, follow
 from tumato_symbolic.verify.certificate import RankSource
 from tumato_symbolic.verify.decisions import LARGEST_TABLE
@@ -11,43 +9,41 @@ from tumato_symbolic.verify.encoding import is_true
 from tumato_symbolic.verify.frame import Frame
 from tumato_symbolic.verify.rank_terms import RankProof
 from tumato_symbolic.verify.result import PropertyResult, Refutation
-from tumato_symbolic.verify.step_property import TIMEOUT
+from tumato_symbolic.verify.solver import UndecidedError
 from tumato_symbolic.verify.terms import conjunction, negation, same
-
-TOO_LARGE = (
-    f"the policy has no certificate that holds, and decides over {LARGEST_TABLE} states: too many to follow all runs"
-)
 
 
 def prove_goals(frame: Frame, source: RankSource) -> PropertyResult:
-    """From every state where the policy acts, its nominal run reaches the residual goal in 1 to `L` steps."""
-    used = list(_residuals(frame))
-    if used and used[-1] is None:
-        return PropertyResult("goals", "undecided", reason=TIMEOUT.format(claim="no other residual goal arises"))
-    goals = [goal for goal in used if goal is not None and goal.bodies]
-    given = _by_certificate(frame, source, goals)
-    return given if given is not None else _by_following(frame, source, goals)
+    """From every state where the policy acts, its nominal run reaches the residual goal in 1 to `L` steps.
+
+    Decisions that are not allowed owe no run. Raises `UndecidedError`.
+    """
+    goals = [goal for goal in _residuals(frame) if goal.bodies]
+    return _by_certificate(frame, source, goals) or _by_following(frame, source, goals)
 
 
-def _residuals(frame: Frame) -> Iterator[Residual | None]:
-    """The residual goals of all acting states; a last None where the solver could not tell whether there are more."""
+def _residuals(frame: Frame) -> list[Residual]:
+    """The residual goals of all acting states."""
     executed = {
         action: frame.name(conjunction((frame.executed[action], spoken)), "x")
         for action, spoken in frame.goals.spoken_of().items()
     }
+    found: list[Residual] = []
+    deadline = frame.deadline()
     with frame.solver.scope(frame.acting):
-        while (answer := frame.solver.ask()) == "sat":
+        while (answer := frame.solver.ask(deadline=deadline)) == "sat":
             model = frame.solver.model
             goal = Residual(
                 frozenset(body for body, term in frame.goals.active.items() if is_true(model, term)),
                 frozenset(action for action, term in executed.items() if is_true(model, term)),
             )
-            yield goal
+            found.append(goal)
             terms = [same(term, body in goal.bodies) for body, term in frame.goals.active.items()]
             terms += [same(term, action in goal.executed) for action, term in executed.items()]
             frame.solver.add(negation(conjunction(terms)))
     if answer == "unknown":
-        yield None
+        raise UndecidedError("there are no other residual goals")
+    return found
 
 
 def _by_certificate(frame: Frame, source: RankSource, goals: list[Residual]) -> PropertyResult | None:
@@ -55,9 +51,7 @@ def _by_certificate(frame: Frame, source: RankSource, goals: list[Residual]) -> 
     if not source.check_given(goals):
         return None
     for goal in goals:
-        answer, state = RankProof(frame, source.given[goal]).start(source.owes_a_run)
-        if answer == "unknown":
-            return PropertyResult("goals", "undecided", reason=TIMEOUT.format(claim="ranks are within the bound"))
+        state = RankProof(frame, source.given[goal]).first_beyond(source.owes_a_run)
         if state is not None:
             failed = _failing(frame, source, state)
             if failed is None:
@@ -69,7 +63,8 @@ def _by_certificate(frame: Frame, source: RankSource, goals: list[Residual]) -> 
 def _by_following(frame: Frame, source: RankSource, goals: list[Residual]) -> PropertyResult:
     """Follow all runs: one fails, or their lengths are ranks, which are then proved."""
     if source.decisions.rows is None:
-        return PropertyResult("goals", "undecided", reason=TOO_LARGE)
+        why = f"there is no certificate that holds, and over {LARGEST_TABLE} states, too many to follow all runs"
+        raise UndecidedError("every run reaches its goal", why)
     failing = next(filter(source.owes_a_run, source.ranks.missed()), None)
     if failing is not None:
         failed = _failing(frame, source, failing)
@@ -78,11 +73,8 @@ def _by_following(frame: Frame, source: RankSource, goals: list[Residual]) -> Pr
         return failed
     for goal in goals:
         proof = RankProof(frame, source.recomputed(goal))
-        answers = (proof.decreasing(), proof.start(source.owes_a_run)[0])
-        if "sat" in answers:
+        if not proof.decreases() or proof.first_beyond(source.owes_a_run) is not None:
             raise RuntimeError(f"the lengths of runs are no ranks of {goal}")
-        if "unknown" in answers:
-            return PropertyResult("goals", "undecided", reason=TIMEOUT.format(claim="ranks decrease"))
     return _proved(goals)
 
 

@@ -24,25 +24,22 @@ from tumato_symbolic.verify.encoding import safe_term
 from tumato_symbolic.verify.frame import Frame, unknown_bits
 from tumato_symbolic.verify.rank_terms import RankFunction
 from tumato_symbolic.verify.result import PropertyResult, Refutation
+from tumato_symbolic.verify.solver import UndecidedError
 from tumato_symbolic.verify.terms import Term, conjunction, implies, negation
 
 Cheaper: TypeAlias = tuple[State, ActionSet, Run]
 
 LEMMAS_AT_ONCE = 20
-TOO_LATE = "Z3 did not answer within the time limit of one obligation: no cheaper allowed set serves as well"
-
-
-class UnknownError(Exception):
-    """The search for a cheaper set cannot be finished; says why."""
+CLAIM = "no cheaper allowed set serves as well"
 
 
 def prove_minimal(frame: Frame, source: RankSource, ordering: Ordering) -> PropertyResult:
-    """No valid unsafe state has a cheaper allowed set whose run, continued by the policy, reaches its residual goal."""
+    """No valid unsafe state has a cheaper allowed set whose run, continued by the policy, reaches its residual goal.
+
+    Raises `UndecidedError`.
+    """
     search = _Search(frame, source, ordering)
-    try:
-        found = search.find()
-    except UnknownError as unknown:
-        return PropertyResult("minimal", "undecided", reason=str(unknown))
+    found = search.find()
     if found is None:
         return PropertyResult("minimal", "proved", 1 + len(search.ranked), "z3")
     state, cheaper, run = search.improve(found)
@@ -70,16 +67,15 @@ class _Search:
 
     def find(self, *literals: Term) -> Cheaper | None:
         """An unsafe state that meets `literals` with a better set, confirmed, and its run; None where there is none."""
-        while True:
-            answer = self._solver.ask(*literals)
-            if answer == "unsat":
-                return None
-            if answer == "unknown":
-                raise UnknownError(TOO_LATE)
+        deadline = self._frame.deadline()
+        while (answer := self._solver.ask(*literals, deadline=deadline)) == "sat":
             state, chosen = self._frame.state.read(self._solver.model), self._choice.read(self._solver.model)
             run = self._confirm(state, chosen)
             if run is not None:
                 return state, chosen, run
+        if answer == "unknown":
+            raise UndecidedError(CLAIM)
+        return None
 
     def _confirm(self, state: State, chosen: ActionSet) -> Run | None:
         """The run of a proposal, if it is better than the policy; otherwise learn why it is not."""
@@ -112,14 +108,9 @@ class _Search:
         known = self.ranked.get(goal)
         if known is not None and not known.given:
             raise RuntimeError(f"the ranks of {goal} hold, and a run takes longer")
-        ranks = self._source.lower_bound(goal) if known is None else self._source.exact(goal)
-        if isinstance(ranks, str):
-            raise UnknownError(ranks)
-        self.ranked[goal] = ranks
-        after = z3.FreshConst(z3.BitVecSort(ranks.width), "rank")
-        self._solver.add(after == ranks.at(self._frame, self._choice.after))
+        ranks = self.ranked[goal] = self._source.lower_bound(goal) if known is None else self._source.exact(goal)
         mine = self._frame.goals.is_residual(goal, self._choice.executed)
-        self._solver.add(implies(mine, ranks.within(after, self._frame.spec.max_plan_length)))
+        self._solver.add(implies(mine, ranks.within_bound(self._frame, self._choice.after)))
 
     def improve(self, found: Cheaper) -> Cheaper:
         """The first state, as declared, that has a better set, and its best one: cheapest, then smallest, then first.
@@ -144,6 +135,6 @@ class _Search:
                 better = self.find(*fixed, term)
                 found = better or found
                 fixed.append(negation(term) if better is None else term)
-        except UnknownError:
+        except UndecidedError:
             return found
         return found

@@ -27,6 +27,7 @@ from tumato_symbolic.verify.result import (
     Verdict,
     Verification,
 )
+from tumato_symbolic.verify.solver import UndecidedError
 from tumato_symbolic.verify.step_property import prove_safe, prove_total
 from tumato_symbolic.verify.terms import conjunction, negation
 
@@ -103,13 +104,14 @@ def _require_a_valid_state(frame: Frame) -> None:
 
 
 def _prove(name: PropertyName, frame: Frame, ranks: RankSource | None, ordering: Ordering) -> PropertyResult:
-    if name == "total":
-        return prove_total(frame)
-    if name == "safe":
-        return prove_safe(frame, ordering)
-    if ranks is None:
-        raise RuntimeError("goals and minimal need ranks")
-    return prove_goals(frame, ranks) if name == "goals" else prove_minimal(frame, ranks, ordering)
+    try:
+        if name == "total":
+            return prove_total(frame)
+        if name == "safe" or ranks is None:
+            return prove_safe(frame, ordering)
+        return prove_goals(frame, ranks) if name == "goals" else prove_minimal(frame, ranks, ordering)
+    except UndecidedError as undecided:
+        return PropertyResult(name, "undecided", reason=str(undecided))
 
 
 def _overall(verdicts: list[Verdict]) -> Verdict:

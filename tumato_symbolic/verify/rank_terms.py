@@ -6,16 +6,33 @@ import math
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Literal
+from typing import TypeAlias
 
 import z3
 
 from tumato_symbolic.policy.diagram import Diagram, Reference
 from tumato_symbolic.semantics import Residual, State
 from tumato_symbolic.verify.encoding import Place, diagram_terms
-from tumato_symbolic.verify.frame import Answer, Frame, Solver
+from tumato_symbolic.verify.frame import Frame
 from tumato_symbolic.verify.goal_terms import reached_term
+from tumato_symbolic.verify.solver import UndecidedError
 from tumato_symbolic.verify.terms import Number, Term, conjunction, disjunction, either, negation
+
+AT_ONCE = 1.0
+"""How many seconds Z3 may think about all ranks and decisions at once, before they are asked one by one."""
+
+Rank: TypeAlias = int | None
+"""A number of steps; None is never."""
+
+
+def exactly(wanted: int) -> Callable[[Rank], bool]:
+    """Whether a rank is this one."""
+    return lambda rank: rank == wanted
+
+
+def below(bound: float) -> Callable[[Rank], bool]:
+    """Whether a rank is a number under `bound`."""
+    return lambda rank: rank is not None and rank < bound
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,135 +44,130 @@ class RankFunction:
     """
 
     goal: Residual
-    diagram: Diagram[int | None]
+    diagram: Diagram[Rank]
     root: Reference
     given: bool
 
     @property
-    def width(self) -> int:
-        """How many bits a rank has; all ones are None."""
-        largest = max((leaf for leaf in self.diagram.leaves if leaf is not None), default=0)
-        return max(1, (largest + 1).bit_length())
+    def ranks(self) -> list[int]:
+        """All ranks that may occur."""
+        return sorted({0, *(leaf for leaf in self.diagram.leaves if leaf is not None)})
 
     @property
-    def never(self) -> Number:
-        """The number that stands for None: larger than every rank."""
-        return z3.BitVecVal((1 << self.width) - 1, self.width)
+    def width(self) -> int:
+        """How many bits a rank has as a number; all ones are None."""
+        return (self.ranks[-1] + 1).bit_length()
 
-    def at(self, frame: Frame, place: Place) -> Number:
-        """The rank of `place`."""
-
-        def leaf(rank: int | None) -> Number:
-            return self.never if rank is None else z3.BitVecVal(rank, self.width)
-
-        (rank,) = diagram_terms(self.diagram, [self.root], place, leaf)
+    def number(self, frame: Frame, place: Place) -> Number:
+        """The rank of `place` as a number; None is larger than every rank."""
+        never = (1 << self.width) - 1
+        numbers = {leaf: z3.BitVecVal(never if leaf is None else leaf, self.width) for leaf in self.diagram.leaves}
+        (rank,) = diagram_terms(self.diagram, [self.root], place, numbers.__getitem__)
         if self.given:
             return rank
         return either(reached_term(frame.spec, self.goal, place), z3.BitVecVal(0, self.width), rank)
 
-    def within(self, rank: Number, bound: int | None) -> Term:
-        """The rank is a number, and at most `bound - 1`."""
-        if bound is None or bound >= (1 << self.width) - 1:
-            return z3.ULT(rank, self.never)
-        return z3.ULE(rank, z3.BitVecVal(bound - 1, self.width))
+    def where(self, frame: Frame, place: Place, wanted: Callable[[Rank], bool]) -> Term:
+        """The rank of `place` is a wanted one."""
+        (term,) = diagram_terms(self.diagram, [self.root], place, wanted)
+        return term if self.given else either(reached_term(frame.spec, self.goal, place), wanted(0), term)
+
+    def within_bound(self, frame: Frame, place: Place) -> Term:
+        """A step to `place` serves the goal: the rank there is at most `L - 1`; a number, where there is no bound."""
+        bound = frame.spec.max_plan_length
+        return self.where(frame, place, below(math.inf if bound is None else bound))
 
 
 class RankProof:
-    """The obligations on one rank function, over the states that it speaks of."""
+    """The obligations on one rank function, over the states that it speaks of.
+
+    Each is asked at once; where that takes too long, for every rank and decision apart.
+    """
 
     def __init__(self, frame: Frame, ranks: RankFunction) -> None:
         self._frame = frame
         self._ranks = ranks
-        self._here = z3.BitVec("rank", ranks.width)
-        self._after = z3.BitVec("rank_after", ranks.width)
         self._covered: Term = frame.safe if ranks.given else True
         self._covered_after: Term = frame.safe_after if ranks.given else True
+        self._reached = frame.name(reached_term(frame.spec, ranks.goal, frame.state), "reached")
 
-    def decreasing(self) -> Answer:
+    def decreases(self) -> bool:
         """`N` is an upper bound: 0 means that the goal holds, `j > 0` that the next state has a smaller rank."""
-        zero = self._here == 0
-        goes_down = conjunction((self._frame.acting, self._covered_after, z3.ULT(self._after, self._here)))
-        wrong = either(
-            zero,
-            negation(reached_term(self._frame.spec, self._ranks.goal, self._frame.state)),
-            negation(goes_down),
+        here, after, names = self._numbers()
+        never = (1 << self._ranks.width) - 1
+        steps = conjunction((self._frame.acting, self._covered_after))
+        goes_down = conjunction((steps, z3.ULT(after, here)))
+        wrong = either(here == 0, negation(self._reached), negation(goes_down))
+        return self._holds(
+            "ranks decrease", [*names, self._covered, here != never, wrong], self._decreases_by_parts(steps)
         )
-        return self._prove((self._covered, self._here != self._ranks.never, wrong))
 
-    def lower_bound(self) -> Answer:
-        """`N` is 0 where the goal holds, and nowhere more than one larger than in the next state; None is infinite."""
-        reached = reached_term(self._frame.spec, self._ranks.goal, self._frame.state)
-        next_or_more = disjunction(
-            (
-                self._after == self._ranks.never,
-                z3.ULE(self._here, self._after + 1),
-            )
-        )
-        wrong = either(
-            reached,
-            self._here != 0,
-            conjunction((self._frame.acting, negation(conjunction((self._covered_after, next_or_more))))),
-        )
-        return self._prove((self._covered, wrong))
+    def _decreases_by_parts(self, steps: Term) -> Iterator[Term]:
+        yield conjunction((self._here(exactly(0)), negation(self._reached)))
+        for rank in self._ranks.ranks[1:]:
+            yield conjunction((self._here(exactly(rank)), negation(conjunction((steps, self._after(below(rank)))))))
 
-    def start(self, blameless: Callable[[State], bool]) -> tuple[Answer, State | None]:
-        """Every state with this residual goal steps to one whose rank is below the bound; or the first that does not.
+    def is_lower_bound(self) -> bool:
+        """`N` is 0 where the goal holds, and nowhere over one more than in the next state; None is infinite."""
+        here, after, names = self._numbers()
+        never = (1 << self._ranks.width) - 1
+        follows = conjunction((self._covered_after, disjunction((after == never, z3.ULE(here, after + 1)))))
+        wrong = either(self._reached, here != 0, conjunction((self._frame.acting, negation(follows))))
+        return self._holds("ranks are nowhere too large", [*names, self._covered, wrong], self._bounds_by_parts())
 
-        States that are not `blameless` are passed over: their decision is refuted elsewhere.
+    def _bounds_by_parts(self) -> Iterator[Term]:
+        yield conjunction((self._reached, negation(self._here(exactly(0)))))
+        moves = conjunction((negation(self._reached), self._frame.acting))
+        yield conjunction((moves, negation(self._covered_after)))
+        for rank in self._ranks.ranks:
+            yield conjunction((moves, self._after(exactly(rank)), negation(self._here(below(rank + 2)))))
+
+    def first_beyond(self, owes_a_run: Callable[[State], bool]) -> State | None:
+        """The first state with this residual goal that steps to one whose rank is not below the bound.
+
+        States for which `owes_a_run` is false are passed over.
         """
         frame = self._frame
-        goes = conjunction((self._covered_after, self._ranks.within(self._after, frame.spec.max_plan_length)))
+        goes = conjunction((self._covered_after, self._ranks.within_bound(frame, frame.after)))
         mine = frame.goals.is_residual(self._ranks.goal, frame.executed)
-        deadline = time.monotonic() + (frame.budget or math.inf)
-        with frame.solver.scope(*self._definitions(), frame.acting, mine, negation(goes)):
-            while time.monotonic() < deadline:
-                answer, model = frame.first_state()
-                if answer != "sat":
-                    return answer, None
+        deadline = frame.deadline()
+        with frame.solver.scope(frame.acting, mine, negation(goes)):
+            while (model := frame.first_model("ranks are below the bound", deadline=deadline)) is not None:
                 state = frame.state.read(model)
-                if blameless(state):
-                    return "sat", state
+                if owes_a_run(state):
+                    return state
                 frame.solver.add(negation(conjunction(frame.literals(state))))
-        return "unknown", None
+        return None
 
-    def _definitions(self) -> Iterator[Term]:
-        yield self._here == self._ranks.at(self._frame, self._frame.state)
-        yield self._after == self._ranks.at(self._frame, self._frame.after)
+    def _here(self, wanted: Callable[[Rank], bool]) -> Term:
+        return self._ranks.where(self._frame, self._frame.state, wanted)
 
-    def _prove(self, violation: tuple[Term, ...]) -> Answer:
-        """Ask at once; where that takes too long, for every decision and rank apart."""
-        solver = self._frame.solver
-        with solver.scope(*self._definitions(), *violation):
-            answer = solver.ask()
-            return answer if answer != "unknown" else self._by_parts(solver)
+    def _after(self, wanted: Callable[[Rank], bool]) -> Term:
+        return self._ranks.where(self._frame, self._frame.after, wanted)
 
-    def _by_parts(self, solver: Solver) -> Answer:
-        ranks = sorted({leaf for leaf in self._ranks.diagram.leaves if leaf is not None})
-        values = [*(z3.BitVecVal(rank, self._ranks.width) for rank in ranks), self._ranks.never]
-        for decision in _decisions(self._frame, solver):
-            if decision == "unknown":
-                return "unknown"
-            with solver.scope(*decision):
-                for value in values:
-                    answer = solver.ask(self._here == value)
-                    if answer != "unsat":
-                        return answer
-        return "unsat"
-
-
-def _decisions(frame: Frame, solver: Solver) -> Iterator[list[Term] | Literal["unknown"]]:
-    """Every decision that some acting state has, as literals; then nothing where the policy does not act."""
-    others = frame.new_solver()
-    yield [negation(frame.acting)]
-    others.add(frame.acting)
-    while (answer := others.ask()) == "sat":
-        chosen = frame.decision(others.model)
-        literals = [
-            term if number in chosen else negation(term)
-            for number, term in enumerate(frame.executed)
-            if not isinstance(term, bool)
+    def _numbers(self) -> tuple[Number, Number, list[Term]]:
+        """The ranks of `s` and of its successor, and what defines them."""
+        here, after = z3.BitVec("rank", self._ranks.width), z3.BitVec("rank_after", self._ranks.width)
+        frame = self._frame
+        definitions = [
+            here == self._ranks.number(frame, frame.state),
+            after == self._ranks.number(frame, frame.after),
         ]
-        yield [frame.acting, *literals]
-        others.add(disjunction(negation(literal) for literal in literals))
-    if answer == "unknown":
-        yield "unknown"
+        return here, after, definitions
+
+    def _holds(self, claim: str, violation: list[Term], parts: Iterator[Term]) -> bool:
+        frame = self._frame
+        deadline = frame.deadline()
+        at_once = min(time.monotonic() + AT_ONCE, deadline)
+        answer = frame.solver.ask(*violation, deadline=at_once)
+        if answer != "unknown":
+            return answer == "unsat"
+        for part in parts:
+            with frame.solver.scope(self._covered, part):
+                for decision in frame.decision_literals(deadline):
+                    answer = frame.solver.ask(*decision, deadline=deadline)
+                    if answer == "unknown":
+                        raise UndecidedError(claim)
+                    if answer == "sat":
+                        return False
+        return True

@@ -2,66 +2,58 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Any
 
-from tumato_symbolic.semantics import Objection, objections
+from tumato_symbolic.semantics import ActionSet, Objection, State, objections
 from tumato_symbolic.spec import Ordering
 from tumato_symbolic.verify.encoding import formula_term
 from tumato_symbolic.verify.frame import Frame
 from tumato_symbolic.verify.outcomes import UnsafeOutcome
 from tumato_symbolic.verify.result import PropertyResult, Refutation
+from tumato_symbolic.verify.solver import UndecidedError
 from tumato_symbolic.verify.terms import Term, at_most_one, conjunction, disjunction, negation
-
-TIMEOUT = "Z3 did not answer within the time limit of one obligation: {claim}"
 
 
 @dataclass(frozen=True, slots=True)
 class Obligation:
-    """A claim about every state `s`, and what it takes to violate it."""
+    """A claim about every decided state, and what it takes to violate it.
+
+    `explain` reads the objection from a model; without it, it is the first one that `semantics` finds.
+    """
 
     claim: str
     violation: Term
+    explain: Callable[[Any, State, ActionSet], Objection] | None = None
 
 
 def prove_total(frame: Frame) -> PropertyResult:
     """Every valid state has a decision: `V ⇒ defined`."""
-    claim = "every valid state has a decision"
-    answer, model = frame.first_state(frame.valid, negation(frame.defined))
-    if answer == "unsat":
+    model = frame.first_model("every valid state has a decision", frame.valid, negation(frame.defined))
+    if model is None:
         return PropertyResult("total", "proved", 1, "z3")
-    if answer == "unknown":
-        return PropertyResult("total", "undecided", reason=TIMEOUT.format(claim=claim))
     return PropertyResult("total", "refuted", refutation=Refutation("missing", frame.state.read(model)))
 
 
 def prove_safe(frame: Frame, ordering: Ordering) -> PropertyResult:
-    """Every decision for a valid state is allowed."""
-    obligations = list(_conditions(frame))
-    undecided: str | None = None
-    for obligation in obligations:
-        answer, model = frame.first_state(frame.decided, obligation.violation)
-        if answer == "sat":
-            state, chosen = frame.read(model)
-            objection = next(objections(frame.spec, state, chosen, ordering), None)
-            return _refuted(frame, model, objection)
-        if answer == "unknown":
-            undecided = TIMEOUT.format(claim=obligation.claim)
-    unsafe = UnsafeOutcome(frame.spec, frame.state, frame.executed, ordering)
-    answer, model = frame.first_state(frame.decided, *unsafe.constraints)
-    if answer == "sat":
-        return _refuted(frame, model, unsafe.objection(model, *frame.read(model)))
-    if answer == "unknown":
-        undecided = TIMEOUT.format(claim="every outcome is safe")
+    """Every decision for a valid state is allowed. One that is not is found also where other obligations are open."""
+    obligations = [*_conditions(frame), _outcomes(frame, ordering)]
     if ordering == "first":
-        answer, model = frame.first_state(frame.acting, negation(frame.safe_after))
-        if answer == "sat":
-            return _refuted(frame, model, next(objections(frame.spec, *frame.read(model), ordering), None))
-        if answer == "unknown":
-            undecided = TIMEOUT.format(claim="all nominal effects together lead to a safe state")
+        violation = conjunction((frame.acting, negation(frame.safe_after)))
+        obligations.append(Obligation("all nominal effects together lead to a safe state", violation))
+    undecided: UndecidedError | None = None
+    for obligation in obligations:
+        try:
+            model = frame.first_model(obligation.claim, frame.decided, obligation.violation)
+        except UndecidedError as unknown:
+            undecided = unknown
+            continue
+        if model is not None:
+            return _refuted(frame, obligation, model, ordering)
     if undecided is not None:
-        return PropertyResult("safe", "undecided", reason=undecided)
-    return PropertyResult("safe", "proved", len(obligations) + (1 if ordering == "any" else 2), "z3")
+        raise undecided
+    return PropertyResult("safe", "proved", len(obligations), "z3")
 
 
 def _conditions(frame: Frame) -> Iterator[Obligation]:
@@ -89,8 +81,19 @@ def _conditions(frame: Frame) -> Iterator[Obligation]:
     yield Obligation("nothing is done in safe states only", conjunction((idle, negation(frame.safe))))
 
 
-def _refuted(frame: Frame, model: object, objection: Objection | None) -> PropertyResult:
+def _outcomes(frame: Frame, ordering: Ordering) -> Obligation:
+    """Condition 5 of section 3."""
+    unsafe = UnsafeOutcome(frame.spec, frame.state, frame.executed, ordering)
+    return Obligation("every outcome is safe", conjunction(unsafe.constraints), unsafe.objection)
+
+
+def _refuted(frame: Frame, obligation: Obligation, model: object, ordering: Ordering) -> PropertyResult:
     state, chosen = frame.read(model)
+    objection = (
+        obligation.explain(model, state, chosen)
+        if obligation.explain is not None
+        else next(objections(frame.spec, state, chosen, ordering), None)
+    )
     if objection is None:
         raise RuntimeError(f"{sorted(chosen)} is allowed in {state}, against the solver")
     return PropertyResult("safe", "refuted", refutation=Refutation("not-allowed", state, chosen, objection))

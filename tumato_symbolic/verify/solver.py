@@ -1,0 +1,84 @@
+"""Z3 with scopes, definitions and deadlines."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any, Literal, TypeAlias
+
+import z3
+
+from tumato_symbolic.verify.terms import Term, z3_term
+
+Answer: TypeAlias = Literal["sat", "unsat", "unknown"]
+
+NO_TIMEOUT = 4294967295
+"""What Z3 takes, in milliseconds, for no limit."""
+LONGEST = 4_000_000.0
+"""Longer limits, in seconds, are none."""
+
+
+class UndecidedError(Exception):
+    """An obligation is neither proved nor refuted."""
+
+    def __init__(self, claim: str, why: str = "Z3 did not answer within the time limit of one obligation") -> None:
+        super().__init__(f"{why}: {claim}")
+
+
+class Solver:
+    """A Z3 solver for finite domains."""
+
+    def __init__(self) -> None:
+        self._solver = z3.SolverFor("QF_FD")
+        self._depth = 0
+        self._lost: list[Term] = []
+        self._model: Any = None
+
+    def add(self, *terms: Term) -> None:
+        """Assume `terms` from now on."""
+        for term in terms:
+            if term is not True:
+                self._solver.add(z3_term(term))
+
+    def define(self, term: Term) -> None:
+        """Assume a definition for good, also when a scope is open."""
+        self.add(term)
+        if self._depth:
+            self._lost.append(term)
+
+    @contextmanager
+    def scope(self, *terms: Term) -> Iterator[None]:
+        """Assume `terms`, and whatever is added meanwhile, for a while."""
+        self._solver.push()
+        self._depth += 1
+        try:
+            self.add(*terms)
+            yield
+        finally:
+            self._solver.pop()
+            self._depth -= 1
+            self.add(*self._lost)
+            if not self._depth:
+                self._lost = []
+
+    def ask(self, *terms: Term, deadline: float = math.inf) -> Answer:
+        """Whether `terms` can hold together with the assumptions; unknown when `deadline` (monotonic) comes first."""
+        if any(term is False for term in terms):
+            return "unsat"
+        left = deadline - time.monotonic()
+        if left <= 0:
+            return "unknown"
+        self._solver.set("timeout", NO_TIMEOUT if left > LONGEST else max(1, int(left * 1000)))
+        with self.scope(*terms):
+            answer = str(self._solver.check())
+            if answer == "unknown" and "interrupted" in self._solver.reason_unknown():
+                raise KeyboardInterrupt  # Z3 took Ctrl-C for itself
+            self._model = self._solver.model() if answer == "sat" else None
+        return "sat" if answer == "sat" else "unsat" if answer == "unsat" else "unknown"
+
+    @property
+    def model(self) -> Any:  # noqa: ANN401 - z3 has no types
+        """The model of the last `sat`."""
+        return self._model
