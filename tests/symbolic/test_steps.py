@@ -24,7 +24,6 @@ from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.symbolic import (
     Backend,
     Encoding,
-    Manager,
     Steps,
     available_backend,
     build_steps,
@@ -131,14 +130,3 @@ def test_the_preferred_set_is_the_smallest_then_the_one_declared_first(seed: int
             total = sum(spec.actions[action].duration for action in some)
             assert (encoding.choices_cube(some) & lasting(encoding, total)) != encoding.manager.false
             assert (encoding.choices_cube(some) & lasting(encoding, total + 1)) == encoding.manager.false
-
-
-@pytest.mark.parametrize("backend", BACKENDS)
-def test_counts_are_exact_beyond_machine_words(backend: Backend) -> None:
-    """A set over 200 bits has exactly as many members as it has, which no float can hold."""
-    bits = [f"b{number}" for number in range(200)]
-    manager = Manager(bits, backend)
-    assert manager.count(manager.true, bits) == 2**200
-    assert manager.count(~manager.cube(dict.fromkeys(bits, True)), bits) == 2**200 - 1
-    assert manager.count(manager.cube({"b7": True, "b150": False}), bits) == 2**198
-    assert manager.count(manager.false, bits) == 0

@@ -6,8 +6,10 @@ enumerates, so that both backends give the same results.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+import sys
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from importlib import import_module
+from types import ModuleType
 from typing import Any, Literal, Protocol, TypeAlias
 
 Backend: TypeAlias = Literal["cudd", "autoref"]
@@ -26,10 +28,35 @@ class Bdd(Protocol):
         """Complement."""
 
 
+class _Later(ModuleType):
+    """Stands for a module until one of its functions or classes is called."""
+
+    def __getattr__(self, name: str) -> Callable[..., object]:
+        if name.startswith("__"):
+            raise AttributeError(name)
+
+        def call(*values: object, **named: object) -> object:
+            return getattr(import_module(self.__name__), name)(*values, **named)
+
+        return call
+
+
+def _import_dd(backend: Backend) -> ModuleType:
+    """A backend of dd, without networkx, which dd wants for drawings only and which is half of its start-up."""
+    wanted = "networkx"
+    if f"dd.{backend}" in sys.modules or wanted in sys.modules:
+        return import_module(f"dd.{backend}")
+    sys.modules[wanted] = _Later(wanted)
+    try:
+        return import_module(f"dd.{backend}")
+    finally:
+        del sys.modules[wanted]
+
+
 def available_backend() -> Backend:
     """CUDD where dd was built with it, else the pure Python backend."""
     try:
-        import_module("dd.cudd")
+        _import_dd("cudd")
     except ImportError:
         return "autoref"
     return "cudd"
@@ -40,7 +67,7 @@ class Manager:
 
     def __init__(self, bits: Sequence[str], backend: Backend) -> None:
         self.backend = backend
-        self._module: Any = import_module(f"dd.{backend}")
+        self._module: Any = _import_dd(backend)
         self._bdd: Any = self._module.BDD()
         self._bdd.configure(reordering=False)
         self._bdd.declare(*bits)
