@@ -1,0 +1,199 @@
+(** What a specification means, and when a policy is right.
+
+    To be read beside [docs/semantics.md]; the section numbers are the same. Nothing is proved here.
+    Variables, values, resources and actions are numbers: positions in the declaration. *)
+
+From Coq Require Import List Arith NArith Sorted.
+Import ListNotations.
+
+(** ** The parts of a specification *)
+
+(** A state holds one value number for every variable. *)
+Definition state := list nat.
+
+(** A set of actions is the increasing list of its numbers (see [action_set] below). *)
+Definition actions := list nat.
+
+(** What an effect writes: pairs of a variable and its new value. *)
+Definition assignment := list (nat * nat).
+
+Inductive formula :=
+| Constant (b : bool)
+| Is (variable value : nat)
+| Executing (action : nat)
+| Not (f : formula)
+| And (fs : list formula)
+| Or (fs : list formula)
+| Iff (f g : formula).
+
+Record action := {
+  duration : N;
+  resources : list nat;
+  preconditions : list formula;
+  nominal : assignment;
+  alternatives : list assignment
+}.
+
+Inductive kind := Priority | Constraint.
+
+Inductive goal :=
+| Simple (body : formula)
+| When (condition : formula) (g : goal)
+| Goals (k : kind) (members : list goal).
+
+Record specification := {
+  sizes : list nat;  (* how many values each variable has *)
+  declared : list action;
+  reaction_rules : list formula;
+  state_rules : list formula;
+  assumptions : list formula;
+  goals : option goal;
+  max_plan_length : option N
+}.
+
+Inductive ordering := Any | First.
+Definition policy := state -> actions.
+
+(** ** 1. States *)
+
+Definition member (a : nat) (A : actions) : bool := existsb (Nat.eqb a) A.
+
+(** Whether a formula is true in state [s] while the actions [A] are executed. *)
+Fixpoint holds (s : state) (A : actions) (f : formula) : bool :=
+  match f with
+  | Constant b => b
+  | Is x v => nth x s 0 =? v
+  | Executing a => member a A
+  | Not g => negb (holds s A g)
+  | And fs => forallb (holds s A) fs
+  | Or fs => existsb (holds s A) fs
+  | Iff g h => Bool.eqb (holds s A g) (holds s A h)
+  end.
+
+(** All of the formulas [fs] are true in [s] (and none of them speaks of actions). *)
+Definition all_hold (s : state) (fs : list formula) : Prop := forall f, In f fs -> holds s [] f = true.
+
+Section Meaning.
+
+Variables (spec : specification) (order : ordering).
+
+Definition is_state (s : state) : Prop := Forall2 lt s (sizes spec).
+
+Definition valid (s : state) : Prop := is_state s /\ all_hold s (assumptions spec).
+
+Definition safe (s : state) : Prop := valid s /\ all_hold s (state_rules spec).
+
+(** ** 2. Actions *)
+
+Definition action_set (A : actions) : Prop :=
+  StronglySorted lt A /\ forall a, In a A -> a < length (declared spec).
+
+(** The record of action number [a]; the empty one stands for numbers that are not declared. *)
+Definition the (a : nat) : action :=
+  nth a (declared spec)
+    {| duration := 0; resources := []; preconditions := []; nominal := []; alternatives := [] |}.
+
+Definition effects (a : nat) : list assignment := nominal (the a) :: alternatives (the a).
+
+Fixpoint write (x v : nat) (s : state) : state :=
+  match s, x with
+  | [], _ => []
+  | _ :: s, 0 => v :: s
+  | w :: s, S x => w :: write x v s
+  end.
+
+(** The state after an effect: every variable that is not assigned keeps its value. *)
+Definition apply (e : assignment) (s : state) : state := fold_left (fun s p => write (fst p) (snd p) s) e s.
+
+(** The duration of a set is the sum of its actions' durations. *)
+Definition total_duration (A : actions) : N := fold_right (fun a d => (duration (the a) + d)%N) 0%N A.
+
+(** ** 3. What may be executed together *)
+
+Definition without (a : nat) (A : actions) : actions := filter (fun b => negb (b =? a)) A.
+
+(** [struck A s t]: some non-empty sequence of distinct actions of [A], each contributing any one of its effects,
+    leads from [s] to [t]. *)
+Inductive struck : actions -> state -> state -> Prop :=
+| last_effect A s a e : In a A -> In e (effects a) -> struck A s (apply e s)
+| next_effect A s a e t : In a A -> In e (effects a) -> struck (without a A) (apply e s) t -> struck A s t.
+
+(** [out s A t]: a step with [A] from [s] can lead to [t]. *)
+Definition out (s : state) (A : actions) (t : state) : Prop :=
+  match A, order with
+  | [], _ => t = s
+  | _, Any => struck A s t
+  | _, First => exists a e, In a A /\ In e (effects a) /\ t = apply e s
+  end.
+
+(** The nominal successor: all nominal effects at once. *)
+Definition delta (s : state) (A : actions) : state := apply (flat_map (fun a => nominal (the a)) A) s.
+
+(** The set [A] is allowed in state [s]. *)
+Record ok (s : state) (A : actions) : Prop := {
+  preconditions_hold : forall a, In a A -> all_hold s (preconditions (the a));
+  resources_differ : forall a b r, In a A -> In b A -> a <> b ->
+    In r (resources (the a)) -> ~ In r (resources (the b));
+  nominals_agree : forall a b x v w, In a A -> In b A ->
+    In (x, v) (nominal (the a)) -> In (x, w) (nominal (the b)) -> v = w;
+  reaction_rules_hold : forall f, In f (reaction_rules spec) -> holds s A f = true;
+  outcomes_safe : forall t, out s A t -> safe t;
+  successor_safe : safe (delta s A)
+}.
+
+(** ** 4. Goals *)
+
+Definition found (entered : option (list formula)) : list formula :=
+  match entered with None => [] | Some bodies => bodies end.
+
+(** The bodies that a goal makes active in [s], or [None] where it is not entered. *)
+Fixpoint walk (s : state) (g : goal) : option (list formula) :=
+  match g with
+  | Simple body => Some [body]
+  | When condition g => if holds s [] condition then Some (found (walk s g)) else None
+  | Goals k members =>
+      Some ((fix through (gs : list goal) : list formula :=
+        match gs with
+        | [] => []
+        | g :: gs =>
+            match walk s g, k with
+            | None, _ => through gs
+            | Some bodies, Priority => bodies
+            | Some bodies, Constraint => bodies ++ through gs
+            end
+        end) members)
+  end.
+
+(** The bodies of the simple goals active in [s]. *)
+Definition active (s : state) : list formula :=
+  match goals spec with None => [] | Some g => found (walk s g) end.
+
+(** The goal of a run from [s] whose first set is [A] is met in [t]: state atoms are judged in [t], [Executing] in [A]. *)
+Definition met (s : state) (A : actions) (t : state) : Prop := forall f, In f (active s) -> holds t A f = true.
+
+(** ** 5. Policies *)
+
+(** The state after [k] steps of the nominal run from [s]. *)
+Fixpoint run (pi : policy) (s : state) (k : nat) : state :=
+  match k with
+  | 0 => s
+  | S k => let here := run pi s k in delta here (pi here)
+  end.
+
+Definition within_bound (k : nat) : Prop :=
+  match max_plan_length spec with None => True | Some most => (N.of_nat k <= most)%N end.
+
+Definition sound_and_complete (pi : policy) : Prop :=
+  forall s, valid s ->
+    action_set (pi s) /\ ok s (pi s) /\
+    exists k, 1 <= k /\ within_bound k /\ met s (pi s) (run pi s k).
+
+(** The policy that is [pi] but for the set [A] in [s]. *)
+Definition change (pi : policy) (s : state) (A : actions) : policy :=
+  fun t => if list_eq_dec Nat.eq_dec t s then A else pi t.
+
+Definition minimal (pi : policy) : Prop :=
+  forall s A, valid s -> ~ safe s -> action_set A -> ok s A ->
+    (total_duration A < total_duration (pi s))%N -> ~ sound_and_complete (change pi s A).
+
+End Meaning.
