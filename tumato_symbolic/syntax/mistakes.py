@@ -55,7 +55,7 @@ def _wrong_end(here: Situation) -> Diagnostic | None:
     return Diagnostic(
         Code.TUM108,
         f"{quoted(written)} does not close `BEGIN {title}`",
-        _join(here.end_words[0].span, here.token.span if same_line else here.end_words[-1].span),
+        _join(here.end_words[0].span, (rest[len(same_line) - 1] if same_line else here.end_words[-1]).span),
         help=f"write `END {title}`",
         notes=(Note("the block begins here", here.open[here.begin].span),),
     )

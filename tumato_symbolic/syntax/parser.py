@@ -13,7 +13,7 @@ from tumato_symbolic.syntax.grammar import Grammar, grammar
 from tumato_symbolic.syntax.mistakes import explain
 from tumato_symbolic.syntax.model import Parsed
 from tumato_symbolic.syntax.nesting import MAX_NESTING, deepest
-from tumato_symbolic.syntax.situation import TITLES, Situation
+from tumato_symbolic.syntax.situation import BLOCKS, TITLES, Situation
 from tumato_symbolic.syntax.stack import Row, Stack
 from tumato_symbolic.syntax.tokens import HARD, Token, tokenize
 
@@ -121,19 +121,24 @@ class _Run:
             keyword = self.grammar.terminals.get(token.text)
             if keyword is None:
                 return "NAME"
-            if token.text in HARD or (keyword in row and ("NAME" not in row or self._confirmed(index))):
+            if token.text in HARD:
                 return keyword
-            return "NAME"
+            possible = keyword in row
+            if "NAME" in row and (possible or "LPAR" in row):
+                possible = self._confirmed(index, possible)
+            return keyword if possible else "NAME"
         if token.kind == "symbol":
             return self.grammar.terminals[token.text]
         return {"number": "NUMBER", "end": "$END"}.get(token.kind, "OTHER")
 
-    def _confirmed(self, index: int) -> bool:
-        """Whether a word that may be a keyword or a name is the keyword."""
+    def _confirmed(self, index: int, possible: bool) -> bool:
+        """Whether a word that may be a keyword or a name is the keyword; `possible`: it fits here as a keyword."""
         text, following = self.tokens[index].text, self.tokens[index + 1]
+        if text in _FOLLOWED_BY:
+            return following.text in _FOLLOWED_BY[text]
         if text == "action":
-            return following.kind == "word" and following.text not in HARD | {"is"}
-        return text not in _FOLLOWED_BY or following.text in _FOLLOWED_BY[text]
+            return possible and following.kind == "word" and following.text not in HARD | {"is"}
+        return possible
 
     def _recover(self) -> None:
         """Report the token at `index`, and make the parser ready to go on with the token at the new `index`."""
@@ -160,11 +165,15 @@ class _Run:
             self._panic()
 
     def _situation(self) -> Situation:
-        """What surrounds the token at `index`.
+        """What surrounds the token at `index`, or the one before it where that was taken for something else.
 
-        A block that begins while a list of goals is open was taken for a nested list: its BEGIN is put back.
+        A keyword that was taken for a name is put back, and so is the BEGIN of a block that begins while a list of
+        goals is open: it was taken for a nested list.
         """
-        opened = _open_tokens(self.stack.values)
+        if self._was_keyword():
+            self.stack.cut(len(self.stack.values) - 1)
+            self.index -= 1
+        opened = _without_closed(_open_tokens(self.stack.values))
         text = self.tokens[self.index].text
         begins = sum(token.text == "BEGIN" for token in opened)
         unclosed = begins > 1 and opened[-1].text == "BEGIN" and text in TITLES and text != "GOALS"
@@ -174,6 +183,14 @@ class _Run:
             self.index -= 1
         expected = frozenset(self.grammar.spellings.get(each, each) for each in self.stack.accepted())
         return Situation(self.tokens, self.index, expected, opened, unclosed)
+
+    def _was_keyword(self) -> bool:
+        """Whether the token before `index` was taken for a name, but something complete can begin with it."""
+        top = self.stack.values[-1] if self.stack.values else None
+        before = self.index - 1
+        if not isinstance(top, ast.Name) or top.span != self.tokens[before].span or top.text not in _RESTARTS:
+            return False
+        return any(self._can_restart(depth, before) for depth in self.stack.topmost())
 
     def _supply(self, *words: str) -> None:
         """Feed words that are missing from the text."""
@@ -220,3 +237,13 @@ def _open_tokens(values: list[object]) -> tuple[Token, ...]:
     return tuple(
         Token("word", str(value), value.line or 1, value.column or 1) for value in values if isinstance(value, Fed)
     )
+
+
+def _without_closed(opened: tuple[Token, ...]) -> tuple[Token, ...]:
+    """Leave out a last block that is closed, though the parser has not put it together yet."""
+    for title in BLOCKS:
+        end = len(opened) - len(title) - 1
+        if tuple(token.text for token in opened[max(end, 0) :]) == ("END", *title):
+            begin = max(place for place, token in enumerate(opened) if token.text == "BEGIN")
+            return opened[:begin]
+    return opened

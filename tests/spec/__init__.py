@@ -1,0 +1,1 @@
+"""Names, effects, lint, digests."""

@@ -1,0 +1,78 @@
+"""Trees for property tests: everything that the parser can yield, and nothing else."""
+
+from __future__ import annotations
+
+from hypothesis import strategies as st
+
+from tumato_symbolic.syntax import ast
+from tumato_symbolic.syntax.tokens import HARD
+
+SOFT = [
+    "goal", "on", "is", "can", "be", "as", "state", "action", "effects", "cost", "when", "then", "rule", "GOALS",
+    "duration", "nominal", "controlled", "alternative", "preconditions", "resources", "STATE", "type", "any", "assume",
+]  # fmt: skip
+RESERVED = frozenset({"true", "false", "none", "executing"})
+
+words = st.one_of(st.sampled_from(SOFT), st.from_regex(r"[A-Za-z_][A-Za-z0-9_]{0,8}", fullmatch=True))
+values = words.filter(lambda word: word not in HARD).map(ast.Name)
+names = words.filter(lambda word: word not in HARD | RESERVED).map(ast.Name)
+
+atoms = st.one_of(
+    st.booleans().map(ast.Truth),
+    st.builds(ast.Comparison, names, values),
+    st.builds(ast.Execution, values),
+    names.map(ast.Reference),
+)
+
+
+def _larger(parts: st.SearchStrategy[ast.Predicate]) -> st.SearchStrategy[ast.Predicate]:
+    several = st.lists(parts, min_size=2, max_size=3).map(tuple)
+    return st.one_of(
+        st.builds(ast.Negation, parts),
+        st.builds(ast.Conjunction, several),
+        st.builds(ast.Disjunction, several),
+        st.builds(ast.Implication, parts, parts),
+        st.builds(ast.Equivalence, parts, parts),
+    )
+
+
+predicates: st.SearchStrategy[ast.Predicate] = st.recursive(atoms, _larger, max_leaves=8)
+
+
+def _some(parts: st.SearchStrategy[object], least: int = 0) -> st.SearchStrategy[tuple[object, ...]]:
+    return st.lists(parts, min_size=least, max_size=3).map(tuple)
+
+
+fields = st.one_of(
+    st.integers(-(10**9), 10**9).map(ast.Duration),
+    _some(names).map(ast.ControlledResources),
+    _some(predicates).map(ast.Preconditions),
+    _some(predicates).map(ast.NominalEffects),
+    _some(predicates).map(ast.AlternativeEffects),
+)
+simple_goals = predicates.map(ast.SimpleGoal)
+goal_lists: st.SearchStrategy[ast.GoalList] = st.deferred(
+    lambda: st.one_of(
+        st.just(ast.GoalList(None, ())),
+        st.builds(ast.GoalList, st.sampled_from(["priority", "constraint"]), _some(goals)),
+    )
+)
+goals: st.SearchStrategy[ast.Goal] = st.deferred(
+    lambda: st.one_of(simple_goals, st.builds(ast.ConditionalGoal, predicates, simple_goals | goal_lists), goal_lists)
+)
+blocks = st.one_of(
+    _some(st.builds(ast.VariableDeclaration, names, _some(values, 1))).map(ast.StateVector),
+    _some(st.builds(ast.AliasDefinition, names, predicates)).map(ast.Aliases),
+    _some(names.map(ast.ResourceDeclaration)).map(ast.Resources),
+    _some(st.builds(ast.ActionDeclaration, names, _some(fields))).map(ast.Actions),
+    _some(predicates).map(ast.ReactionRules),
+    _some(predicates).map(ast.StateRules),
+    _some(predicates).map(ast.Assumptions),
+    goal_lists.map(ast.Goals),
+    _some(
+        st.one_of(
+            st.integers(-5, 10**6).map(ast.MaxPlanLength), st.sampled_from(["any", "first"]).map(ast.EffectOrdering)
+        )
+    ).map(ast.Config),
+)
+specifications = st.lists(blocks, max_size=4).map(lambda each: ast.Specification(tuple(each)))
