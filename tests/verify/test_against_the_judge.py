@@ -1,0 +1,84 @@
+"""`verify` and the explicit judgement agree on generated specifications and policies near to right ones."""
+
+from random import Random
+
+import pytest
+
+from tests.generate import random_spec
+from tests.profiles import PROFILES
+from tests.verify.policies import certified, dressed, exact_ranks, near_policies, wrong_ranks
+from tumato_symbolic.policy import Policy
+from tumato_symbolic.semantics import State, better_sets, duration, judge
+from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.verify import Refutation, Verification, rank_terms, verify
+
+Rows = dict[State, frozenset[int]]
+
+
+def _assert_as_judged(spec: Spec, rows: Rows, ordering: Ordering, policy: Policy) -> Verification:
+    judged = judge(spec, rows, ordering)
+    answer = verify(policy, spec, ordering=ordering)
+    assert {result.name: result.verdict for result in answer.properties} == {
+        "total": "refuted" if judged.missing else "proved",
+        "safe": "refuted" if judged.not_allowed else "proved",
+        "goals": "refuted" if judged.goal_missed else "proved",
+        "minimal": "refuted" if judged.not_minimal else "proved",
+    }
+    assert answer.verdict == ("proved" if judged.sound_and_complete and judged.minimal else "refuted")
+    return answer
+
+
+def _assert_witness(spec: Spec, rows: Rows, ordering: Ordering, refutation: Refutation) -> None:
+    judged, state = judge(spec, rows, ordering), refutation.state
+    assert state is not None
+    assert refutation.decision == rows.get(state)
+    match refutation.kind:
+        case "missing":
+            assert state == judged.missing[0]
+        case "not-allowed":
+            assert state in dict(judged.not_allowed)
+            assert refutation.objection is not None
+        case "goal-missed":
+            assert refutation.run is not None
+            assert refutation.run.end == dict(judged.goal_missed)[state].end
+        case "not-minimal":
+            better = better_sets(spec, rows, state, ordering)
+            assert state == judged.not_minimal[0][0]
+            assert refutation.cheaper == min(better, key=lambda each: (duration(spec, each), len(each), sorted(each)))
+
+
+@pytest.mark.parametrize("profile", PROFILES)
+@pytest.mark.parametrize("ordering", ["any", "first"])
+def test_strangers_are_judged_as_by_the_explicit_meaning(profile: str, ordering: Ordering) -> None:
+    """Every verdict is the judge's, and every witness is one: the first state for total and minimal, the best set."""
+    met = set()
+    for seed in range(7):
+        spec, random = random_spec(seed, PROFILES[profile]), Random(seed)
+        for rows in near_policies(spec, ordering, random):
+            answer = _assert_as_judged(spec, rows, ordering, dressed(spec, rows, random))
+            for result in answer.properties:
+                met.add((result.name, result.verdict))
+                if result.refutation is not None:
+                    _assert_witness(spec, rows, ordering, result.refutation)
+    assert len(met) >= 7
+
+
+@pytest.mark.parametrize("parts", [False, True], ids=["at-once", "by-parts"])
+def test_a_certificate_changes_no_verdict(parts: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Right ranks are used; wrong ranks are set aside; the policy gets the same verdicts either way."""
+    if parts:
+        monkeypatch.setattr(rank_terms, "AT_ONCE", -1.0)
+    met = set()
+    for seed in range(16):
+        profile = ("restoring", "interacting")[seed % 2]
+        spec, random = random_spec(seed, PROFILES[profile]), Random(seed)
+        for rows in near_policies(spec, "any", random, count=1):
+            if judge(spec, rows, "any").not_allowed:
+                continue
+            ranks = exact_ranks(spec, rows, "any")
+            answer = _assert_as_judged(spec, rows, "any", certified(spec, rows, ranks))
+            assert answer.certificate.status == "used"
+            if ranks:
+                changed = certified(spec, rows, wrong_ranks(ranks, random))
+                met.add(_assert_as_judged(spec, rows, "any", changed).certificate.status)
+    assert met >= {"used", "wrong", "incomplete"}
