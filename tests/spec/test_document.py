@@ -1,0 +1,72 @@
+"""`docs/language.md` and `docs/diagnostics.md` say what is the case."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from tests.spec.marked import codes
+from tumato_symbolic.diagnostics import Code
+from tumato_symbolic.spec import actions, effects, lint, names, predicates, resolve
+from tumato_symbolic.syntax import nesting, parser, reading, tokens
+
+DOCS = Path(__file__).parents[2] / "docs"
+LANGUAGE = (DOCS / "language.md").read_text(encoding="utf-8")
+SNIPPETS = re.findall(r"^```tumato([^\n]*)\n(.*?)^```$", LANGUAGE, re.MULTILINE | re.DOTALL)
+WHOLE = "".join(text for marks, text in SNIPPETS if not marks)
+WRONG = [(marks.split("error=")[1], text) for marks, text in SNIPPETS if marks]
+
+LIMITS = [
+    ("bytes of a text", reading.MAX_BYTES),
+    ("digits of a number", tokens.MAX_DIGITS),
+    ("mistakes in the syntax before reading stops", parser.MAX_SYNTAX_ERRORS),
+    ("levels of parentheses, operators and lists of goals", nesting.MAX_NESTING),
+    ("levels of a predicate, aliases expanded (an implication counts as two)", predicates.MAX_DEPTH),
+    ("atoms and operators of a predicate, aliases expanded", predicates.MAX_TERMS),
+    ("atoms and operators of all predicates, aliases expanded", predicates.MAX_TERMS_IN_ALL),
+    ("state variables", names.MAX_VARIABLES),
+    ("values of a state variable", names.MAX_VALUES),
+    ("actions", names.MAX_ACTIONS),
+    ("a duration", actions.MAX_DURATION),
+    ("`max_plan_length`", resolve.MAX_PLAN_LENGTH),
+    ("assignments that one entry of alternative effects denotes", effects.MAX_OUTCOMES),
+    ("terms looked at to find what all effects denote", effects.MAX_EFFECT_WORK),
+    ("assignments up to which a predicate is checked for being always or never true", lint.MAX_DECIDED),
+    ("terms looked at in all these checks", lint.MAX_LINT_WORK),
+]
+
+
+def diagnostics_document() -> str:
+    """The text that `docs/diagnostics.md` has to have."""
+    head = (
+        "# Diagnostics\n\n"
+        "Every message has a code. A code keeps its meaning for ever. An error stops the work (exit code 2, or 1 for\n"
+        "TUM4xx); a warning does not. This table is made from `tumato_symbolic/diagnostics/codes.py` and compared with\n"
+        "it by a test.\n\n"
+        "| code | | what it is about |\n|---|---|---|\n"
+    )
+    return head + "".join(f"| {code.name} | {code.severity} | {code.title} |\n" for code in Code)
+
+
+def test_the_snippets_are_one_specification():
+    """All snippets together load without an error or a warning."""
+    assert codes(WHOLE) == []
+
+
+@pytest.mark.parametrize(("code", "text"), WRONG)
+def test_wrong_snippets_are_wrong_as_said(code: str, text: str):
+    """In place of the block of the same name, a snippet marked with an error gives that error."""
+    title = text.split("\n", 1)[0].removeprefix("BEGIN ")
+    block = re.compile(rf"^BEGIN {title}\n.*?^END {title}\n", re.MULTILINE | re.DOTALL)
+    assert code in codes(block.sub(lambda _: text, WHOLE))
+
+
+def test_every_limit_is_documented():
+    """The table of limits has the values of the constants."""
+    for what, value in LIMITS:
+        assert f"| {what} | {value:,} |" in LANGUAGE
+
+
+def test_every_code_is_documented():
+    """The table of codes is the one that the code has."""
+    assert (DOCS / "diagnostics.md").read_text(encoding="utf-8") == diagnostics_document()
