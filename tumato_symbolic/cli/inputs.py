@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 
 from tumato_symbolic.cli.console import note, wants_colour
 from tumato_symbolic.cli.parser import Options
@@ -19,6 +20,17 @@ def read_spec(path: str) -> tuple[Source, Spec, tuple[Diagnostic, ...]]:
     if loaded.spec is None:
         raise UserError(loaded.diagnostics, source)
     return source, loaded.spec, loaded.diagnostics
+
+
+@contextmanager
+def errors_in(source: Source) -> Iterator[None]:
+    """Let errors of later stages that point into the specification say in which file that is."""
+    try:
+        yield
+    except UserError as error:
+        if error.source is None and any(diagnostic.span for diagnostic in error.diagnostics):
+            raise UserError(error.diagnostics, source) from None
+        raise
 
 
 def show_warnings(warnings: Sequence[Diagnostic], source: Source, options: Options) -> None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from tumato_symbolic.cli.console import Progress, note, wants_colour, write
 from tumato_symbolic.cli.exits import NO, UNDECIDED, YES
-from tumato_symbolic.cli.inputs import read_spec, show_warnings
+from tumato_symbolic.cli.inputs import errors_in, read_spec, show_warnings
 from tumato_symbolic.cli.output import check_writable
 from tumato_symbolic.cli.parser import Options
 from tumato_symbolic.policy import dumps, save
@@ -30,7 +30,7 @@ def run(options: Options) -> int:
     source, spec, warnings = read_spec(options.specs[0])
     proof = None
     started = time.perf_counter()
-    with Progress() as progress:
+    with errors_in(source), Progress() as progress:
         outcome = synthesize(spec, options.effect_ordering, policy_format=options.policy_format, progress=progress)
         solved = time.perf_counter()
         if isinstance(outcome, Realizable) and options.prove:

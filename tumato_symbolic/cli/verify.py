@@ -7,7 +7,7 @@ import time
 
 from tumato_symbolic.cli.console import Progress, wants_colour, write
 from tumato_symbolic.cli.exits import NO, UNDECIDED, YES
-from tumato_symbolic.cli.inputs import read_spec, show_warnings
+from tumato_symbolic.cli.inputs import errors_in, read_spec, show_warnings
 from tumato_symbolic.cli.parser import Options
 from tumato_symbolic.policy import Policy
 from tumato_symbolic.report.layout import dump
@@ -20,7 +20,7 @@ def run(options: Options) -> int:
     source, spec, warnings = read_spec(options.specs[0])
     policy = Policy.load(options.policy)
     started = time.perf_counter()
-    with Progress() as progress:
+    with errors_in(source), Progress() as progress:
         verification = verify(
             policy, spec, ordering=options.effect_ordering, properties=options.properties, progress=progress
         )

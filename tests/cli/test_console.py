@@ -1,0 +1,65 @@
+"""Progress on a terminal, silence elsewhere; Ctrl-C inside a solver."""
+
+import io
+import time
+from pathlib import Path
+
+import pytest
+import z3
+
+from tests.cli.conftest import Cli
+from tumato_symbolic.cli import console
+
+
+class Terminal(io.StringIO):
+    """A standard error stream that calls itself a terminal."""
+
+    def isatty(self) -> bool:
+        """Yes."""
+        return True
+
+
+def test_long_work_shows_progress_and_wipes_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """On a terminal, what is being done appears after a while and is gone at the end."""
+    terminal = Terminal()
+    monkeypatch.setattr("sys.stderr", terminal)
+    monkeypatch.setattr(console, "_PATIENCE", 0.01)
+    with console.Progress() as progress:
+        progress("measuring distances")
+        deadline = time.monotonic() + 10
+        while "measuring" not in terminal.getvalue() and time.monotonic() < deadline:
+            time.sleep(0.01)
+    assert "measuring distances" in terminal.getvalue()
+    assert terminal.getvalue().endswith("\r\x1b[2K")
+
+
+def test_short_work_shows_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is done within a second leaves no trace."""
+    terminal = Terminal()
+    monkeypatch.setattr("sys.stderr", terminal)
+    with console.Progress() as progress:
+        progress("at once")
+    assert terminal.getvalue() == ""
+
+
+def test_a_pipe_shows_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A stream that is no terminal gets no progress, however long it takes."""
+    stream = io.StringIO()
+    monkeypatch.setattr("sys.stderr", stream)
+    monkeypatch.setattr(console, "_PATIENCE", 0.0)
+    with console.Progress() as progress:
+        progress("working")
+        time.sleep(0.15)
+    assert stream.getvalue() == ""
+
+
+@pytest.mark.parametrize("command", ["synth amr.tum", "synth amr.tum --no-verify", "verify amr.json amr.tum"])
+def test_ctrl_c_inside_z3_is_no_verdict(
+    cli: Cli, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, command: str
+) -> None:
+    """Z3 answers Ctrl-C with `unknown`: the exit code is 130, and no verdict or file comes of it."""
+    monkeypatch.setattr(z3.Solver, "check", lambda *_: z3.unknown)
+    monkeypatch.setattr(z3.Solver, "reason_unknown", lambda _: "interrupted from keyboard")
+    ran = cli(*command.split())
+    assert (ran.code, ran.out, ran.err) == (130, "", "tumato-sym: interrupted\n")
+    assert not (tmp_path / "policy.json").exists()

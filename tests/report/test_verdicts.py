@@ -1,0 +1,48 @@
+"""Verdicts that no small example reaches."""
+
+from dataclasses import replace
+
+from tests.cli.inputs import CONFLICT
+from tumato_symbolic import Undecided, Unrealizable, parse, synthesize
+from tumato_symbolic.diagnostics import Source
+from tumato_symbolic.report.synthesized import Synthesized, as_github, as_json, as_text
+
+SPEC = parse(CONFLICT)
+OUTCOME = synthesize(SPEC)
+assert isinstance(OUTCOME, Unrealizable)
+GIVEN_UP = Synthesized(
+    Source("big.tum", CONFLICT),
+    SPEC,
+    Undecided("too many goals", OUTCOME.statistics),
+    None,
+    (),
+    "p.json",
+    False,
+    1.0,
+    0.0,
+)
+
+
+def test_undecided_names_the_limit() -> None:
+    """No verdict comes without the limit that was met, in every format."""
+    text = as_text(GIVEN_UP, colour=False)
+    assert "big.tum: undecided: too many goals." in text
+    assert "No policy was written." in text
+    report = as_json(GIVEN_UP)
+    assert (report["verdict"], report["limit"], report["policy"]) == ("undecided", "too many goals", None)
+    assert as_github(GIVEN_UP) == "::error file=big.tum::undecided: too many goals"
+
+
+def test_a_long_conflict_is_cut() -> None:
+    """A conflict of many states lists the first ones and says how many are left."""
+    assert isinstance(OUTCOME, Unrealizable)
+    (failure,) = OUTCOME.failures
+    many = replace(failure, count=20, states=failure.states * 10)
+    text = as_text(replace(GIVEN_UP, outcome=replace(OUTCOME, failures=(many,))), colour=False)
+    assert "… and 12 more" in text
+
+
+def test_colour_only_marks_the_verdict() -> None:
+    """Colours add no text."""
+    plain, coloured = as_text(GIVEN_UP, colour=False), as_text(GIVEN_UP, colour=True)
+    assert coloured.replace("\x1b[33;1m", "").replace("\x1b[0m", "") == plain
