@@ -41,8 +41,8 @@ def diagnostics_document() -> str:
     head = (
         "# Diagnostics\n\n"
         "Every message has a code. A code keeps its meaning for ever. An error stops the work (exit code 2, or 1 for\n"
-        "TUM4xx); a warning does not. This table is made from `tumato_symbolic/diagnostics/codes.py` and compared with\n"
-        "it by a test.\n\n"
+        "TUM4xx); a warning does not. This table is made from `tumato_symbolic/diagnostics/codes.py` and compared\n"
+        "with it by a test.\n\n"
         "| code | | what it is about |\n|---|---|---|\n"
     )
     return head + "".join(f"| {code.name} | {code.severity} | {code.title} |\n" for code in Code)

@@ -16,7 +16,8 @@ from tumato_symbolic.spec import load
 
 SNIPPETS = (
     "(", ")", ",", ":", "/*", "*/", "//", "\n", "\t", "\0", "\x1b[31m", "é", "\ufeff", "\u2028", "-1", "0", "9" * 30,
-    "2x",    "BEGIN ", "END ", "BEGIN GOALS ", "END GOALS ", "STATE VECTOR ", "RULES ", "AND ", "OR ", "NOT ", "IF ", "THEN ",
+    "2x",
+    "BEGIN ", "END ", "BEGIN GOALS ", "END GOALS ", "STATE VECTOR ", "RULES ", "AND ", "OR ", "NOT ", "IF ", "THEN ",
     "IFONLYIF ", "is ", "executing ", "true ", "none ", "when ", "then ", "goal ", "goal: ", "goal type: ", "priority ",
     "rule: ", "assume: ", "define x as x ", "state ", "can be ", "action ", "resource ", "duration: ", "effects: ",
     "nominal ", "alternative effects: ", "controlled resources: ", "max_plan_length: ", "effect_ordering: ",

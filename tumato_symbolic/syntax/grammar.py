@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
-from lark import Lark
+from lark import Lark, Token
+from lark.lexer import Lexer
 
 from tumato_symbolic.syntax.builder import Builder
 from tumato_symbolic.syntax.tokens import pattern
@@ -22,6 +23,16 @@ class Grammar:
     terminals: Mapping[str, str]
     spellings: Mapping[str, str]
     token_pattern: re.Pattern[str]
+
+
+class _Fed(Lexer):
+    """In place of a lexer: tokens are fed one by one, and the patterns of lark's own lexer need not be compiled."""
+
+    def __init__(self, lexer_conf: object) -> None:
+        pass
+
+    def lex(self, lexer_state: object, parser_state: object) -> Iterator[Token]:
+        return iter(())
 
 
 def grammar_path() -> Path:
@@ -38,7 +49,7 @@ def grammar() -> Grammar:
         grammar_path().read_text(encoding="utf-8"),
         start="specification",
         parser="lalr",
-        lexer="basic",
+        lexer=_Fed,
         keep_all_tokens=True,
         maybe_placeholders=False,
         transformer=Builder(),

@@ -158,7 +158,7 @@ class _Run:
             self._supply(":")
         elif situation.lacks_goal_type and situation.token.text == "when":
             self._supply("goal", "type", ":", "priority")
-        elif situation.lacks_goal_type and situation.token.text == ":":
+        elif situation.lacks_goal_type and situation.token.text == ":" and self.stack.fits("TYPE"):
             self._supply("type", ":", "priority")
             self.index -= 1
         else:
@@ -193,7 +193,7 @@ class _Run:
         return any(self._can_restart(depth, before) for depth in self.stack.topmost())
 
     def _supply(self, *words: str) -> None:
-        """Feed words that are missing from the text."""
+        """Feed words that are missing from the text, and that fit."""
         here = self.tokens[self.index]
         for word in words:
             self.stack.feed(_fed(self.grammar.terminals[word], here, word))
