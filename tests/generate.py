@@ -213,6 +213,8 @@ class _Maker:
         return ConditionalGoal(self._rule(condition), goal, NOWHERE)
 
     def _simple_goal(self) -> SimpleGoal:
+        if self.bodies and self.profile.repeated and self._chance(self.profile.repeated):
+            return SimpleGoal(self.random.randrange(len(self.bodies)), NOWHERE)
         body = self._executing_body() if self._chance(self.profile.executing) else self._predicate()
         if body not in self.bodies:
             self.bodies.append(body)

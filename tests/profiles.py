@@ -34,6 +34,7 @@ class Profile:
     nested: float = 0.2
     conditional: float = 0.65
     executing: float = 0.25
+    repeated: float = 0.15  # a goal has the body of an earlier one
     bounded: float = 0.5
     bound: Range = (1, 6)
     aliases: float = 0.15
@@ -58,6 +59,7 @@ INTERACTING = Profile(
     nested=0.05,
     conditional=0.95,
     executing=0.2,
+    repeated=0.0,
     bounded=0.15,
     bound=(3, 9),
 )
@@ -78,6 +80,7 @@ RESTORING = Profile(
     no_goals=0.1,
     nested=0.35,
     executing=0.4,
+    repeated=0.3,
     bounded=0.3,
 )
 """Unsafe states, and actions that strike together on the same variables."""

@@ -11,7 +11,7 @@ from tests.profiles import PROFILES
 from tumato_symbolic.spec import Ordering
 
 PLAIN = [(profile, seed) for profile in PROFILES for seed in range(8)]
-INTERACTING = [("interacting", 37), ("interacting", 45), ("interacting", 80), ("restoring", 123), ("mixed", 626)]
+INTERACTING = [("interacting", 37), ("interacting", 45), ("interacting", 80), ("restoring", 123), ("mixed", 148)]
 CONFLICTING = [("interacting", 48), ("interacting", 189), ("restoring", 74)]
 SAMPLE = [*PLAIN, *INTERACTING, *CONFLICTING]
 
