@@ -59,14 +59,14 @@ OPEN_DOOR, CLOSE_DOOR, UNLOCK, SWITCH_ON = range(4)
         (
             CLOSED,
             {UNLOCK, SWITCH_ON},
-            "when unlock takes its nominal effect (Door=open), then switch_on takes its nominal effect (Lamp=on), "
-            "`NOT (Door is open AND Lamp is on)` (door.tum:29) is broken",
+            "when unlock takes its nominal effect (Door=open), then switch_on takes its nominal effect (Lamp=on),\n"
+            "  `NOT (Door is open AND Lamp is on)` (door.tum:29) is broken",
         ),
         (
             BAD,
             {CLOSE_DOOR},
-            "when close_door takes an alternative effect (no change; door.tum:17), "
-            "`NOT (Door is open AND Lamp is on)` (door.tum:29) is broken",
+            "when close_door takes an alternative effect (no change; door.tum:17),\n"
+            "  `NOT (Door is open AND Lamp is on)` (door.tum:29) is broken",
         ),
         (BAD, set(), "`NOT (Door is open AND Lamp is on)` (door.tum:29) stays broken"),
     ],

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from textwrap import indent
 from typing import Final
 
 from tumato_symbolic.diagnostics import Code
@@ -44,7 +45,7 @@ def _no_allowed_set(place: Place, failure: Failure, ordering: Ordering) -> list[
     return [
         *_head(place, failure, "no allowed set of actions"),
         "The sets that come nearest, and what speaks against them:",
-        *(f"  {line}" for line in why_no_set(place, failure.example, ordering)),
+        *(indent(reason, "  ") for reason in why_no_set(place, failure.example, ordering)),
         "Give the robot an action for such states, relax a rule, or exclude what cannot happen with `assume:`.",
     ]
 

@@ -75,7 +75,7 @@ def _effectuation(place: Place, step: Effectuation) -> str:
 
 
 def objection_text(place: Place, objection: Objection) -> str:
-    """One objection to a set, as a clause without a full stop."""
+    """One objection to a set, as a clause without a full stop; a story has a second, indented line."""
     names = [place.spec.actions[number].name for number in objection.actions]
     rule = place.rule(objection.rule) if objection.rule else ""
     match objection.kind:
@@ -90,7 +90,7 @@ def objection_text(place: Place, objection: Objection) -> str:
         case "reaction-rule":
             return f"the reaction rule {rule} forbids it"
         case "unsafe" if objection.outcome:
-            return f"when {story(place, objection.outcome)}, {rule} is broken"
+            return f"when {story(place, objection.outcome)},\n  {rule} is broken"
         case "unsafe":
             return f"{rule} stays broken"
         case "nominal-unsafe":

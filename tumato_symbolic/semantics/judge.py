@@ -54,7 +54,7 @@ def judge(spec: Spec, policy: Mapping[State, ActionSet], ordering: Ordering) -> 
 
 
 def better_sets(spec: Spec, policy: Mapping[State, ActionSet], state: State, ordering: Ordering) -> Iterator[ActionSet]:
-    """The allowed sets of smaller duration than `policy[state]` whose run, continued by the policy, reaches the goal."""
+    """The allowed sets of smaller duration than `policy[state]`, whose run, continued by `policy`, meets the goal."""
     cost = duration(spec, policy[state])
     for chosen in allowed_sets(spec, state, ordering):
         if duration(spec, chosen) < cost and follow(spec, policy, state, chosen).end == "goal":
