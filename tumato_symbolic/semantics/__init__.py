@@ -2,6 +2,7 @@
 
 from tumato_symbolic.semantics.goals import ActiveGoals, Residual, active_goals, reached, residual_goal
 from tumato_symbolic.semantics.judge import Judgement, better_sets, judge
+from tumato_symbolic.semantics.partial import settled_truth
 from tumato_symbolic.semantics.runs import Run, follow
 from tumato_symbolic.semantics.states import (
     NOTHING,
@@ -62,5 +63,6 @@ __all__ = [
     "outcomes",
     "reached",
     "residual_goal",
+    "settled_truth",
     "successor",
 ]

@@ -5,10 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from tumato_symbolic.policy import Certificate, DecisionDiagram, DiagramBuilder, Policy, RankedGoal, Vocabulary
-from tumato_symbolic.semantics import action_names
-from tumato_symbolic.spec import canonical_text, digest
+from tumato_symbolic.semantics import Residual, action_names
+from tumato_symbolic.spec import Spec, canonical_text, digest
 from tumato_symbolic.symbolic import Bdd, Extractor
 from tumato_symbolic.synthesis.problem import Layers, Problem
+
+
+def goal_names(spec: Spec, residual: Residual) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """A residual goal as certificates name it: canonical texts of its bodies, and the executed actions; sorted."""
+    bodies = sorted(canonical_text(spec, spec.bodies[body].formula) for body in residual.bodies)
+    return tuple(bodies), tuple(sorted(action_names(spec, residual.executed)))
 
 
 def policy_diagram(problem: Problem, policy: Bdd, ranks: Sequence[Layers]) -> Policy:
@@ -42,8 +48,6 @@ def certificate(problem: Problem, policy: Bdd, ranks: Sequence[Layers]) -> Certi
         if owing:
             root = extract.function(list(enumerate(layers)))
             for residual in owing:
-                bodies = sorted(canonical_text(spec, spec.bodies[body].formula) for body in residual.bodies)
-                executed = sorted(action_names(spec, residual.executed))
-                goals.append(RankedGoal(tuple(bodies), tuple(executed), root))
+                goals.append(RankedGoal(*goal_names(spec, residual), root))
     goals.sort(key=lambda goal: (goal.bodies, goal.executed))
     return Certificate(builder.finish(), tuple(goals))

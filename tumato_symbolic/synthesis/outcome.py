@@ -7,6 +7,7 @@ from typing import Literal, TypeAlias
 
 from tumato_symbolic.diagnostics import Diagnostic
 from tumato_symbolic.policy.model import Policy
+from tumato_symbolic.policy.unrealizable import Unrealizability
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Ordering
 
@@ -63,10 +64,11 @@ class Realizable:
 
 @dataclass(frozen=True, slots=True)
 class Unrealizable:
-    """There is no policy: these states fail, or these goals conflict."""
+    """There is no policy: these states fail, or these goals conflict; `certificate` proves it."""
 
     failures: tuple[Failure, ...]
     statistics: Statistics
+    certificate: Unrealizability
     warnings: tuple[Diagnostic, ...] = ()
 
 

@@ -38,10 +38,24 @@ class RoundsExhaustedError(Exception):
 
 
 @dataclass(frozen=True, slots=True)
-class Conflict:
-    """Valid states that no policy serves together, though it does so without any one of them."""
+class FailingRun:
+    """A run that owes `target` to its first state: into a loop among `states`, or along them to `end`, too far away."""
+
+    target: int
+    states: tuple[State, ...]
+    end: State | None
+
+
+@dataclass(frozen=True, slots=True)
+class Impossible:
+    """Valid states that no policy serves together, though it does so without any one of them.
+
+    The proof: all options of every state that the cuts mention, and cuts that no choice among these options respects.
+    """
 
     states: tuple[State, ...]
+    options: dict[State, tuple[Option, ...]]
+    cuts: tuple[FailingRun, ...]
 
 
 class Repair:
@@ -56,15 +70,16 @@ class Repair:
         self._options: list[tuple[Option, ...]] = []
         self._states: list[State] = []
         self._picked: list[int] = []
+        self._cuts: list[tuple[int, FailingRun]] = []
         self._cubes: dict[State, Bdd] = {}
         self._rounds = 0
         self._distance: dict[tuple[int, State], int | None] = {}
 
-    def run(self) -> Bdd | Conflict:
+    def run(self) -> Bdd | Impossible:
         """The repaired policy, or the conflict that proves that there is none. Raises `RoundsExhaustedError`."""
         result = self._serve(self._problem.steps.valid, None)
         if isinstance(result, frozenset):
-            return Conflict(self._minimal(result))
+            return self._impossible(self._minimal(result))
         return result
 
     def _serve(self, required: Bdd, guards: list[int] | None) -> Bdd | frozenset[int]:
@@ -82,7 +97,15 @@ class Repair:
             self._explain_some(failing)
         raise RoundsExhaustedError
 
-    def _minimal(self, core: frozenset[int]) -> tuple[State, ...]:
+    def _impossible(self, starts: list[int]) -> Impossible:
+        """The proof that these starts cannot be served together, without the cuts that it does not need."""
+        owned = [number for number, (start, _) in enumerate(self._cuts) if start in starts]
+        cuts = [self._cuts[number][1] for number in self._choices.refutation(owned)]
+        mentioned = {state for cut in cuts for state in cut.states} | {self._states[number] for number in starts}
+        options = {state: self._options[self._numbers[state]] for state in sorted(mentioned)}
+        return Impossible(tuple(sorted(self._states[number] for number in starts)), options, tuple(cuts))
+
+    def _minimal(self, core: frozenset[int]) -> list[int]:
         """An inclusion-minimal part of a core: each state in turn is left out, and what remains is tried."""
         needed: list[int] = []
         open_ = sorted(core, key=lambda number: self._states[number])
@@ -94,7 +117,7 @@ class Repair:
                 open_ = [number for number in open_[1:] if number in result]
             else:
                 needed.append(open_.pop(0))
-        return tuple(sorted(self._states[number] for number in needed))
+        return needed
 
     def _current(self) -> Bdd:
         """The policy with the picked options in the touched states."""
@@ -136,12 +159,13 @@ class Repair:
         """
         goal, bound = first.target, self._problem.spec.max_plan_length
         path = [start]
+        end: State | None = None
         decision, steps = first, 1
         while True:
             here = decision.successor
             distance = self._distance_to(goal, here)
             if distance is None or (bound is not None and steps + distance > bound):
-                picks = self._turning_off(path, here, goal, first)
+                picks, end = self._turning_off(path, here, goal), here
                 break
             number = self._touch(here)
             if number in path[1:]:
@@ -149,14 +173,16 @@ class Repair:
                 break
             path.append(number)
             decision, steps = self._options[number][self._picked[number]], steps + 1
-        self._choices.require(start, dict.fromkeys([*self._owing_else(start, goal), *picks]))
-        return {self._states[number] for number in path}
+        self._choices.require(start, list(dict.fromkeys([*self._owing_else(start, goal), *picks])))
+        states = tuple(self._states[number] for number in path)
+        self._cuts.append((start, FailingRun(goal, states, end)))
+        return set(states)
 
     def _owing_else(self, start: int, goal: int) -> Iterator[Pick]:
         """The options of the start that owe another target."""
         return (Pick(start, n) for n, option in enumerate(self._options[start]) if option.target != goal)
 
-    def _turning_off(self, path: list[int], end: State, goal: int, first: Option) -> Iterator[Pick]:
+    def _turning_off(self, path: list[int], end: State, goal: int) -> Iterator[Pick]:
         """Options on a path that leave it for a state from where the target is still near enough."""
         following = [*(self._states[number] for number in path[1:]), end]
         for steps, (number, after) in enumerate(zip(path, following, strict=True), start=1):

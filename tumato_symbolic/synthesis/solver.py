@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -81,6 +81,7 @@ class Choices:
         self._options: list[list[Term]] = []
         self._guards: dict[int, Term] = {}
         self._kept: dict[int, Term] = {}
+        self._clauses: list[tuple[Pick, ...]] = []
         self._names: dict[int, tuple[int, bool]] = {}
 
     def add_choice(self, options: int) -> int:
@@ -93,8 +94,9 @@ class Choices:
         self._solver.add(_any(literals), z3.AtMost(*literals, 1))
         return number
 
-    def require(self, guard: int, picks: Iterable[Pick]) -> None:
-        """Where the guard is assumed, at least one of the picks is made."""
+    def require(self, guard: int, picks: Sequence[Pick]) -> None:
+        """A clause: where the guard is assumed, at least one of the picks is made."""
+        self._clauses.append(tuple(picks))
         if guard not in self._guards:
             literal = self._guards[guard] = z3.Bool(f"g{guard}")
             self._names[literal.get_id()] = (guard, True)
@@ -115,6 +117,23 @@ class Choices:
             for number in freed:
                 del self._kept[number]
         return self._read(self._solver.model())
+
+    def refutation(self, clauses: Sequence[int]) -> list[int]:
+        """Those of some clauses (by number) that contradict each other; together they must."""
+        solver = z3.SolverFor("QF_FD")
+        for literals in self._options:
+            solver.add(_any(literals), z3.AtMost(*literals, 1))
+        guards = {number: z3.Bool(f"c{number}") for number in clauses}
+        for number, guard in guards.items():
+            picked = [self._options[pick.choice][pick.option] for pick in self._clauses[number]]
+            solver.add(_any([z3.Not(guard), *picked]))
+        while True:
+            assert solver.check(*guards.values()) == z3.unsat, "the clauses of a conflict hold together"
+            core = {literal.get_id() for literal in solver.unsat_core()}
+            kept = {number: guard for number, guard in guards.items() if guard.get_id() in core}
+            if len(kept) == len(guards):
+                return list(kept)
+            guards = kept
 
     def _read(self, model: Term) -> list[int]:
         """The option that the model makes for every choice."""

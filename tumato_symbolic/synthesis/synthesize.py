@@ -12,6 +12,7 @@ from tumato_symbolic.semantics import count_states
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.symbolic import Backend, Bdd, available_backend
 from tumato_symbolic.synthesis.certificate import policy_diagram
+from tumato_symbolic.synthesis.disproof import certified, conflict, no_allowed_set, no_plan
 from tumato_symbolic.synthesis.lint import suspicions
 from tumato_symbolic.synthesis.outcome import (
     STATES_LISTED,
@@ -72,12 +73,13 @@ def synthesize(
         helpless = problem.steps.valid & ~stuck & ~served(problem, distances, problem.steps.allowed)
         if (stuck | helpless) != problem.false:
             failures = (_failure(problem, "no-allowed-set", stuck), _failure(problem, "no-plan", helpless))
-            return Unrealizable(tuple(failure for failure in failures if failure is not None), statistics, warnings)
+            found = tuple(failure for failure in failures if failure is not None)
+            reason = no_allowed_set if stuck != problem.false else no_plan
+            proof = certified(problem, reason(problem, found[0].example))
+            return Unrealizable(found, statistics, proof, warnings)
         resolved = _resolve(problem, policy, distances, statistics, tell)
-        if isinstance(resolved, Undecided):
+        if isinstance(resolved, Undecided | Unrealizable):
             return replace(resolved, warnings=warnings)
-        if isinstance(resolved, Failure):
-            return Unrealizable((resolved,), statistics, warnings)
         policy, statistics = resolved.policy, resolved.statistics
     return replace(_finish(problem, policy, statistics, policy_format, tell), warnings=warnings)
 
@@ -98,7 +100,7 @@ class _Resolved:
 
 def _resolve(
     problem: Problem, policy: Bdd, distances: tuple[Layers, ...], statistics: Statistics, tell: Callable[[str], None]
-) -> _Resolved | Failure | Undecided:
+) -> _Resolved | Unrealizable | Undecided:
     """Decide what the own regions leave open, changing earlier decisions only where that is needed."""
     steps = problem.steps
     tell("routing through solved states")
@@ -112,15 +114,17 @@ def _resolve(
     tell("overriding decisions of other goals")
     changed = override(problem, policy, distances)
     if evaluate(problem, changed).failing != problem.false:
-        from tumato_symbolic.synthesis.repair import ROUNDS, Conflict, Repair, RoundsExhaustedError
+        from tumato_symbolic.synthesis.repair import ROUNDS, Impossible, Repair, RoundsExhaustedError
 
         tell("repairing decisions where goals interact")
         try:
             repaired = Repair(problem, changed, distances).run()
         except RoundsExhaustedError:
             return Undecided(f"{ROUNDS:,} rounds of repair did not settle how the goals interact", statistics)
-        if isinstance(repaired, Conflict):
-            return Failure("conflict", len(repaired.states), repaired.states[0], repaired.states)
+        if isinstance(repaired, Impossible):
+            states = repaired.states
+            failure = Failure("conflict", len(states), states[0], states)
+            return Unrealizable((failure,), statistics, certified(problem, conflict(problem, distances, repaired)))
         changed = repaired
     changed = give_back(problem, policy, changed)
     return _Resolved(changed, replace(statistics, changed=_count_decided(problem, policy & ~changed)))

@@ -1,0 +1,126 @@
+"""Certificates for the answer no, as data (`docs/certificate.md`): why a specification has no policy.
+
+One failing state, or one conflict, is enough for the answer; the report of all failing states is another matter.
+States, values and actions are numbers of the vocabulary; rules are named by their canonical text.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from tumato_symbolic.policy.diagram import Diagram, Reference
+from tumato_symbolic.policy.model import RankedGoal, Vocabulary
+from tumato_symbolic.semantics import ActionSet, State
+from tumato_symbolic.spec import Assignment, Ordering
+
+Strike: TypeAlias = tuple[int, Assignment]
+"""An action taking one of its effects."""
+
+
+@dataclass(frozen=True, slots=True)
+class Violation:
+    """The condition of `docs/semantics.md`, section 3, that no set of a cube meets.
+
+    `precondition`: the executed action of `actions` has a precondition that is false. `resource`, `nominal-conflict`:
+    the two executed actions of `actions` exclude each other. `reaction-rule`: `rule` is false however the open actions
+    are chosen. `unsafe`: the executed actions of `outcome` can strike in this order, and lead to a state that is not
+    safe. `idle`: nothing is executed in a state that is not safe. `nominal-unsafe`: all nominal effects together lead
+    to a state that is not safe; every action is settled.
+    """
+
+    kind: Literal["precondition", "resource", "nominal-conflict", "reaction-rule", "unsafe", "idle", "nominal-unsafe"]
+    actions: tuple[int, ...] = ()
+    rule: str | None = None
+    outcome: tuple[Strike, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Cube:
+    """All sets that contain `executed` and nothing of `idle`; the other actions are open."""
+
+    executed: ActionSet
+    idle: ActionSet
+    violation: Violation
+
+
+@dataclass(frozen=True, slots=True)
+class NoAllowedSet:
+    """No set is allowed in `state`: disjoint cubes cover all sets.
+
+    Where there are too many, `cubes` is None, and *no set is allowed in this state* is left as an obligation.
+    """
+
+    state: State
+    cubes: tuple[Cube, ...] | None
+
+
+@dataclass(frozen=True, slots=True)
+class Layers:
+    """Where the runs from a state go that owe one residual goal (named as in `RankedGoal`).
+
+    `roots` lead to sets of states: the first holds every first successor, each next one every allowed successor of the
+    one before that is in no earlier layer. None meets the goal. There are as many as the plan bound allows, or the
+    successors of the last are all in earlier layers.
+    """
+
+    bodies: tuple[str, ...]
+    executed: tuple[str, ...]
+    roots: tuple[Reference, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class NoPlan:
+    """No run of allowed steps from `state` reaches what it owes: layers for every residual goal that it can owe."""
+
+    state: State
+    diagram: Diagram[bool]
+    goals: tuple[Layers, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """A state and everything that can be done in it: where each allowed set leads, and which goal it owes."""
+
+    state: State
+    options: tuple[tuple[State, int], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Cut:
+    """A failing run, as a claim about all policies: the states on it, the first of which owes goal number `goal`.
+
+    `path`: unless a state of the run turns off, to a state from which the goal is still near enough, the run comes to
+    `end`, from where it is not. `loop`: unless a state of the run leaves these states, to where the goal is near
+    enough, or hits the goal, the run stays among them for ever. `states` are numbers of choices.
+    """
+
+    kind: Literal["path", "loop"]
+    goal: int
+    states: tuple[int, ...]
+    end: State | None
+
+
+@dataclass(frozen=True, slots=True)
+class Conflict:
+    """No policy serves the states `starts` (numbers of choices) together: every one breaks a cut.
+
+    `distances` bound from below how many allowed steps a safe state is away from each goal; None: there is no way, or
+    none that the plan bound leaves room for. Goals with one root are one goal under several names.
+    """
+
+    starts: tuple[int, ...]
+    choices: tuple[Choice, ...]
+    cuts: tuple[Cut, ...]
+    distances: Diagram[int | None]
+    goals: tuple[RankedGoal, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Unrealizability:
+    """The certificate that a specification, known by its digest, has no policy under an effect ordering."""
+
+    vocabulary: Vocabulary
+    ordering: Ordering
+    digest: str
+    reason: NoAllowedSet | NoPlan | Conflict

@@ -1,0 +1,145 @@
+"""The certificate for the answer no (`docs/certificate.md`)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import combinations
+
+from tumato_symbolic.policy import DiagramBuilder, RankedGoal, Vocabulary
+from tumato_symbolic.policy.unrealizable import (
+    Choice,
+    Conflict,
+    Cube,
+    Cut,
+    Layers,
+    NoAllowedSet,
+    NoPlan,
+    Unrealizability,
+    Violation,
+)
+from tumato_symbolic.semantics import (
+    ActionSet,
+    State,
+    holds,
+    is_safe,
+    nominal_agrees,
+    outcomes,
+    settled_truth,
+    successor,
+)
+from tumato_symbolic.spec import Rule, Spec, canonical_text, digest
+from tumato_symbolic.symbolic import Bdd, Extractor
+from tumato_symbolic.synthesis.certificate import goal_names
+from tumato_symbolic.synthesis.problem import Layers as Ranks
+from tumato_symbolic.synthesis.problem import Problem
+from tumato_symbolic.synthesis.repair import Impossible
+
+MOST_CUBES = 2_000
+"""A certificate with more cubes leaves the claim to a prover."""
+
+
+def certified(problem: Problem, reason: NoAllowedSet | NoPlan | Conflict) -> Unrealizability:
+    """The certificate with this reason."""
+    spec = problem.spec
+    return Unrealizability(Vocabulary.of(spec), problem.steps.ordering, digest(spec), reason)
+
+
+def no_allowed_set(problem: Problem, state: State) -> NoAllowedSet:
+    """Disjoint cubes over the actions, found by settling one action after another until a condition is violated."""
+    cubes: list[Cube] = []
+    pending: list[tuple[ActionSet, ActionSet]] = [(frozenset(), frozenset())]
+    while pending:
+        executed, idle = pending.pop()
+        violation = next(_violations(problem, state, executed, idle), None)
+        if violation is not None:
+            cubes.append(Cube(executed, idle, violation))
+            if len(cubes) > MOST_CUBES:
+                return NoAllowedSet(state, None)
+            continue
+        action = next(a for a in range(len(problem.spec.actions)) if a not in executed and a not in idle)
+        pending += [(executed, idle | {action}), (executed | {action}, idle)]
+    return NoAllowedSet(state, tuple(cubes))
+
+
+def _violations(problem: Problem, state: State, executed: ActionSet, idle: ActionSet) -> Iterator[Violation]:
+    """The conditions of section 3 that no set of a cube meets."""
+    spec, ordering = problem.spec, problem.steps.ordering
+    for number in sorted(executed):
+        if not all(holds(rule.formula, state) for rule in spec.actions[number].preconditions):
+            yield Violation("precondition", (number,))
+    for pair in combinations(sorted(executed), 2):
+        if spec.actions[pair[0]].resources & spec.actions[pair[1]].resources:
+            yield Violation("resource", pair)
+        if not nominal_agrees(spec, frozenset(pair)):
+            yield Violation("nominal-conflict", pair)
+    for rule in spec.reaction_rules:
+        if settled_truth(rule.formula, state, executed, idle) is False:
+            yield Violation("reaction-rule", rule=_name(spec, rule))
+    settled = len(executed) + len(idle) == len(spec.actions)
+    if executed:
+        for reached, way in outcomes(spec, state, executed, ordering).items():
+            if not is_safe(spec, reached):
+                yield Violation("unsafe", outcome=tuple((strike.action, strike.effect) for strike in way))
+    elif settled and not is_safe(spec, state):
+        yield Violation("idle")
+    if settled and not is_safe(spec, successor(spec, state, executed)):
+        yield Violation("nominal-unsafe")
+
+
+def _name(spec: Spec, rule: Rule) -> str:
+    return canonical_text(spec, rule.formula)
+
+
+def no_plan(problem: Problem, state: State) -> NoPlan:
+    """Layers of the runs from a state, for every residual goal that an allowed set in it owes."""
+    encoding, steps = problem.encoding, problem.steps
+    builder: DiagramBuilder[bool] = DiagramBuilder(encoding.order, (False, True))
+    extract = Extractor(encoding, builder, default=False)
+    here = encoding.state_cube(state)
+    goals = []
+    for target in problem.targets:
+        for residual, owed in target.residuals:
+            if (owed & here) != problem.false:
+                layers = _forward(problem, steps.successors(owed & here))
+                roots = tuple(extract.function([(True, layer)]) for layer in layers)
+                goals.append(Layers(*goal_names(problem.spec, residual), roots))
+    goals.sort(key=lambda goal: (goal.bodies, goal.executed))
+    return NoPlan(state, builder.finish(), tuple(goals))
+
+
+def _forward(problem: Problem, first: Bdd) -> list[Bdd]:
+    """Disjoint layers of what can be reached by allowed steps, as many as the plan bound allows."""
+    bound = problem.spec.max_plan_length
+    layers, seen = [first], first
+    while bound is None or len(layers) < bound:
+        layer = problem.steps.successors(problem.steps.allowed & layers[-1]) & ~seen
+        if layer == problem.false:
+            break
+        layers.append(layer)
+        seen = seen | layer
+    return layers
+
+
+def conflict(problem: Problem, distances: Sequence[Ranks], proof: Impossible) -> Conflict:
+    """The states that cannot be served together, everything that can be done on the way, and the runs that fail."""
+    deepest = max(len(layers) for layers in distances)
+    builder: DiagramBuilder[int | None] = DiagramBuilder(problem.encoding.order, (None, *range(deepest)))
+    extract = Extractor(problem.encoding, builder, default=None)
+    goals: list[RankedGoal] = []
+    first: dict[int, int] = {}
+    for number in sorted({option.target for options in proof.options.values() for option in options}):
+        first[number] = len(goals)
+        root = extract.function(list(enumerate(distances[number])))
+        residuals = [residual for residual, _ in problem.targets[number].residuals]
+        goals += [RankedGoal(*goal_names(problem.spec, residual), root) for residual in residuals]
+    places = {state: place for place, state in enumerate(proof.options)}
+    choices = [
+        Choice(state, tuple((option.successor, first[option.target]) for option in options))
+        for state, options in proof.options.items()
+    ]
+    cuts = [
+        Cut("loop" if run.end is None else "path", first[run.target], tuple(places[s] for s in run.states), run.end)
+        for run in proof.cuts
+    ]
+    starts = tuple(places[state] for state in proof.states)
+    return Conflict(starts, tuple(choices), tuple(cuts), builder.finish(), tuple(goals))
