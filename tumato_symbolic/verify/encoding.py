@@ -13,6 +13,7 @@ from tumato_symbolic.spec import And, Assignment, Constant, Executing, Formula, 
 from tumato_symbolic.verify.terms import (
     Number,
     Term,
+    at_most_one,
     code_at_most,
     conjunction,
     disjunction,
@@ -127,9 +128,7 @@ def agreement_terms(spec: Spec, executed: Sequence[Term]) -> list[Term]:
             for written, value in action.nominal:
                 if written == variable:
                     setters.setdefault(value, []).append(executed[number])
-        given = [disjunction(terms) for terms in setters.values()]
-        pairs = [(one, other) for rank, one in enumerate(given) for other in given[rank + 1 :]]
-        found.append(conjunction(negation(conjunction(pair)) for pair in pairs))
+        found.append(at_most_one(disjunction(terms) for terms in setters.values()))
     return found
 
 

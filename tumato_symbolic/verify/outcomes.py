@@ -10,7 +10,7 @@ import z3
 
 from tumato_symbolic.semantics import ActionSet, Effectuation, Objection, Outcome, State, apply, broken_rule, is_safe
 from tumato_symbolic.spec import Action, Ordering, Spec
-from tumato_symbolic.verify.encoding import Place, is_true, safe_term
+from tumato_symbolic.verify.encoding import Place, agreement_terms, is_true, safe_term
 from tumato_symbolic.verify.terms import Number, Term, at_most_one, conjunction, disjunction, implies, negation
 
 
@@ -41,12 +41,14 @@ class UnsafeOutcome:
 
     def _exclusions(self, ordering: Ordering) -> list[Term]:
         """Who does not take effect beside whom: nobody under `first`, and never two that may not run together."""
-        actions = self._spec.actions
-        return [
-            negation(conjunction((self._used[one], self._used[other])))
-            for one, other in combinations(self._used, 2)
-            if ordering == "first" or not compatible(actions[one], actions[other])
+        if ordering == "first":
+            return [at_most_one(self._used.values())]
+        sharing = [
+            at_most_one(used for number, used in self._used.items() if held in self._spec.actions[number].resources)
+            for held in range(len(self._spec.resources))
         ]
+        used = [self._used.get(number, False) for number in range(len(self._spec.actions))]
+        return [*sharing, *agreement_terms(self._spec, used)]
 
     def _rank_numbers(self) -> dict[int, Number]:
         """A place in the order for every action that must have one."""

@@ -74,13 +74,10 @@ def either(condition: Term, then: Term, otherwise: Term) -> Term:
     return z3.If(condition, then, otherwise)
 
 
-def at_most_one(terms: Sequence[Term]) -> Term:
+def at_most_one(terms: Iterable[Term]) -> Term:
     """No two of `terms`."""
     kept = [term for term in terms if term is not False]
-    if len(kept) < 2:
-        return True
-    pairs = [(one, other) for place, one in enumerate(kept) for other in kept[place + 1 :]]
-    return conjunction(negation(conjunction(pair)) for pair in pairs)
+    return True if len(kept) < 2 else z3.AtMost(*map(z3_term, kept), 1)
 
 
 def code_at_most(bits: Sequence[Term], largest: int) -> Term:
