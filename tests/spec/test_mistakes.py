@@ -36,6 +36,11 @@ MISTAKES = [
     ("TUM105", action("nominal «efects»: none"), "did you mean `effects`?"),
     ("TUM105", action("nominal effects: S is a, «nominal» effects: S is a"), None),
     ("TUM105", config("«max_plan_lenght»: 4"), "did you mean `max_plan_length`?"),
+    ("TUM104", config("max_plan_length «=» 4"), "write `:`"),
+    ("TUM105", rule("S «b»"), "write `S is b`"),
+    ("TUM105", f"{VECTOR} BEGIN «STAT» RULES rule: S is a END STATE RULES", "did you mean `BEGIN STATE RULES`?"),
+    ("TUM105", f"{VECTOR} BEGIN «THINGS» END THINGS", "the blocks are"),
+    ("TUM105", f"{VECTOR} BEGIN GOALS goal type: «all» goal: S is a END GOALS", None),
     ("TUM105", config("effect_ordering: «last»"), "effect_ordering: any"),
     ("TUM105", "BEGIN STATE VECTOR state S«:» a END STATE VECTOR", "state NAME can be VALUE"),
     ("TUM105", "BEGIN STATE VECTOR state S can be a, «END» STATE VECTOR", None),
@@ -142,6 +147,15 @@ def test_several_mistakes_are_reported_in_one_run():
         "BEGIN CONFIG max_plan_length: 0 END CONFIG"
     )
     assert codes(text) == ["TUM203", "TUM105", "TUM201", "TUM111", "TUM202", "TUM108", "TUM310"]
+
+
+def test_every_item_with_a_mistake_is_reported():
+    """Each broken rule of many is reported once, and only it."""
+    broken = ["S is", "S is a OR", "NOT", "", "S b", "executing", "S is a)", "(S is a", "IF S is a", "a is b c"]
+    lines = "".join(f"rule: {each}\nrule: S is a\n" for each in broken)
+    text = f"{VECTOR}\nBEGIN STATE RULES\n{lines}END STATE RULES\n"
+    errors = [each.code.name for each in loaded(text).diagnostics]
+    assert errors == ["TUM105"] * len(broken)
 
 
 def test_what_a_syntax_error_hides_is_not_missed():

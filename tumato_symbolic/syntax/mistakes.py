@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable
-from difflib import get_close_matches
+from collections.abc import Callable
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Note, Span
-from tumato_symbolic.diagnostics.wording import listed, quoted
+from tumato_symbolic.diagnostics.wording import MAX_QUOTED, listed, quoted
 from tumato_symbolic.syntax.situation import BLOCKS, Situation
 from tumato_symbolic.syntax.tokens import HARD, MAX_DIGITS, Token
 
@@ -75,19 +74,19 @@ def _unclosed_block(here: Situation) -> Diagnostic | None:
 
 
 def _block_title(here: Situation) -> Diagnostic | None:
-    if here.previous is None or here.previous.text not in ("BEGIN", "STATE", "REACTION"):
+    start = here.title_start
+    if start is None:
         return None
-    if "BEGIN" not in (here.previous.text, here.tokens[max(here.index - 2, 0)].text):
-        return None
-    start = here.index if here.previous.text == "BEGIN" else here.index - 1
-    words = [token.text for token in here.tokens[start : start + 2] if token.kind == "word" and token.text not in HARD]
+    length = 2 if here.tokens[start].text in ("STATE", "REACTION") else 1
+    words = [each.text for each in here.tokens[start : start + length] if each.kind == "word" and each.text not in HARD]
     titles = [" ".join(title) for title in BLOCKS]
-    near = _nearest(" ".join(words).upper(), titles) or _nearest(words[0].upper() if words else "", titles)
     return Diagnostic(
         Code.TUM105,
         f"there is no block named {quoted(' '.join(words))}" if words else "`BEGIN` needs the name of a block",
         here.token.span,
-        help=f"did you mean `BEGIN {near}`?" if near else f"the blocks are {listed(titles)}",
+        help=f"did you mean `BEGIN {' '.join(here.meant_title)}`?"
+        if here.meant_title
+        else f"the blocks are {listed(titles)}",
     )
 
 
@@ -96,6 +95,8 @@ def _character(here: Situation) -> Diagnostic | None:
     if token.kind != "other":
         return None
     meant = _SYMBOLS.get(token.text)
+    if here.expected == {":"}:
+        meant = ":"
     way_out = f"write `{meant}`" if meant else None
     if re.match(r"\w", token.text):
         return Diagnostic(Code.TUM113, f"{quoted(token.text)} is not a name", token.span, help=_NAME_HELP)
@@ -197,6 +198,17 @@ def _missing_colon(here: Situation) -> Diagnostic | None:
     )
 
 
+def _missing_is(here: Situation) -> Diagnostic | None:
+    if "is" not in here.expected or here.token.kind != "word" or here.token.text in HARD or here.previous is None:
+        return None
+    return Diagnostic(
+        Code.TUM105,
+        f"{_shown(here.token)} where `is` or an operator is expected",
+        here.token.span,
+        help=f"write `{here.previous.text} is {here.token.text}`" if len(here.token.text) <= MAX_QUOTED else None,
+    )
+
+
 def _misspelled(here: Situation) -> Diagnostic | None:
     near = here.misspelled
     if near is None:
@@ -252,12 +264,6 @@ def _shown(token: Token) -> str:
     return "the text ends" if token.kind == "end" else f"unexpected {quoted(token.text)}"
 
 
-def _nearest(word: str, words: Iterable[str]) -> str | None:
-    if len(word) > 60:
-        return None
-    return next(iter(get_close_matches(word, sorted(words), n=1, cutoff=0.7)), None)
-
-
 def _join(first: Span, last: Span) -> Span:
     return Span(first.line, first.column, last.end_line, last.end_column)
 
@@ -275,4 +281,5 @@ _DETECTORS: tuple[Callable[[Situation], Diagnostic | None], ...] = (
     _missing_colon,
     _misspelled,
     _comma,
+    _missing_is,
 )

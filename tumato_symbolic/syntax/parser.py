@@ -154,8 +154,15 @@ class _Run:
         elif (meant := situation.in_another_case or situation.misspelled) is not None:
             self._supply(meant)
             self.index += 1
+        elif (rest := situation.meant_title_rest) and self.stack.fits(self.grammar.terminals[rest[0]]):
+            self._supply(*rest)
+            self.index += len(rest)
         elif situation.expected == {":"} and not situation.lacks_goal_type:
             self._supply(":")
+            self.index += self.tokens[self.index].kind == "other"
+        elif situation.expected == {"priority", "constraint"} and situation.token.kind == "word":
+            self._supply("priority")
+            self.index += 1
         elif situation.lacks_goal_type and situation.token.text == "when":
             self._supply("goal", "type", ":", "priority")
         elif situation.lacks_goal_type and situation.token.text == ":" and self.stack.fits("TYPE"):

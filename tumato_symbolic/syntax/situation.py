@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 
 from tumato_symbolic.diagnostics.wording import MAX_QUOTED
-from tumato_symbolic.syntax.tokens import Token
+from tumato_symbolic.syntax.tokens import HARD, Token
 
 BLOCKS = (
     ("STATE", "VECTOR"),
@@ -99,6 +99,38 @@ class Situation:
         if self.token.kind != "word" or "NAME" in self.expected or len(self.token.text) > MAX_QUOTED:
             return None
         return next(iter(get_close_matches(self.token.text, self._keywords(), n=1, cutoff=0.7)), None)
+
+    @property
+    def meant_title(self) -> tuple[str, ...] | None:
+        """The title that was probably meant, where a block begins with none."""
+        start = self.title_start
+        if start is None:
+            return None
+        for length in (2, 1):
+            written = self.tokens[start : start + length]
+            titles = {" ".join(title): title for title in BLOCKS if len(title) == length}
+            if any(token.kind != "word" or token.text in HARD for token in written):
+                continue
+            text = " ".join(token.text for token in written).upper()
+            near = get_close_matches(text, titles, n=1, cutoff=0.7) if len(text) <= MAX_QUOTED else []
+            read = self.index - start
+            if near and [token.text for token in written[:read]] == list(titles[near[0]][:read]):
+                return titles[near[0]]
+        return None
+
+    @property
+    def meant_title_rest(self) -> tuple[str, ...]:
+        """Those words of the title that was probably meant that the token and what follows it stand for."""
+        start = self.title_start
+        return () if start is None or self.meant_title is None else self.meant_title[self.index - start :]
+
+    @property
+    def title_start(self) -> int | None:
+        """Where the title begins that the token should be part of; None where it should not."""
+        before = [token.text for token in self.open[-2:]]
+        if before[-1:] == ["BEGIN"]:
+            return self.index
+        return self.index - 1 if before in (["BEGIN", "STATE"], ["BEGIN", "REACTION"]) else None
 
     def _keywords(self) -> list[str]:
         return sorted(each for each in self.expected if each.isidentifier() and each not in ("NAME", "NUMBER"))
