@@ -1,0 +1,926 @@
+#!/usr/bin/env python3
+"""Judge a policy table against a specification by the explicit meaning. One file; nothing but Python (3.9 or newer).
+
+    python3 checker.py policy.json spec.tum [--effect-ordering any|first] [--strict]
+
+It is written from docs/semantics.md and docs/policy.md and shares no code with the package: a second opinion that can
+be read in one sitting. It looks at every valid state, one by one, and judges four properties:
+
+    total    every valid state has a decision
+    safe     every decision is allowed: Ok(s, A)
+    goals    every nominal run reaches the active goals within the bound
+    minimal  where safety is restored, no cheaper allowed set would do as well
+
+Exit codes: 0 all hold; 1 one fails; 2 unreadable input, or a specification with errors; 3 too large to look at every
+state; 70 this program is broken. A certificate (ranks) is judged as well, but counts only with `--strict`.
+
+Not judged: policies of type `policy-diagram`, and whether the digest in the policy belongs to this specification. Nor
+does anybody here know whether the specification says what was meant.
+"""
+# ruff: noqa: ANN401, D102, N818
+
+from __future__ import annotations
+
+import argparse
+import itertools
+import json
+import math
+import re
+import sys
+import traceback
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+State = tuple[str, ...]  # one value per variable, in the order of declaration
+ActionSet = frozenset[str]  # the names of the actions that are executed at the same time
+Formula = tuple[Any, ...]  # see section 2
+Located = tuple[Formula, int]  # a formula and the line on which it begins
+Effect = dict[int, str]  # an assignment: the new value by the position of its variable
+Residual = tuple[frozenset[Formula], ActionSet]  # goal bodies, and those of their actions that are executed first
+
+LARGEST = 2_000_000  # this many states, or assignments of one set of effects, are enumerated at most
+
+
+class Unreadable(Exception):
+    """Input that cannot be judged: exit code 2."""
+
+
+class TooLarge(Exception):
+    """Input that would take too long: exit code 3."""
+
+
+def need(condition: bool, message: str) -> None:
+    """Refuse input unless the condition holds."""
+    if not condition:
+        raise Unreadable(message)
+
+
+# ----------------------------------------------------------------------------------------------------------------------
+# 1. Tokens. White space and line ends mean nothing; `//` and `/* */` are comments.
+
+TOKEN = re.compile(r"\s+|//[^\n]*|/\*.*?\*/|(?P<token>[A-Za-z_][A-Za-z0-9_]*|[0-9]+|[(),:])", re.DOTALL)
+NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+KEYWORDS = {"BEGIN", "END", "AND", "OR", "NOT", "IF", "THEN", "IFONLYIF"}  # never a name
+OWN_WORDS = {"true", "false", "none", "executing"}  # only ever the name of a value
+
+
+def tokens_of(text: str) -> list[tuple[str, int]]:
+    """The tokens of a specification with their lines; the last one is empty."""
+    found, position, line = [], 0, 1
+    while position < len(text):
+        match = TOKEN.match(text, position)
+        if match is None:
+            raise Unreadable(f"line {line}: unexpected character {text[position]!r}")
+        if match["token"]:
+            found.append((match["token"], line))
+        line += match[0].count("\n")
+        position = match.end()
+    return [*found, ("", line)]
+
+
+# ----------------------------------------------------------------------------------------------------------------------
+# 2. Parsing. A formula is a nested tuple:
+#      ("true",)  ("false",)  ("not", f)  ("and", f, g, …)  ("or", f, g, …)  ("iff", f, g)
+#      ("is", variable, value)  ("executing", action)  ("alias", name)
+#    The parser leaves names as (text, line); section 3 replaces them: variables by their position, aliases by their
+#    meaning. `IF p THEN q` is read as `NOT p OR q`.
+
+
+@dataclass
+class Action:
+    """An action as it is written; section 3 computes `effects`: the nominal assignment, then every alternative."""
+
+    name: str
+    line: int
+    duration: int = 0
+    resources: list[tuple[str, int]] = field(default_factory=list)
+    preconditions: list[Located] = field(default_factory=list)
+    nominal: list[Located] = field(default_factory=list)
+    alternatives: list[list[Located]] = field(default_factory=list)
+    holds_resources: frozenset[str] = frozenset()
+    effects: list[Effect] = field(default_factory=list)
+
+
+@dataclass
+class Goal:
+    """A simple goal (`kind` is "goal"), or a list of goals (`kind` is "priority" or "constraint")."""
+
+    kind: str
+    condition: Formula | None  # after `when`
+    body: Formula = ("true",)  # of a simple goal
+    members: list[Goal] = field(default_factory=list)  # of a list
+
+
+@dataclass
+class Specification:
+    """A specification: first as it is written, after `resolve` by what its names mean."""
+
+    lines: list[str]
+    variables: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    aliases: dict[str, Formula] = field(default_factory=dict)
+    resources: list[str] = field(default_factory=list)
+    actions: dict[str, Action] = field(default_factory=dict)
+    reaction_rules: list[Located] = field(default_factory=list)
+    state_rules: list[Located] = field(default_factory=list)
+    assumptions: list[Located] = field(default_factory=list)
+    goals: Goal | None = None
+    bound: int | None = None  # L; None: runs of any length
+    ordering: str | None = None
+    expanded: int = 0  # how many parts of predicates were looked at to replace names
+
+
+class Parser:
+    """Recursive descent: each method below the helpers reads one construct of the language."""
+
+    def __init__(self, text: str) -> None:
+        self.tokens = tokens_of(text)
+        self.position = 0
+        self.spec = Specification(text.split("\n"))
+
+    @property
+    def next(self) -> str:
+        return self.tokens[self.position][0]
+
+    @property
+    def line(self) -> int:
+        return self.tokens[self.position][1]
+
+    def need(self, condition: bool, message: str) -> None:
+        need(condition, f"line {self.line}: {message}, but here is `{self.next or 'the end'}`")
+
+    def at(self, words: str) -> bool:
+        wanted = words.split()
+        return [text for text, _ in self.tokens[self.position : self.position + len(wanted)]] == wanted
+
+    def accept(self, *choices: str) -> str:
+        """Read whichever of these (of one word or more) comes next; "" where none does."""
+        found = next((words for words in choices if self.at(words)), "")
+        self.position += len(found.split())
+        return found
+
+    def expect(self, *choices: str) -> str:
+        found = self.accept(*choices)
+        self.need(found != "", f"expected {' or '.join(f'`{words}`' for words in choices)}")
+        return found
+
+    def name(self) -> str:
+        word = self.next
+        self.need(NAME.fullmatch(word) is not None and word not in KEYWORDS, "expected a name")
+        self.position += 1
+        return word
+
+    def new_name(self, known: Iterable[str]) -> str:
+        self.need(self.next not in OWN_WORDS, "expected a name that is not a word of the language")
+        self.need(self.next not in known, "expected a name that is not declared yet")
+        return self.name()
+
+    def located_name(self) -> tuple[str, int]:
+        line = self.line
+        return self.name(), line
+
+    def number(self) -> int:
+        word = self.next
+        self.need(word.isdigit() and len(word) <= 18 and int(word) <= 1_000_000_000, "expected a number to 1000000000")
+        self.position += 1
+        return int(word)
+
+    # Blocks stand in any order, each at most once.
+
+    def specification(self) -> Specification:
+        spec, seen = self.spec, set()
+        while self.next:
+            self.expect("BEGIN")
+            titles = ("STATE VECTOR", "ALIASES", "RESOURCES", "ACTIONS", "REACTION RULES", "STATE RULES")
+            title = self.expect(*titles, "ASSUMPTIONS", "GOALS", "CONFIG")
+            self.need(title not in seen, f"there is a block {title} already")
+            seen.add(title)
+            if title == "GOALS":
+                spec.goals = self.goal_list(None)
+                continue
+            while not self.accept("END"):
+                if title == "STATE VECTOR":
+                    self.state()
+                elif title == "ALIASES":
+                    self.alias()
+                elif title == "RESOURCES":
+                    self.expect("resource")
+                    spec.resources.append(self.new_name(spec.resources))
+                elif title == "ACTIONS":
+                    self.action()
+                elif title == "CONFIG":
+                    self.setting()
+                else:
+                    self.expect("assume :" if title == "ASSUMPTIONS" else "rule :")
+                    rules = {"STATE RULES": spec.state_rules, "REACTION RULES": spec.reaction_rules}
+                    rules.get(title, spec.assumptions).append(self.located_predicate())
+            self.expect(title)
+        return spec
+
+    def state(self) -> None:  # state NAME can be VALUE, VALUE, …
+        self.expect("state")
+        variable = self.new_name(self.spec.variables)
+        self.expect("can be")
+        values = [self.name()]
+        while self.accept(","):
+            self.need(self.next not in values, "expected another value")
+            values.append(self.name())
+        self.spec.variables[variable] = tuple(values)
+
+    def alias(self) -> None:  # define NAME as PREDICATE
+        self.expect("define")
+        name = self.new_name(self.spec.aliases)
+        self.expect("as")
+        self.spec.aliases[name] = self.predicate()
+
+    def setting(self) -> None:  # max_plan_length: N, effect_ordering: any
+        if self.expect("max_plan_length :", "effect_ordering :") == "max_plan_length :":
+            self.need(self.spec.bound is None, "there is a `max_plan_length` already")
+            self.need(self.next.strip("0") != "", "expected at least 1")
+            self.spec.bound = self.number()
+        else:
+            self.need(self.spec.ordering is None, "there is an `effect_ordering` already")
+            self.spec.ordering = self.expect("any", "first")
+
+    # Actions: fields in any order, each at most once but for alternatives; `cost:` and `effects:` are older spellings.
+
+    FIELDS = (
+        *("duration :", "cost :", "controlled resources :", "preconditions :"),
+        *("nominal effects :", "effects :", "alternative effects :"),
+    )
+
+    def action(self) -> None:
+        self.expect("action")
+        line = self.line
+        action = Action(self.new_name(self.spec.actions), line)
+        self.spec.actions[action.name] = action
+        seen: set[str] = set()
+        while words := self.accept(*self.FIELDS):
+            kind = {"cost :": "duration :", "effects :": "nominal effects :"}.get(words, words)
+            self.need(kind not in seen or kind == "alternative effects :", f"there is a field `{kind}` already")
+            seen.add(kind)
+            if kind == "duration :":
+                action.duration = self.number()
+            elif kind == "controlled resources :":
+                action.resources = self.list_of(self.located_name)
+            elif kind == "preconditions :":
+                action.preconditions = self.list_of(self.located_predicate)
+            elif kind == "nominal effects :":
+                action.nominal = self.list_of(self.located_predicate)
+            else:
+                action.alternatives.append(self.list_of(self.located_predicate))
+
+    def list_of(self, read: Callable[[], tuple[Any, int]]) -> list[tuple[Any, int]]:  # …, … or none; may be empty
+        if self.accept("none") or self.at("END") or any(map(self.at, self.FIELDS)) or self.action_begins():
+            return []
+        found = [read()]
+        while self.accept(","):
+            found.append(read())
+        return found
+
+    def action_begins(self) -> bool:  # `action` may also be the name of a variable or an alias
+        following = self.tokens[self.position + 1][0] if self.at("action") else ""
+        return NAME.fullmatch(following) is not None and following not in {*KEYWORDS, "is"}
+
+    # Goals.
+
+    def goal_list(self, condition: Formula | None) -> Goal:  # what follows BEGIN GOALS
+        if self.accept("END GOALS"):
+            return Goal("constraint", condition)
+        self.expect("goal type :")
+        goals = Goal(self.expect("priority", "constraint"), condition)
+        while not self.accept("END"):
+            when = None
+            if self.accept("when"):
+                when = self.predicate()
+                self.expect("then")
+            nested = self.expect("goal :", "BEGIN GOALS") == "BEGIN GOALS"
+            goals.members.append(self.goal_list(when) if nested else Goal("goal", when, self.predicate()))
+        self.expect("GOALS")
+        return goals
+
+    # Predicates, loosest first. IFONLYIF comes once, without a chain; a nested IF needs parentheses.
+
+    def located_predicate(self) -> Located:
+        line = self.line
+        return self.predicate(), line
+
+    def predicate(self) -> Formula:
+        left = self.implication()
+        return ("iff", left, self.disjunction()) if self.accept("IFONLYIF") else left
+
+    def implication(self) -> Formula:
+        if not self.accept("IF"):
+            return self.disjunction()
+        condition = self.disjunction()
+        self.expect("THEN")
+        return ("or", ("not", condition), self.disjunction())
+
+    def disjunction(self) -> Formula:
+        parts = [self.conjunction()]
+        while self.accept("OR"):
+            parts.append(self.conjunction())
+        return ("or", *parts) if len(parts) > 1 else parts[0]
+
+    def conjunction(self) -> Formula:
+        parts = [self.negation()]
+        while self.accept("AND"):
+            parts.append(self.negation())
+        return ("and", *parts) if len(parts) > 1 else parts[0]
+
+    def negation(self) -> Formula:
+        return ("not", self.negation()) if self.accept("NOT") else self.basic()
+
+    def basic(self) -> Formula:  # ( p ), true, false, executing ACTION, VARIABLE is VALUE, an alias
+        if self.accept("("):
+            inside = self.predicate()
+            self.expect(")")
+            return inside
+        if word := self.accept("true", "false"):
+            return (word,)
+        if self.accept("executing"):
+            return ("executing", self.located_name())
+        name = self.located_name()
+        return ("is", name, self.located_name()) if self.accept("is") else ("alias", name)
+
+
+# ----------------------------------------------------------------------------------------------------------------------
+# 3. Names, and the effects of actions (docs/semantics.md, section 2).
+
+
+def resolve(spec: Specification) -> Specification:
+    """Replace every name by what it means, and every list of effects by the assignments that it denotes."""
+    need(bool(spec.variables), "there is no state variable")
+    names = [*spec.variables, *spec.aliases, *spec.resources, *spec.actions]
+    need(len(set(names)) == len(names), "two things of different kinds have the same name")
+    for name in spec.aliases:
+        meaning(spec, ("alias", (name, 0)), True)
+    for action in spec.actions.values():
+        resolve_action(spec, action)
+    spec.reaction_rules = [(meaning(spec, rule, True), line) for rule, line in spec.reaction_rules]
+    spec.state_rules = [(meaning(spec, rule, False), line) for rule, line in spec.state_rules]
+    spec.assumptions = [(meaning(spec, rule, False), line) for rule, line in spec.assumptions]
+    if spec.goals is not None:
+        resolve_goal(spec, spec.goals)
+    return spec
+
+
+def resolve_action(spec: Specification, action: Action) -> None:
+    """Names in an action, and its effects: the nominal ones leave exactly one assignment."""
+    for name, line in action.resources:
+        need(name in spec.resources, f"line {line}: there is no resource `{name}`")
+    action.holds_resources = frozenset(name for name, _ in action.resources)
+    action.preconditions = [(meaning(spec, part, False), line) for part, line in action.preconditions]
+    action.effects = assignments(spec, action.nominal)
+    count = len(action.effects)
+    need(count == 1, f"line {action.line}: the nominal effects of `{action.name}` leave {count} assignments, not one")
+    for alternative in action.alternatives:
+        outcomes = assignments(spec, alternative)
+        need(outcomes != [], f"line {action.line}: alternative effects of `{action.name}` cannot happen")
+        action.effects += outcomes
+
+
+def resolve_goal(spec: Specification, goal: Goal) -> None:
+    """Names in a goal: conditions speak of the state only, bodies also of what is executed."""
+    if goal.condition is not None:
+        goal.condition = meaning(spec, goal.condition, False)
+    goal.body = meaning(spec, goal.body, True)
+    for member in goal.members:
+        resolve_goal(spec, member)
+
+
+def meaning(spec: Specification, formula: Formula, may_execute: bool, inside: tuple[str, ...] = ()) -> Formula:
+    """The formula with names replaced; `inside` are the aliases that are being expanded."""
+    spec.expanded += 1
+    if spec.expanded > LARGEST // 10:
+        raise TooLarge("with their aliases expanded, the predicates are too large")
+    kind = formula[0]
+    if kind not in ("is", "executing", "alias"):
+        return (kind, *(meaning(spec, part, may_execute, inside) for part in formula[1:]))
+    name, line = formula[1]
+    if kind == "is":
+        value = formula[2][0]
+        need(name in spec.variables, f"line {line}: there is no variable `{name}`")
+        need(value in spec.variables[name], f"line {line}: `{name}` has no value `{value}`")
+        return ("is", list(spec.variables).index(name), value)
+    if kind == "executing":
+        need(name in spec.actions, f"line {line}: there is no action `{name}`")
+        need(may_execute, f"line {line}: `executing` belongs in reaction rules and goals")
+        return ("executing", name)
+    need(name in spec.aliases, f"line {line}: there is no alias `{name}`")
+    need(name not in inside, f"line {line}: the alias `{name}` uses itself")
+    return meaning(spec, spec.aliases[name], may_execute, (*inside, name))
+
+
+def assignments(spec: Specification, written: list[Located]) -> list[Effect]:
+    """The assignments to the mentioned variables that satisfy the whole list of effects."""
+    parts = conjuncts(meaning(spec, formula, False) for formula, _ in written)
+    domains = list(spec.variables.values())
+    choices = {atom[1]: domains[atom[1]] for part in parts for atom in atoms(part)}
+    for kind, *rest in parts:
+        if kind == "is":  # a plain effect leaves one value: no need to try the others
+            choices[rest[0]] = (rest[1],)
+    if math.prod(map(len, choices.values())) > LARGEST:
+        raise TooLarge("a set of effects has too many assignments to look at")
+    found = []
+    for values in itertools.product(*choices.values()):
+        effect = {variable: values[place] for place, variable in enumerate(choices)}
+        state = tuple(effect.get(variable, "") for variable in range(len(domains)))
+        if all(holds(part, state) for part in parts):
+            found.append(effect)
+    return found
+
+
+def conjuncts(formulas: Iterable[Formula]) -> list[Formula]:
+    """The same conjunction, with `p AND q` taken apart."""
+    return [part for f in formulas for part in (conjuncts(f[1:]) if f[0] == "and" else [f])]
+
+
+def atoms(formula: Formula) -> Iterator[Formula]:
+    """The `is` and `executing` parts of a formula."""
+    if formula[0] in ("is", "executing"):
+        yield formula
+    else:
+        for part in formula[1:]:
+            yield from atoms(part)
+
+
+def holds(formula: Formula, state: State, executed: ActionSet = frozenset()) -> bool:
+    """Whether a formula is true in a state while `executed` is executed."""
+    kind = formula[0]
+    if kind == "is":
+        return bool(state[formula[1]] == formula[2])
+    if kind == "executing":
+        return formula[1] in executed
+    if kind == "not":
+        return not holds(formula[1], state, executed)
+    if kind == "and":
+        return all(holds(part, state, executed) for part in formula[1:])
+    if kind == "or":
+        return any(holds(part, state, executed) for part in formula[1:])
+    if kind == "iff":
+        return holds(formula[1], state, executed) == holds(formula[2], state, executed)
+    return bool(kind == "true")
+
+
+# ----------------------------------------------------------------------------------------------------------------------
+# 4. States (docs/semantics.md, section 1), and what may be executed together (section 3).
+
+
+class World:
+    """A specification under one effect ordering."""
+
+    def __init__(self, spec: Specification, ordering: str) -> None:
+        self.spec = spec
+        self.ordering = ordering
+        if math.prod(map(len, spec.variables.values())) > LARGEST:
+            raise TooLarge(f"more than {LARGEST} states are too many to look at each of them")
+        every = itertools.product(*spec.variables.values())
+        self.valid = [state for state in every if self.broken(spec.assumptions, state) is None]
+        need(self.valid != [], "no state satisfies all assumptions")
+        self.safe = {state for state in self.valid if self.broken(spec.state_rules, state) is None}
+
+    def broken(self, rules: list[Located], state: State, executed: ActionSet = frozenset()) -> int | None:
+        """The line of the first rule that does not hold."""
+        return next((line for formula, line in rules if not holds(formula, state, executed)), None)
+
+    def apply(self, state: State, effect: Effect) -> State:
+        """The state after an effect: variables that it does not mention keep their values."""
+        return tuple(effect.get(place, value) for place, value in enumerate(state))
+
+    def effects(self, name: str) -> list[Effect]:
+        """Every effect of an action, the nominal one first."""
+        return self.spec.actions[name].effects
+
+    def agree(self, chosen: ActionSet) -> bool:
+        """Whether the nominal effects of a set never give one variable two values."""
+        given = {pair for name in chosen for pair in self.effects(name)[0].items()}
+        return len(given) == len({variable for variable, _ in given})
+
+    def successor(self, state: State, chosen: ActionSet) -> State:
+        """`δ(s, A)`: all nominal effects at once. Where they agree, their order does not matter."""
+        for name in chosen:
+            state = self.apply(state, self.effects(name)[0])
+        return state
+
+    def outcomes(self, state: State, chosen: ActionSet) -> Iterator[tuple[State, list[State]]]:
+        """`Out(s, A)`, each outcome with the states on the way to it.
+
+        Under `any` the actions take effect one after the other, each at most once and with any one of its effects,
+        and every state on the way counts. Under `first` only one action takes effect.
+        """
+        if not chosen:
+            yield state, [state]
+        waiting, seen = [(state, chosen, [state])], set()
+        while waiting:
+            here, idle, way = waiting.pop()
+            for name, effect in [(each, effect) for each in sorted(idle) for effect in self.effects(each)]:
+                after, rest = self.apply(here, effect), idle - {name}
+                if (after, rest) not in seen:
+                    seen.add((after, rest))
+                    yield after, [*way, after]
+                    if self.ordering == "any":
+                        waiting.append((after, rest, [*way, after]))
+
+    def objection(self, state: State, chosen: ActionSet) -> str | None:
+        """Why `Ok(s, A)` is false, or None where it is true: the six conditions of section 3, in their order."""
+        actions = [self.spec.actions[name] for name in sorted(chosen)]
+        for action in actions:
+            line = self.broken(action.preconditions, state)
+            if line is not None:
+                return f"a precondition of {action.name} does not hold: {self.quote(line)}"
+        for one, other in itertools.combinations(actions, 2):
+            if one.holds_resources & other.holds_resources:
+                return f"{one.name} and {other.name} share {min(one.holds_resources & other.holds_resources)}"
+        if not self.agree(chosen):
+            return "the nominal effects disagree"
+        line = self.broken(self.spec.reaction_rules, state, chosen)
+        if line is not None:
+            return f"a reaction rule is broken: {self.quote(line)}"
+        for after, way in self.outcomes(state, chosen):
+            if after not in self.safe:
+                return f"an outcome {self.fault(after)}; the effects lead to " + ", then ".join(map(self.show, way[1:]))
+        after = self.successor(state, chosen)
+        if after not in self.safe:
+            return f"the nominal successor {self.show(after)} {self.fault(after)}"
+        return None
+
+    def duration(self, chosen: ActionSet) -> int:
+        """The duration of a set: the sum of its actions' durations (section 5)."""
+        return sum(self.spec.actions[name].duration for name in chosen)
+
+    def cheaper_allowed_sets(self, state: State, limit: int) -> Iterator[ActionSet]:
+        """The allowed sets of a smaller duration than `limit`, grown action by action in the order of declaration.
+
+        A larger set has all that a smaller one has: the duration, the disagreements about resources and nominal
+        effects, and (but for the empty set) every outcome. Where one of these is at fault, a set is not grown.
+        """
+        names = [name for name, a in self.spec.actions.items() if self.broken(a.preconditions, state) is None]
+        waiting = [(frozenset[str](), 0)] if limit > 0 else []
+        while waiting:
+            chosen, begin = waiting.pop()
+            if self.objection(state, chosen) is None:
+                yield chosen
+            larger = ((chosen | {names[place]}, place + 1) for place in range(begin, len(names)))
+            waiting += [(grown, place) for grown, place in larger if self.may_grow(state, grown, limit)]
+
+    def may_grow(self, state: State, chosen: ActionSet, limit: int) -> bool:
+        """Whether a set has none of the faults that every larger set has as well."""
+        held = [resource for name in chosen for resource in self.spec.actions[name].holds_resources]
+        return (
+            self.duration(chosen) < limit
+            and len(held) == len(set(held))
+            and self.agree(chosen)
+            and all(after in self.safe for after, _ in self.outcomes(state, chosen))
+        )
+
+    # Words for reports.
+
+    def show(self, state: State) -> str:
+        return "(" + ", ".join(f"{name} {state[place]}" for place, name in enumerate(self.spec.variables)) + ")"
+
+    def show_set(self, chosen: ActionSet) -> str:
+        return f"{{{', '.join(sorted(chosen))}}} (duration {self.duration(chosen)})"
+
+    def quote(self, line: int) -> str:
+        return f"line {line}: `{self.spec.lines[line - 1].strip()}`"
+
+    def fault(self, state: State) -> str:
+        """What a state breaks that is not safe."""
+        line = self.broken(self.spec.assumptions, state)
+        if line is not None:
+            return f"breaks the assumption at {self.quote(line)}"
+        return f"breaks the state rule at {self.quote(self.broken(self.spec.state_rules, state) or 0)}"
+
+    # Goals (docs/semantics.md, section 4).
+
+    def active_goals(self, state: State) -> frozenset[Formula]:
+        """`Γ(s)`."""
+        found: list[Formula] = []
+        if self.spec.goals is not None:
+            self.walk(self.spec.goals, state, found)
+        return frozenset(found)
+
+    def walk(self, goal: Goal, state: State, found: list[Formula]) -> bool:
+        """Collect what is active in a goal, and tell whether it was entered."""
+        if goal.condition is not None and not holds(goal.condition, state):
+            return False
+        if goal.kind == "goal":
+            found.append(goal.body)
+        for member in goal.members:
+            if self.walk(member, state, found) and goal.kind == "priority":
+                break
+        return True
+
+    def residual_goal(self, state: State, chosen: ActionSet) -> Residual:
+        """What `chosen`, executed first in `state`, leaves to be reached."""
+        bodies = self.active_goals(state)
+        return bodies, actions_in(bodies) & chosen
+
+
+def actions_in(bodies: Iterable[Formula]) -> ActionSet:
+    """The actions that goal bodies speak of."""
+    return frozenset(atom[1] for body in bodies for atom in atoms(body) if atom[0] == "executing")
+
+
+def reached(goal: Residual, state: State) -> bool:
+    """Whether every body of a residual goal holds."""
+    bodies, executed = goal
+    return all(holds(body, state, executed) for body in bodies)
+
+
+# ----------------------------------------------------------------------------------------------------------------------
+# 5. Policy files (docs/policy.md). Anything doubtful is refused; sections that nobody knows are passed over.
+
+
+@dataclass
+class Policy:
+    """A table; `States` and `Certificate` are needed again for the ranks."""
+
+    rows: dict[State, ActionSet]
+    ordering: str | None
+    document: dict[str, Any]
+
+
+def read_policy(text: str, spec: Specification) -> Policy:
+    """The policy, for this specification: the same variables and values, in whatever order."""
+    try:
+        document = json.loads(text, object_pairs_hook=distinct_keys, parse_constant=lambda word: need(False, word))
+    except ValueError as problem:
+        raise Unreadable(f"the policy is not JSON: {problem}") from problem
+    need(isinstance(document, dict), "the policy is not a JSON object")
+    need(document.get("Type") != "policy-diagram", "this checker judges tables, not policies of type `policy-diagram`")
+    need(document.get("Type") == "policy" and "Diagram" not in document, "the policy is not of type `policy`")
+    version = document.get("FormatVersion", 1)
+    need(is_number(version) and version == 1, "`FormatVersion` is 1")
+    for key in ("PolicyFrameworkVersion", "SpecificationDigest"):
+        need(isinstance(document.get(key, ""), str), f"`{key}` is a text")
+    need(document.get("EffectOrdering", "any") in ("any", "first"), "`EffectOrdering` is `any` or `first`")
+    actions, rows = document.get("Actions"), document.get("Policy")
+    need(is_texts(actions) and len(set(actions)) == len(actions), "`Actions` is a list of different names")
+    need(set(actions) <= set(spec.actions), f"unknown actions: {sorted(set(actions) - set(spec.actions))}")
+    check_states(document.get("States"), spec)
+    need(isinstance(rows, list), "`Policy` is a list of rows")
+    table: dict[State, ActionSet] = {}
+    for number, row in enumerate(rows, 1):
+        need(isinstance(row, dict), f"row {number} is not an object")
+        need(set(row) == {*spec.variables, "Actions"}, f"row {number} does not hold just the variables and `Actions`")
+        for variable, values in spec.variables.items():
+            need(row[variable] in values, f"row {number}: `{variable}` has no value {row[variable]!r}")
+        need(is_texts(row["Actions"]), f"row {number}: `Actions` is a list of names")
+        need(set(row["Actions"]) <= set(actions), f"row {number} has an unknown action")
+        state, chosen = tuple(row[variable] for variable in spec.variables), frozenset(row["Actions"])
+        need(table.setdefault(state, chosen) == chosen, f"row {number} contradicts an earlier row")
+    return Policy(table, document.get("EffectOrdering"), document)
+
+
+def check_states(states: Any, spec: Specification) -> None:
+    """The section `States`: for every variable its values, numbered 0, 1, …"""
+    need("Actions" not in spec.variables, "a table cannot hold a variable that is called `Actions`")
+    need(isinstance(states, dict), "`States` is an object")
+    need(set(states) == set(spec.variables), "the variables of the policy are not those of the specification")
+    for name, values in states.items():
+        need(
+            isinstance(values, dict) and all(map(is_number, values.values())), f"the values of `{name}` have no numbers"
+        )
+        need(set(values) == set(spec.variables[name]), f"the values of `{name}` are not those of the specification")
+        need(sorted(values.values()) == list(range(len(values))), f"the values of `{name}` are not numbered 0, 1, …")
+
+
+def distinct_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """An object whose keys all differ."""
+    need(len({key for key, _ in pairs}) == len(pairs), "a key comes twice in one object of the policy")
+    return dict(pairs)
+
+
+def is_texts(value: Any) -> bool:
+    """Whether a JSON value is a list of texts."""
+    return isinstance(value, list) and all(isinstance(entry, str) for entry in value)
+
+
+def is_number(value: Any) -> bool:
+    """Whether a JSON value is a whole number from 0 up."""
+    return isinstance(value, int) and not isinstance(value, bool) and value >= 0
+
+
+# ----------------------------------------------------------------------------------------------------------------------
+# 6. The judgement (docs/semantics.md, section 5).
+
+
+class Judge:
+    """A policy against a specification. Rows for states that are not valid play no part."""
+
+    def __init__(self, world: World, rows: dict[State, ActionSet]) -> None:
+        self.world = world
+        self.decided = {state: rows[state] for state in world.valid if state in rows}
+        found = {state: world.objection(state, chosen) for state, chosen in self.decided.items()}
+        self.objections = {state: why for state, why in found.items() if why is not None}
+        self.allowed = [state for state in self.decided if state not in self.objections]
+        agreeing = {state: chosen for state, chosen in self.decided.items() if world.agree(chosen)}
+        self.after = {state: world.successor(state, chosen) for state, chosen in agreeing.items()}
+        self.steps: dict[Residual, dict[State, int | None]] = {}
+
+    def verdicts(self) -> dict[str, list[str]]:
+        """For each property a witness for every state in which it fails."""
+        return {
+            "total": [f"no decision in {self.world.show(s)}" for s in self.world.valid if s not in self.decided],
+            "safe": [f"{self.decision(state)}: {why}" for state, why in self.objections.items()],
+            "goals": [self.missed(s) for s in self.allowed if not self.serves(s, self.decided[s])],
+            "minimal": [self.dearer(s, better) for s in self.decided for better in self.cheaper(s)],
+        }
+
+    def cheaper(self, state: State) -> list[ActionSet]:
+        """For an unsafe state a cheaper allowed set that serves as well, if there is one."""
+        if state in self.world.safe:
+            return []
+        sets = self.world.cheaper_allowed_sets(state, self.world.duration(self.decided[state]))
+        return list(itertools.islice((chosen for chosen in sets if self.serves(state, chosen)), 1))
+
+    def serves(self, state: State, chosen: ActionSet) -> bool:
+        """Whether the run that begins with an allowed set and goes on with the policy reaches its residual goal."""
+        left = self.steps_left(self.world.residual_goal(state, chosen), self.world.successor(state, chosen))
+        return left is not None and (self.world.spec.bound is None or 1 + left <= self.world.spec.bound)
+
+    def steps_left(self, goal: Residual, state: State) -> int | None:
+        """The least `k ≥ 0` after which the run of the policy from `state` satisfies `goal`; None: it never does."""
+        known = self.steps.setdefault(goal, {})
+        way: list[State] = []
+        here: State | None = state
+        while here is not None and here not in known:
+            if reached(goal, here):
+                known[here] = 0
+            else:
+                known[here] = None  # and it stays so where the run comes back here
+                way.append(here)
+                here = self.after.get(here)
+        left = None if here is None else known[here]
+        for earlier in reversed(way):
+            left = None if left is None else left + 1
+            known[earlier] = left
+        return known[state]
+
+    # Witnesses in words.
+
+    def decision(self, state: State) -> str:
+        return f"in {self.world.show(state)} the decision is {self.world.show_set(self.decided[state])}"
+
+    def dearer(self, state: State, better: ActionSet) -> str:
+        return f"{self.decision(state)}: {self.world.show_set(better)} would serve as well"
+
+    def missed(self, state: State) -> str:
+        goal = self.world.residual_goal(state, self.decided[state])
+        way, here = [state], self.after.get(state)
+        while here is not None and here not in way[1:] and not reached(goal, here):
+            way.append(here)
+            here = self.after.get(here)
+        if here is None:
+            end = "where nothing is decided that has one nominal successor"
+        elif here in way[1:]:
+            end = f"and round again from {self.world.show(here)}"
+        else:
+            end = f"and reaches it after {len(way)} steps, more than {self.world.spec.bound}"
+        words = " and ".join(sorted(text_of(body, self.world.spec) for body in goal[0]))
+        return f"{self.decision(state)}: its goal is {words}; the run is {', '.join(map(self.world.show, way))} {end}"
+
+
+def text_of(formula: Formula, spec: Specification) -> str:
+    """A formula as certificates write it: every operand in parentheses."""
+    kind, *parts = formula
+    if kind == "is":
+        return f"{list(spec.variables)[parts[0]]} is {parts[1]}"
+    if kind in ("true", "false"):
+        return str(kind)
+    if kind == "executing":
+        return f"executing {parts[0]}"
+    words = {"not": "NOT ", "and": " AND ", "or": " OR ", "iff": " IFONLYIF "}[kind]
+    operands = [f"({text_of(part, spec)})" for part in parts]
+    return words + operands[0] if kind == "not" else words.join(operands)
+
+
+# ----------------------------------------------------------------------------------------------------------------------
+# 7. The certificate: for every residual goal a rank of each safe state, as a diagram (docs/policy.md). It is right when
+#    a rank is 0 only where the goal holds, falls with every step of the policy, and is below L for first successors.
+
+
+def judge_certificate(judge: Judge, document: dict[str, Any]) -> None:
+    """Raise Unreadable where the certificate is wrong."""
+    certificate, world = document["Certificate"], judge.world
+    check_diagram(certificate, document["States"])
+    bodies = {text_of(body, world.spec): body for body in bodies_of(world.spec.goals)}
+    ranked: list[tuple[Residual, dict[State, Any]]] = []
+    for entry in certificate["Goals"]:
+        need(isinstance(entry, dict) and {"Bodies", "Executed", "Root"} <= set(entry), "an entry of `Goals` is no goal")
+        need(is_texts(entry["Bodies"]) and is_texts(entry["Executed"]), "`Bodies` and `Executed` are lists of texts")
+        need(set(entry["Bodies"]) <= set(bodies), f"there is no such goal: {entry['Bodies']}")
+        goal = frozenset(bodies[text] for text in entry["Bodies"]), frozenset(entry["Executed"])
+        need(goal[1] <= actions_in(goal[0]), "`Executed` has an action of which the goal does not speak")
+        rank = {state: leaf(certificate, document["States"], entry["Root"], world, state) for state in world.safe}
+        for state, own in rank.items():
+            check_rank(judge, goal, rank, state, own)
+        ranked.append((goal, rank))
+    for state in judge.allowed:
+        after, goal = judge.after[state], world.residual_goal(state, judge.decided[state])
+        own = [rank[after] for other, rank in ranked if other == goal]
+        need(own != [] and None not in own, f"{world.show(after)}, which follows {world.show(state)}, has no rank")
+        need(world.spec.bound is None or max(own) < world.spec.bound, f"the rank {max(own)} is not below the bound")
+
+
+def check_rank(judge: Judge, goal: Residual, rank: dict[State, Any], state: State, own: int | None) -> None:
+    """One rank: 0 where the goal holds, otherwise larger than that of the successor; None claims nothing."""
+    if own == 0:
+        need(reached(goal, state), f"the rank of {judge.world.show(state)} is 0, but the goal does not hold there")
+    elif own is not None:
+        following = rank.get(judge.after.get(state, ()))  # an unsafe successor has no rank
+        need(following is not None and following < own, f"the rank {own} of {judge.world.show(state)} does not fall")
+
+
+def bodies_of(goal: Goal | None) -> set[Formula]:
+    """The bodies of all simple goals."""
+    if goal is None:
+        return set()
+    return ({goal.body} if goal.kind == "goal" else set()).union(*map(bodies_of, goal.members))
+
+
+def check_diagram(certificate: Any, states: dict[str, dict[str, int]]) -> None:
+    """The shape of a diagram: every edge leads to a leaf, or to an earlier node that tests a later variable."""
+    sections = {"Order", "Leaves", "Nodes", "Goals"}
+    need(isinstance(certificate, dict) and sections <= set(certificate), f"it has not all of {sorted(sections)}")
+    order, leaves, nodes = certificate["Order"], certificate["Leaves"], certificate["Nodes"]
+    need(is_texts(order) and len(set(order)) == len(order) and set(order) <= set(states), "`Order` is wrong")
+    need(isinstance(leaves, list) and all(rank is None or is_number(rank) for rank in leaves), "`Leaves` is wrong")
+    need(len(set(leaves)) == len(leaves) > 0, "`Leaves` is wrong")
+    need(isinstance(nodes, list) and isinstance(certificate["Goals"], list), "`Nodes` or `Goals` is wrong")
+    for number, node in enumerate(nodes, len(leaves)):
+        wrong = f"node {number} is wrong"
+        need(isinstance(node, list) and len(node) == 2 and is_number(node[0]) and node[0] < len(order), wrong)
+        need(isinstance(node[1], list) and len(node[1]) == len(states[order[node[0]]]), wrong)
+        for child in node[1]:
+            need(is_number(child) and child < number, wrong)
+            need(child < len(leaves) or nodes[child - len(leaves)][0] > node[0], wrong)
+
+
+def leaf(certificate: Any, states: dict[str, dict[str, int]], root: Any, world: World, state: State) -> Any:
+    """The leaf to which a state leads from a root."""
+    order, leaves, nodes = certificate["Order"], certificate["Leaves"], certificate["Nodes"]
+    need(is_number(root) and root < len(leaves) + len(nodes), "a root is wrong")
+    while root >= len(leaves):
+        level, below = nodes[root - len(leaves)]
+        root = below[states[order[level]][state[list(world.spec.variables).index(order[level])]]]
+    return leaves[root]
+
+
+# ----------------------------------------------------------------------------------------------------------------------
+# 8. The command line.
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Judge the files that are named; the exit code."""
+    parser = argparse.ArgumentParser(description="Judge a policy table against a specification, state by state.")
+    parser.add_argument("policy")
+    parser.add_argument("spec")
+    parser.add_argument("--effect-ordering", choices=("any", "first"))
+    parser.add_argument("--strict", action="store_true", help="a wrong certificate makes the verdict no")
+    options = parser.parse_args(argv)
+    sys.setrecursionlimit(max(10_000, sys.getrecursionlimit()))
+    try:
+        return judge_files(options)
+    except (Unreadable, OSError, UnicodeDecodeError, RecursionError) as problem:
+        print(f"cannot be judged: {problem}", file=sys.stderr)
+        return 2
+    except TooLarge as problem:
+        print(f"no verdict: {problem}", file=sys.stderr)
+        return 3
+
+
+def judge_files(options: argparse.Namespace) -> int:
+    """Read, judge, report. The ordering is the command line's, else the policy's, the specification's, or `any`."""
+    spec = resolve(Parser(Path(options.spec).read_bytes().decode("utf-8-sig")).specification())
+    policy = read_policy(Path(options.policy).read_bytes().decode("utf-8-sig"), spec)
+    ordering = options.effect_ordering or policy.ordering or spec.ordering or "any"
+    world = World(spec, ordering)
+    judge = Judge(world, policy.rows)
+    unsafe = len(world.valid) - len(world.safe)
+    print(f"{len(world.valid)} valid states: {len(world.safe)} safe, {unsafe} unsafe; effect ordering {ordering}")
+    verdicts = judge.verdicts()
+    if options.effect_ordering is None and policy.ordering == "first" and spec.ordering == "any":
+        verdicts["ordering"] = ["the policy was made for `first`, but the specification writes `any`"]
+    for name, witnesses in verdicts.items():
+        print(f"{name:8} " + (f"FAILS in {len(witnesses)} states: {witnesses[0]}" if witnesses else "holds"))
+    right = not any(verdicts.values())
+    if "Certificate" in policy.document:
+        try:
+            judge_certificate(judge, policy.document)
+            print("certificate: right")
+        except Unreadable as problem:
+            print(f"certificate: WRONG: {problem}")
+            right = right and not options.strict
+    return 0 if right else 1
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except Exception:
+        traceback.print_exc()
+        sys.exit(70)

@@ -1,0 +1,1 @@
+"""Tests of `proofs/checker.py`, the stand-alone checker."""
