@@ -15,24 +15,34 @@ NOWHERE = Span(1, 1, 1, 1)
 """The span of a node that no text stands for."""
 
 
-@dataclass(frozen=True, slots=True)
-class Name:
+class Node:
+    """What all nodes share. One `__repr__` serves them all: generating thirty of them slows down every start."""
+
+    __slots__: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        values = (repr(getattr(self, name)) for name in self.__slots__ if name != "span")
+        return f"{type(self).__name__}({', '.join(values)})"
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Name(Node):
     """A name as it is written in one place."""
 
     text: str
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class Truth:
+@dataclass(frozen=True, slots=True, repr=False)
+class Truth(Node):
     """`true` or `false`."""
 
     value: bool
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class Comparison:
+@dataclass(frozen=True, slots=True, repr=False)
+class Comparison(Node):
     """`VARIABLE is VALUE`."""
 
     variable: Name
@@ -40,48 +50,48 @@ class Comparison:
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class Execution:
+@dataclass(frozen=True, slots=True, repr=False)
+class Execution(Node):
     """`executing ACTION`."""
 
     action: Name
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class Reference:
+@dataclass(frozen=True, slots=True, repr=False)
+class Reference(Node):
     """An alias, by name."""
 
     name: Name
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class Negation:
+@dataclass(frozen=True, slots=True, repr=False)
+class Negation(Node):
     """`NOT p`."""
 
     operand: Predicate
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class Conjunction:
+@dataclass(frozen=True, slots=True, repr=False)
+class Conjunction(Node):
     """`p AND q AND …`: two operands or more."""
 
     operands: tuple[Predicate, ...]
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class Disjunction:
+@dataclass(frozen=True, slots=True, repr=False)
+class Disjunction(Node):
     """`p OR q OR …`: two operands or more."""
 
     operands: tuple[Predicate, ...]
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class Implication:
+@dataclass(frozen=True, slots=True, repr=False)
+class Implication(Node):
     """`IF p THEN q`."""
 
     condition: Predicate
@@ -89,8 +99,8 @@ class Implication:
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class Equivalence:
+@dataclass(frozen=True, slots=True, repr=False)
+class Equivalence(Node):
     """`p IFONLYIF q`."""
 
     left: Predicate
@@ -103,8 +113,8 @@ Predicate: TypeAlias = (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class VariableDeclaration:
+@dataclass(frozen=True, slots=True, repr=False)
+class VariableDeclaration(Node):
     """`state NAME can be VALUE, …`: one value or more."""
 
     name: Name
@@ -112,8 +122,8 @@ class VariableDeclaration:
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class AliasDefinition:
+@dataclass(frozen=True, slots=True, repr=False)
+class AliasDefinition(Node):
     """`define NAME as PREDICATE`."""
 
     name: Name
@@ -121,48 +131,48 @@ class AliasDefinition:
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class ResourceDeclaration:
+@dataclass(frozen=True, slots=True, repr=False)
+class ResourceDeclaration(Node):
     """`resource NAME`."""
 
     name: Name
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class Duration:
+@dataclass(frozen=True, slots=True, repr=False)
+class Duration(Node):
     """`duration: N`, or `cost: N` in older files."""
 
     value: int
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class ControlledResources:
+@dataclass(frozen=True, slots=True, repr=False)
+class ControlledResources(Node):
     """`controlled resources: R, …`; none at all is written `none`."""
 
     names: tuple[Name, ...]
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class Preconditions:
+@dataclass(frozen=True, slots=True, repr=False)
+class Preconditions(Node):
     """`preconditions: PREDICATE, …`; none at all is written `none`."""
 
     predicates: tuple[Predicate, ...]
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class NominalEffects:
+@dataclass(frozen=True, slots=True, repr=False)
+class NominalEffects(Node):
     """`nominal effects: PREDICATE, …`, or `effects:` in older files; no change at all is written `none`."""
 
     predicates: tuple[Predicate, ...]
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class AlternativeEffects:
+@dataclass(frozen=True, slots=True, repr=False)
+class AlternativeEffects(Node):
     """`alternative effects: PREDICATE, …`; no change at all is written `none`."""
 
     predicates: tuple[Predicate, ...]
@@ -172,8 +182,8 @@ class AlternativeEffects:
 Field: TypeAlias = Duration | ControlledResources | Preconditions | NominalEffects | AlternativeEffects
 
 
-@dataclass(frozen=True, slots=True)
-class ActionDeclaration:
+@dataclass(frozen=True, slots=True, repr=False)
+class ActionDeclaration(Node):
     """`action NAME` and its fields, as they stand."""
 
     name: Name
@@ -184,16 +194,16 @@ class ActionDeclaration:
 Declaration: TypeAlias = VariableDeclaration | AliasDefinition | ResourceDeclaration | ActionDeclaration
 
 
-@dataclass(frozen=True, slots=True)
-class SimpleGoal:
+@dataclass(frozen=True, slots=True, repr=False)
+class SimpleGoal(Node):
     """`goal: PREDICATE`."""
 
     predicate: Predicate
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class ConditionalGoal:
+@dataclass(frozen=True, slots=True, repr=False)
+class ConditionalGoal(Node):
     """`when PREDICATE then` and a goal or a list of goals."""
 
     condition: Predicate
@@ -201,8 +211,8 @@ class ConditionalGoal:
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class GoalList:
+@dataclass(frozen=True, slots=True, repr=False)
+class GoalList(Node):
     """`BEGIN GOALS goal type: … END GOALS`. The kind is None in a block that holds nothing."""
 
     kind: Literal["priority", "constraint"] | None
@@ -213,16 +223,16 @@ class GoalList:
 Goal: TypeAlias = SimpleGoal | ConditionalGoal | GoalList
 
 
-@dataclass(frozen=True, slots=True)
-class MaxPlanLength:
+@dataclass(frozen=True, slots=True, repr=False)
+class MaxPlanLength(Node):
     """`max_plan_length: N`."""
 
     value: int
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class EffectOrdering:
+@dataclass(frozen=True, slots=True, repr=False)
+class EffectOrdering(Node):
     """`effect_ordering: any` or `first`."""
 
     value: Literal["any", "first"]
@@ -232,72 +242,72 @@ class EffectOrdering:
 Setting: TypeAlias = MaxPlanLength | EffectOrdering
 
 
-@dataclass(frozen=True, slots=True)
-class StateVector:
+@dataclass(frozen=True, slots=True, repr=False)
+class StateVector(Node):
     """`BEGIN STATE VECTOR`."""
 
     variables: tuple[VariableDeclaration, ...]
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class Aliases:
+@dataclass(frozen=True, slots=True, repr=False)
+class Aliases(Node):
     """`BEGIN ALIASES`."""
 
     definitions: tuple[AliasDefinition, ...]
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class Resources:
+@dataclass(frozen=True, slots=True, repr=False)
+class Resources(Node):
     """`BEGIN RESOURCES`."""
 
     resources: tuple[ResourceDeclaration, ...]
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class Actions:
+@dataclass(frozen=True, slots=True, repr=False)
+class Actions(Node):
     """`BEGIN ACTIONS`."""
 
     actions: tuple[ActionDeclaration, ...]
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class ReactionRules:
+@dataclass(frozen=True, slots=True, repr=False)
+class ReactionRules(Node):
     """`BEGIN REACTION RULES`."""
 
     rules: tuple[Predicate, ...]
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class StateRules:
+@dataclass(frozen=True, slots=True, repr=False)
+class StateRules(Node):
     """`BEGIN STATE RULES`."""
 
     rules: tuple[Predicate, ...]
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class Assumptions:
+@dataclass(frozen=True, slots=True, repr=False)
+class Assumptions(Node):
     """`BEGIN ASSUMPTIONS`."""
 
     assumptions: tuple[Predicate, ...]
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class Goals:
+@dataclass(frozen=True, slots=True, repr=False)
+class Goals(Node):
     """The outermost `BEGIN GOALS`."""
 
     goals: GoalList
     span: Span = field(default=NOWHERE, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class Config:
+@dataclass(frozen=True, slots=True, repr=False)
+class Config(Node):
     """`BEGIN CONFIG`."""
 
     settings: tuple[Setting, ...]
@@ -309,8 +319,8 @@ Block: TypeAlias = (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class Specification:
+@dataclass(frozen=True, slots=True, repr=False)
+class Specification(Node):
     """A whole text: its blocks, in the order in which they stand."""
 
     blocks: tuple[Block, ...]
