@@ -212,3 +212,16 @@ def test_a_diagram_is_judged_like_its_table() -> None:
     refutation = verify(replace(part, decisions=as_diagram(part)), spec).properties[0].refutation
     assert refutation is not None
     assert (refutation.kind, refutation.state) == ("missing", (2,))
+
+
+def test_ctrl_c_stops_the_proof(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Z3 takes the signal and answers unknown; that is an interrupt, not an undecided obligation."""
+
+    class Interrupted:
+        def __getattr__(self, name: str) -> Any:
+            return lambda *_: {"check": "unknown", "reason_unknown": "interrupted from keyboard"}.get(name)
+
+    monkeypatch.setattr("z3.SolverFor", lambda _: Interrupted())
+    spec, rows = _ring()
+    with pytest.raises(KeyboardInterrupt):
+        verify(policy_from_rows(spec, rows), spec)

@@ -15,11 +15,14 @@ from tumato_symbolic.semantics import Residual, State
 from tumato_symbolic.verify.encoding import Place, diagram_terms
 from tumato_symbolic.verify.frame import Frame
 from tumato_symbolic.verify.goal_terms import reached_term
-from tumato_symbolic.verify.solver import UndecidedError
+from tumato_symbolic.verify.solver import Answer, UndecidedError
 from tumato_symbolic.verify.terms import Number, Term, conjunction, disjunction, either, negation
 
 AT_ONCE = 1.0
 """How many seconds Z3 may think about all ranks and decisions at once, before they are asked one by one."""
+
+ONE_PART = 0.003
+"""How many seconds one rank with one decision is expected to take; too many of them are rather asked at once."""
 
 Rank: TypeAlias = int | None
 """A number of steps; None is never."""
@@ -156,18 +159,24 @@ class RankProof:
         return here, after, definitions
 
     def _holds(self, claim: str, violation: list[Term], parts: Iterator[Term]) -> bool:
-        frame = self._frame
-        deadline = frame.deadline()
-        at_once = min(time.monotonic() + AT_ONCE, deadline)
-        answer = frame.solver.ask(*violation, deadline=at_once)
-        if answer != "unknown":
-            return answer == "unsat"
+        """Whether `violation` is impossible; `parts`, one for every rank, are violations that amount to the same."""
+        frame, deadline = self._frame, self._frame.deadline()
+        answer = frame.solver.ask(*violation, deadline=min(time.monotonic() + AT_ONCE, deadline))
+        if answer == "unknown":
+            cases = frame.decision_literals(deadline)
+            if len(cases) * len(self._ranks.ranks) * ONE_PART < deadline - time.monotonic():
+                answer = self._ask_by_parts(cases, parts, deadline)
+            else:
+                answer = frame.solver.ask(*violation, deadline=deadline)
+        if answer == "unknown":
+            raise UndecidedError(claim)
+        return answer == "unsat"
+
+    def _ask_by_parts(self, cases: list[list[Term]], parts: Iterator[Term], deadline: float) -> Answer:
         for part in parts:
-            with frame.solver.scope(self._covered, part):
-                for decision in frame.decision_literals(deadline):
-                    answer = frame.solver.ask(*decision, deadline=deadline)
-                    if answer == "unknown":
-                        raise UndecidedError(claim)
-                    if answer == "sat":
-                        return False
-        return True
+            with self._frame.solver.scope(self._covered, part):
+                for case in cases:
+                    answer = self._frame.solver.ask(*case, deadline=deadline)
+                    if answer != "unsat":
+                        return answer
+        return "unsat"

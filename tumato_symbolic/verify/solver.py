@@ -76,6 +76,8 @@ class Solver:
             if answer == "unknown" and "interrupted" in self._solver.reason_unknown():
                 raise KeyboardInterrupt  # Z3 took Ctrl-C for itself
             self._model = self._solver.model() if answer == "sat" else None
+            if answer == "unknown" and "interrupted" in self._solver.reason_unknown():
+                raise KeyboardInterrupt  # Z3 takes the signal for itself
         return "sat" if answer == "sat" else "unsat" if answer == "unsat" else "unknown"
 
     @property
