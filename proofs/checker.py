@@ -882,7 +882,8 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("--effect-ordering", choices=("any", "first"))
     parser.add_argument("--strict", action="store_true", help="a wrong certificate makes the verdict no")
     options = parser.parse_args(argv)
-    sys.setrecursionlimit(max(10_000, sys.getrecursionlimit()))
+    recursion_limit = sys.getrecursionlimit()
+    sys.setrecursionlimit(max(10_000, recursion_limit))
     try:
         return judge_files(options)
     except (Unreadable, OSError, UnicodeDecodeError, RecursionError) as problem:
@@ -891,6 +892,8 @@ def main(argv: list[str] | None = None) -> int:
     except TooLarge as problem:
         print(f"no verdict: {problem}", file=sys.stderr)
         return 3
+    finally:
+        sys.setrecursionlimit(recursion_limit)
 
 
 def judge_files(options: argparse.Namespace) -> int:
@@ -906,7 +909,7 @@ def judge_files(options: argparse.Namespace) -> int:
     if options.effect_ordering is None and policy.ordering == "first" and spec.ordering == "any":
         verdicts["ordering"] = ["the policy was made for `first`, but the specification writes `any`"]
     for name, witnesses in verdicts.items():
-        print(f"{name:8} " + (f"FAILS in {len(witnesses)} states: {witnesses[0]}" if witnesses else "holds"))
+        print(f"{name:8} " + (f"FAILS ({len(witnesses)} times): {witnesses[0]}" if witnesses else "holds"))
     right = not any(verdicts.values())
     if "Certificate" in policy.document:
         try:
@@ -919,6 +922,7 @@ def judge_files(options: argparse.Namespace) -> int:
 
 
 if __name__ == "__main__":
+    sys.stdout.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]
     try:
         sys.exit(main())
     except Exception:

@@ -7,9 +7,12 @@ from pathlib import Path
 import pytest
 
 from tests.checker.agreement import disagreements
-from tests.checker.standalone import checker, sizes
-from tests.profiles import PROFILES
+from tests.checker.standalone import ask, checker, sizes
+from tests.generate import random_spec, random_text
+from tests.profiles import PROFILES, RESTORING
+from tumato_symbolic import Realizable, synthesize
 from tumato_symbolic.diagnostics import Source
+from tumato_symbolic.policy import dumps
 from tumato_symbolic.semantics import all_states, is_safe, is_valid
 from tumato_symbolic.spec import canonical_text, load
 
@@ -24,6 +27,19 @@ def test_judges_agree(profile: str, start: int, tmp_path: Path) -> None:
         judged, found = disagreements(tmp_path, profile, seed)
         assert judged == 8
         assert not found, "\n".join(found)
+
+
+def test_certificates_of_the_synthesizer_are_right(tmp_path: Path) -> None:
+    """Policies that `synthesize` makes pass with their certificates, also where goals speak of actions."""
+    passed = 0
+    for seed in range(60):
+        spec, text = random_spec(seed, RESTORING), random_text(seed, RESTORING)
+        outcome = synthesize(spec)
+        if isinstance(outcome, Realizable):
+            answer = ask(tmp_path, dumps(outcome.policy), text, "--strict")
+            assert answer.code == 0, (seed, answer)
+            passed += "certificate: right" in answer.out
+    assert passed >= 10
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
