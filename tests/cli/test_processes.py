@@ -136,6 +136,16 @@ def test_a_full_disk_is_2(folder: Path) -> None:
         assert "Traceback" not in ran.stderr
 
 
+@pytest.mark.parametrize("redirection", ["2>&-", "2>/dev/full", ">/dev/null 2>&-", ">&- 2>&-"])
+@pytest.mark.parametrize(("command", "code"), [("check amr.tum", 0), ("synth no_plan.tum", 1), ("synth nope.tum", 2)])
+def test_a_lost_message_changes_no_exit_code(folder: Path, command: str, code: int, redirection: str) -> None:
+    """A standard error stream that is closed or full takes no part in the verdict."""
+    ran = subprocess.run(
+        ["sh", "-c", f"{TUMATO} {command} {redirection}"], cwd=folder, capture_output=True, timeout=60, check=False
+    )
+    assert ran.returncode == code
+
+
 def test_a_policy_replaces_the_old_one_as_a_whole(folder: Path) -> None:
     """An old policy is replaced; nothing else is left in the folder."""
     (folder / "policy.json").write_text("old")

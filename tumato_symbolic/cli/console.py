@@ -7,6 +7,7 @@ import os
 import sys
 import threading
 import time
+from contextlib import suppress
 from types import TracebackType
 from typing import TextIO
 
@@ -43,8 +44,10 @@ def write(text: str) -> None:
 
 
 def note(text: str) -> None:
-    """Put a text on the standard error stream."""
-    print(text.rstrip("\n"), file=sys.stderr, flush=True)
+    """Put a text on the standard error stream. One that cannot be shown there is lost; the exit code stays right."""
+    if sys.stderr is not None:
+        with suppress(OSError):
+            print(text.rstrip("\n"), file=sys.stderr, flush=True)
 
 
 def flush() -> None:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import sys
+import os
 import traceback
 from collections.abc import Sequence
 
-from tumato_symbolic.cli.console import close_quietly, flush, prepare_streams
+from tumato_symbolic.cli.console import close_quietly, flush, note, prepare_streams
 from tumato_symbolic.cli.exits import BROKEN_PIPE, BUG, INTERRUPTED, UNDECIDED, USAGE
 from tumato_symbolic.cli.parser import Options, parse
 from tumato_symbolic.diagnostics import UserError
@@ -18,8 +18,15 @@ _REPORT_THIS = (
 
 
 def entry() -> None:
-    """The console script `tumato-sym`."""
-    sys.exit(main())
+    """The console script `tumato-sym`.
+
+    It ends without tearing down the interpreter and the solvers in it, which would take as long as a small synthesis.
+    """
+    code = BUG
+    try:
+        code = main()
+    finally:
+        os._exit(code)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -29,17 +36,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
         code = _run(arguments)
         flush()
     except KeyboardInterrupt:
-        print("tumato-sym: interrupted", file=sys.stderr)
+        note("tumato-sym: interrupted")
         return INTERRUPTED
     except BrokenPipeError:
         close_quietly()
         return BROKEN_PIPE
     except MemoryError:
-        print("tumato-sym: undecided: out of memory", file=sys.stderr)
+        note("tumato-sym: undecided: out of memory")
         return UNDECIDED
     except Exception:  # whatever comes here is our bug, and must not exit with 1
-        traceback.print_exc()
-        print(_REPORT_THIS, file=sys.stderr)
+        note(f"{traceback.format_exc()}{_REPORT_THIS}")
         return BUG
     return code
 
