@@ -1,12 +1,17 @@
 """Single steps: which outcomes there are, and in which order they may come."""
 
+from itertools import combinations, islice
+
 import pytest
 
+from tests.generate import random_spec
+from tests.profiles import PROFILES
 from tests.semantics.build import Build, chosen
 from tumato_symbolic.policy import policy_from_rows
-from tumato_symbolic.semantics import ActionSet, State, all_states, objections
+from tumato_symbolic.semantics import ActionSet, State, all_states, allowed, is_safe, objections
 from tumato_symbolic.spec import And, Is, Not, Ordering, Spec
-from tumato_symbolic.verify import PropertyResult, verify
+from tumato_symbolic.verify import PropertyResult, outcomes, verify
+from tumato_symbolic.verify.outcomes import objections_to
 
 
 def _safe(spec: Spec, rows: dict[State, ActionSet], ordering: Ordering) -> PropertyResult:
@@ -94,3 +99,22 @@ def test_every_condition_has_its_objection() -> None:
         assert refutation is not None
         assert refutation.objection == next(objections(spec, build.state("a"), decision, "any"))
         assert refutation.objection.kind == kind
+
+
+@pytest.mark.parametrize("ordering", ["any", "first"])
+def test_sought_outcomes_are_those_of_the_explicit_meaning(ordering: Ordering, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whether outcomes are listed or sought, the same sets are allowed, and what is sought is an outcome."""
+    monkeypatch.setattr(outcomes, "LISTED_ACTIONS", 1)
+    found = 0
+    for seed in range(15):
+        spec = random_spec(seed, PROFILES["restoring"])
+        actions = range(len(spec.actions))
+        sets = [frozenset(each) for size in (2, 3) for each in combinations(actions, size)]
+        for state in islice((state for state in all_states(spec) if is_safe(spec, state)), 4):
+            for decision in sets:
+                with_limit = objections_to(spec, state, decision, ordering)
+                assert (not with_limit) == allowed(spec, state, decision, ordering)
+                for objection in with_limit:
+                    assert objection.kind != "unsafe" or not is_safe(spec, objection.outcome[-1].after)
+                    found += objection.kind == "unsafe" and len(objection.outcome) > 1
+    assert (found > 0) == (ordering == "any")

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from tumato_symbolic.policy.model import Certificate, Policy
-from tumato_symbolic.semantics import Residual, State, action_names, allowed
+from tumato_symbolic.semantics import Residual, State, action_names
 from tumato_symbolic.spec import Ordering, canonical_text, digest
 from tumato_symbolic.verify.decisions import Decisions, Ranks
 from tumato_symbolic.verify.frame import Frame
+from tumato_symbolic.verify.outcomes import objections_to
 from tumato_symbolic.verify.rank_terms import RankFunction, RankProof
 from tumato_symbolic.verify.result import CertificateUse
 from tumato_symbolic.verify.solver import UndecidedError
@@ -59,7 +60,9 @@ class RankSource:
 
     def owes_a_run(self, state: State) -> bool:
         """Whether the decision for `state` owes a run: those that are not allowed are refuted without one."""
-        return self._policy_is_safe or allowed(self._frame.spec, state, self.decisions[state], self._ordering)
+        return self._policy_is_safe or not objections_to(
+            self._frame.spec, state, self.decisions[state], self._ordering, self._frame.deadline()
+        )
 
     def reject(self, reason: str) -> None:
         """Set the certificate aside: it is wrong, unless that may be the fault of an unsafe policy."""

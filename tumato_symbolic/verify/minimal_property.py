@@ -14,7 +14,6 @@ from tumato_symbolic.semantics import (
     State,
     duration,
     follow,
-    objections,
     residual_goal,
 )
 from tumato_symbolic.spec import Ordering
@@ -22,6 +21,7 @@ from tumato_symbolic.verify.certificate import RankSource
 from tumato_symbolic.verify.choice import Choice
 from tumato_symbolic.verify.encoding import safe_term
 from tumato_symbolic.verify.frame import Frame, unknown_bits
+from tumato_symbolic.verify.outcomes import objections_to
 from tumato_symbolic.verify.rank_terms import RankFunction
 from tumato_symbolic.verify.result import PropertyResult, Refutation
 from tumato_symbolic.verify.solver import UndecidedError
@@ -29,7 +29,6 @@ from tumato_symbolic.verify.terms import Term, conjunction, implies, negation
 
 Cheaper: TypeAlias = tuple[State, ActionSet, Run]
 
-LEMMAS_AT_ONCE = 20
 CLAIM = "no cheaper allowed set serves as well"
 
 
@@ -80,8 +79,7 @@ class _Search:
     def _confirm(self, state: State, chosen: ActionSet) -> Run | None:
         """The run of a proposal, if it is better than the policy; otherwise learn why it is not."""
         spec = self._frame.spec
-        reasons = objections(spec, state, chosen, self._ordering)
-        failed = [objection for objection, _ in zip(reasons, range(LEMMAS_AT_ONCE), strict=False)]
+        failed = objections_to(spec, state, chosen, self._ordering, self._frame.deadline())
         if failed:
             for objection in failed:
                 self._learn_outcome(objection)

@@ -2,16 +2,32 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-from itertools import combinations
+from itertools import combinations, islice
 from typing import Any
 
 import z3
 
-from tumato_symbolic.semantics import ActionSet, Effectuation, Objection, Outcome, State, apply, broken_rule, is_safe
+from tumato_symbolic.semantics import (
+    ActionSet,
+    Effectuation,
+    Objection,
+    Outcome,
+    State,
+    apply,
+    broken_rule,
+    is_safe,
+    objections,
+)
 from tumato_symbolic.spec import Action, Ordering, Spec
 from tumato_symbolic.verify.encoding import Place, agreement_terms, is_true, safe_term
+from tumato_symbolic.verify.solver import Solver, UndecidedError
 from tumato_symbolic.verify.terms import Number, Term, at_most_one, conjunction, disjunction, implies, negation
+
+LISTED_ACTIONS = 6
+"""Of up to so many actions all outcomes are listed."""
+OBJECTIONS_AT_ONCE = 20
 
 
 class UnsafeOutcome:
@@ -136,6 +152,27 @@ class UnsafeOutcome:
         way = replay(self._spec, state, steps)
         end = way[-1].after
         return Objection("unsafe", tuple(sorted(chosen)), broken_rule(self._spec, end), way, end)
+
+
+def objections_to(
+    spec: Spec, state: State, chosen: ActionSet, ordering: Ordering, deadline: float = math.inf
+) -> list[Objection]:
+    """Some objections to `chosen` in `state`; none where it is allowed. Raises `UndecidedError`.
+
+    The outcomes of many actions are too many to list: there, Z3 looks for an unsafe one.
+    """
+    if ordering == "first" or len(chosen) <= LISTED_ACTIONS:
+        return list(islice(objections(spec, state, chosen, ordering), OBJECTIONS_AT_ONCE))
+    single = [each for each in objections(spec, state, chosen, "first") if each.kind != "nominal-unsafe"]
+    if single:
+        return single[:OBJECTIONS_AT_ONCE]
+    here = Place.fresh(spec, "fixed").after(tuple(enumerate(state)))
+    unsafe = UnsafeOutcome(spec, here, [number in chosen for number in range(len(spec.actions))], ordering)
+    solver = Solver()
+    answer = solver.ask(*unsafe.constraints, deadline=deadline)
+    if answer == "unknown":
+        raise UndecidedError("every outcome of a set is safe")
+    return [unsafe.objection(solver.model, state, chosen)] if answer == "sat" else []
 
 
 def replay(spec: Spec, state: State, steps: Sequence[tuple[int, tuple[tuple[int, int], ...]]]) -> Outcome:
