@@ -3,8 +3,8 @@
 
     python3 checker.py policy.json spec.tum [--effect-ordering any|first] [--strict]
 
-It is written from docs/semantics.md and docs/policy.md and shares no code with the package: a second opinion that can
-be read in one sitting. It looks at every valid state, one by one, and judges four properties:
+It is written from docs/semantics.md, language.md, policy.md and certificate.md and shares no code with the package: a
+second opinion that can be read in one sitting. It looks at every valid state and judges four properties:
 
     total    every valid state has a decision
     safe     every decision is allowed: Ok(s, A)
@@ -14,8 +14,9 @@ be read in one sitting. It looks at every valid state, one by one, and judges fo
 Exit codes: 0 all hold; 1 one fails; 2 unreadable input, or a specification with errors; 3 too large to look at every
 state; 70 this program is broken. A certificate (ranks) is judged as well, but counts only with `--strict`.
 
-Not judged: policies of type `policy-diagram`, and whether the digest in the policy belongs to this specification. Nor
-does anybody here know whether the specification says what was meant.
+Not judged: policies of type `policy-diagram`; whether a certificate is stale, that is, whether the digest in the policy
+is that of this specification; and whether the specification says what was meant. Of the limits on the size of a text
+(docs/language.md) only those on numbers are kept.
 """
 # ruff: noqa: ANN401, D102, N818
 
@@ -58,7 +59,7 @@ def need(condition: bool, message: str) -> None:
 
 
 # ----------------------------------------------------------------------------------------------------------------------
-# 1. Tokens. White space and line ends mean nothing; `//` and `/* */` are comments.
+# 1. Tokens (docs/language.md). White space and line ends mean nothing; `//` and `/* */` are comments.
 
 TOKEN = re.compile(r"\s+|//[^\n]*|/\*.*?\*/|(?P<token>[A-Za-z_][A-Za-z0-9_]*|[0-9]+|[(),:])", re.DOTALL)
 NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
@@ -81,7 +82,7 @@ def tokens_of(text: str) -> list[tuple[str, int]]:
 
 
 # ----------------------------------------------------------------------------------------------------------------------
-# 2. Parsing. A formula is a nested tuple:
+# 2. Parsing (docs/language.md). A formula is a nested tuple:
 #      ("true",)  ("false",)  ("not", f)  ("and", f, g, …)  ("or", f, g, …)  ("iff", f, g)
 #      ("is", variable, value)  ("executing", action)  ("alias", name)
 #    The parser leaves names as (text, line); section 3 replaces them: variables by their position, aliases by their
@@ -721,21 +722,21 @@ class Judge:
         self.after = {state: world.successor(state, chosen) for state, chosen in agreeing.items()}
         self.steps: dict[Residual, dict[State, int | None]] = {}
 
-    def verdicts(self) -> dict[str, list[str]]:
-        """For each property a witness for every state in which it fails."""
+    def verdicts(self) -> dict[str, tuple[list[State], Callable[[State], str]]]:
+        """For each property the states in which it fails, and the function that tells why in one of them."""
         return {
-            "total": [f"no decision in {self.world.show(s)}" for s in self.world.valid if s not in self.decided],
-            "safe": [f"{self.decision(state)}: {why}" for state, why in self.objections.items()],
-            "goals": [self.missed(s) for s in self.allowed if not self.serves(s, self.decided[s])],
-            "minimal": [self.dearer(s, better) for s in self.decided for better in self.cheaper(s)],
+            "total": ([state for state in self.world.valid if state not in self.decided], self.undecided),
+            "safe": (list(self.objections), self.refused),
+            "goals": ([state for state in self.allowed if not self.serves(state, self.decided[state])], self.missed),
+            "minimal": ([state for state in self.decided if self.cheaper(state) is not None], self.dearer),
         }
 
-    def cheaper(self, state: State) -> list[ActionSet]:
+    def cheaper(self, state: State) -> ActionSet | None:
         """For an unsafe state a cheaper allowed set that serves as well, if there is one."""
         if state in self.world.safe:
-            return []
+            return None
         sets = self.world.cheaper_allowed_sets(state, self.world.duration(self.decided[state]))
-        return list(itertools.islice((chosen for chosen in sets if self.serves(state, chosen)), 1))
+        return next((chosen for chosen in sets if self.serves(state, chosen)), None)
 
     def serves(self, state: State, chosen: ActionSet) -> bool:
         """Whether the run that begins with an allowed set and goes on with the policy reaches its residual goal."""
@@ -765,7 +766,14 @@ class Judge:
     def decision(self, state: State) -> str:
         return f"in {self.world.show(state)} the decision is {self.world.show_set(self.decided[state])}"
 
-    def dearer(self, state: State, better: ActionSet) -> str:
+    def undecided(self, state: State) -> str:
+        return f"no decision in {self.world.show(state)}"
+
+    def refused(self, state: State) -> str:
+        return f"{self.decision(state)}: {self.objections[state]}"
+
+    def dearer(self, state: State) -> str:
+        better = self.cheaper(state) or frozenset()
         return f"{self.decision(state)}: {self.world.show_set(better)} would serve as well"
 
     def missed(self, state: State) -> str:
@@ -799,8 +807,9 @@ def text_of(formula: Formula, spec: Specification) -> str:
 
 
 # ----------------------------------------------------------------------------------------------------------------------
-# 7. The certificate: for every residual goal a rank of each safe state, as a diagram (docs/policy.md). It is right when
-#    a rank is 0 only where the goal holds, falls with every step of the policy, and is below L for first successors.
+# 7. The certificate (docs/certificate.md, docs/policy.md): for every residual goal a diagram with the ranks of the safe
+#    states. It is right when a rank is 0 only where the goal holds, is otherwise larger than that of the successor, and
+#    every first successor has one below L.
 
 
 def judge_certificate(judge: Judge, document: dict[str, Any]) -> None:
@@ -905,12 +914,13 @@ def judge_files(options: argparse.Namespace) -> int:
     judge = Judge(world, policy.rows)
     unsafe = len(world.valid) - len(world.safe)
     print(f"{len(world.valid)} valid states: {len(world.safe)} safe, {unsafe} unsafe; effect ordering {ordering}")
-    verdicts = judge.verdicts()
+    right = True
     if options.effect_ordering is None and policy.ordering == "first" and spec.ordering == "any":
-        verdicts["ordering"] = ["the policy was made for `first`, but the specification writes `any`"]
-    for name, witnesses in verdicts.items():
-        print(f"{name:8} " + (f"FAILS ({len(witnesses)} times): {witnesses[0]}" if witnesses else "holds"))
-    right = not any(verdicts.values())
+        print("ordering FAILS: the policy was made for `first`, but the specification writes `any`")
+        right = False
+    for name, (states, reason) in judge.verdicts().items():
+        print(f"{name:8} " + (f"FAILS in {len(states)} states: {reason(states[0])}" if states else "holds"))
+        right = right and not states
     if "Certificate" in policy.document:
         try:
             judge_certificate(judge, policy.document)
