@@ -3,7 +3,7 @@
     [Correct.v] proves that its answer [true] means what [Semantics.v] says. What is needed again and again, the safe
     states and the policy, is kept in trees with one level for every variable. *)
 
-From Coq Require Import Bool List Arith NArith.
+From Coq Require Import Bool List Arith NArith Lia Orders Mergesort.
 From Tumato Require Import Semantics.
 Import ListNotations.
 
@@ -55,11 +55,50 @@ Definition disjoint (A B : list nat) : bool := forallb (fun a => negb (member a 
 Definition agree (e f : assignment) : bool :=
   forallb (fun p => forallb (fun q => negb (fst p =? fst q) || (snd p =? snd q)) f) e.
 
+(** Lexicographic order. *)
+Fixpoint not_after (s t : list nat) : bool :=
+  match s, t with
+  | [], _ => true
+  | _, [] => false
+  | v :: s, w :: t => (v <? w) || (v =? w) && not_after s t
+  end.
+
 Fixpoint increasing_below (most : nat) (least : nat) (A : actions) : bool :=
   match A with
   | [] => true
   | a :: A => (least <=? a) && (a <? most) && increasing_below most (S a) A
   end.
+
+(** ** States on the way, each with the actions that have not struck yet *)
+
+Definition front := list (state * actions).
+
+Module PairOrder <: TotalLeBool.
+  Definition t : Type := state * actions.
+  Definition leb (p q : t) : bool := not_after (fst p ++ snd p) (fst q ++ snd q).
+  Lemma leb_total : forall p q, leb p q = true \/ leb q p = true.
+  Proof.
+    intros p q. unfold leb. generalize (fst p ++ snd p) (fst q ++ snd q).
+    induction l as [|v l IH]; intros [|w m]; auto. cbn [not_after].
+    destruct (Nat.ltb_spec v w), (Nat.ltb_spec w v), (Nat.eqb_spec v w), (Nat.eqb_spec w v);
+      auto; try lia; apply IH.
+  Qed.
+End PairOrder.
+
+Module PairSort := Sort PairOrder.
+
+Fixpoint without_repeats (f : front) : front :=
+  match f with
+  | [] => []
+  | p :: f =>
+      match f with
+      | q :: _ => if same_list (fst p) (fst q) && same_list (snd p) (snd q) then without_repeats f
+                  else p :: without_repeats f
+      | [] => [p]
+      end
+  end.
+
+Definition distinct (f : front) : front := without_repeats (PairSort.sort f).
 
 Section Checking.
 
@@ -79,28 +118,22 @@ Definition applicable (s : state) (a : nat) : bool := forallb (holds s []) (prec
 
 (** ** What a step can lead to *)
 
-(** States on the way, each with the actions that have not struck yet. *)
-Definition front := list (state * actions).
+Definition one_fine (fine : state -> bool) (s : state) (A : actions) : bool :=
+  forallb (fun a => forallb (fun e => fine (apply e s)) (effects spec a)) A.
 
+(** Where one more effect leads. An effect that changes nothing leads nowhere new, and leaves less to strike. *)
 Definition after_one (f : front) : front :=
   flat_map (fun p => flat_map (fun a =>
-    map (fun e => (apply e (fst p), without a (snd p))) (effects spec a)) (snd p)) f.
-
-Fixpoint distinct (f : front) : front :=
-  match f with
-  | [] => []
-  | p :: f =>
-      if existsb (fun q => same_list (fst p) (fst q) && same_list (snd p) (snd q)) f then distinct f
-      else p :: distinct f
-  end.
+    map (fun e => (apply e (fst p), without a (snd p)))
+      (filter (fun e => negb (same_list (apply e (fst p)) (fst p))) (effects spec a))) (snd p)) f.
 
 (** Whether [fine] holds in all states that up to [n] effects lead to. *)
 Fixpoint struck_fine (fine : state -> bool) (n : nat) (f : front) : bool :=
   match n with
   | 0 => true
   | S n =>
-      let next := after_one f in
-      forallb (fun p => fine (fst p)) next && match n with 0 => true | _ => struck_fine fine n (distinct next) end
+      forallb (fun p => one_fine fine (fst p) (snd p)) f &&
+      match n with 0 => true | _ => struck_fine fine n (distinct (after_one f)) end
   end.
 
 Definition out_fine (fine : state -> bool) (s : state) (A : actions) : bool :=
@@ -162,7 +195,7 @@ Fixpoint all_cheaper (good : actions -> bool) (candidates chosen : actions) (bud
 
 (** Actions that an allowed set can contain: applicable, and safe when they are the only ones to strike. *)
 Definition candidates (fine : state -> bool) (s : state) : actions :=
-  filter (fun a => applicable s a && forallb (fun e => fine (apply e s)) (effects spec a))
+  filter (fun a => applicable s a && one_fine fine s [a])
     (seq 0 (length (declared spec))).
 
 Definition no_better (fine : state -> bool) (pi : policy) (fuel : nat) (s : state) (A : actions) : bool :=

@@ -1,6 +1,6 @@
 (** The checker is right: where it answers [true], the policy is sound, complete and minimal. *)
 
-From Coq Require Import Bool List Arith NArith Lia Sorted.
+From Coq Require Import Bool List Arith NArith Lia Sorted Permutation.
 From Tumato Require Import Semantics Checker.
 Import ListNotations.
 
@@ -120,11 +120,20 @@ Qed.
 
 (** ** What a step can lead to *)
 
-Lemma in_after_one : forall f s A a e, In (s, A) f -> In a A -> In e (effects spec a) ->
+Lemma one_fine_spec : forall s A,
+  one_fine spec fine s A = true <-> forall a e, In a A -> In e (effects spec a) -> fine (apply e s) = true.
+Proof.
+  intros s A. unfold one_fine. rewrite forallb_forall. split.
+  - intros H a e Ha He. specialize (H a Ha). rewrite forallb_forall in H. now apply H.
+  - intros H a Ha. apply forallb_forall. intros e He. now apply (H a).
+Qed.
+
+Lemma in_after_one : forall f s A a e, In (s, A) f -> In a A -> In e (effects spec a) -> apply e s <> s ->
   In (apply e s, without a A) (after_one spec f).
 Proof.
-  intros f s A a e H Ha He. unfold after_one. apply in_flat_map. exists (s, A). split; [exact H|].
-  apply in_flat_map. exists a. split; [exact Ha|]. apply in_map_iff. now exists e.
+  intros f s A a e H Ha He new. unfold after_one. apply in_flat_map. exists (s, A). split; [exact H|].
+  apply in_flat_map. exists a. split; [exact Ha|]. apply in_map_iff. exists e. split; [reflexivity|].
+  apply filter_In. split; [exact He|]. apply negb_true_iff, not_true_iff_false. now rewrite same_list_eq.
 Qed.
 
 Lemma after_one_in : forall f p, In p (after_one spec f) ->
@@ -132,18 +141,26 @@ Lemma after_one_in : forall f p, In p (after_one spec f) ->
 Proof.
   intros f p H. unfold after_one in H. apply in_flat_map in H. destruct H as [[s A] [Hf H]].
   apply in_flat_map in H. destruct H as [a [Ha H]]. apply in_map_iff in H. destruct H as [e [<- He]].
-  now exists s, A, a, e.
+  apply filter_In in He. now exists s, A, a, e.
+Qed.
+
+Lemma in_without_repeats : forall f p, In p (without_repeats f) <-> In p f.
+Proof.
+  induction f as [|q f IH]; intros p; [reflexivity|]. cbn [without_repeats]. destruct f as [|r f]; [reflexivity|].
+  destruct (same_list (fst q) (fst r) && same_list (snd q) (snd r)) eqn:E.
+  - rewrite IH. apply andb_true_iff in E. rewrite !same_list_eq in E. destruct q, r. cbn in E.
+    destruct E as [-> ->]. cbn [In]. tauto.
+  - change (q = p \/ In p (without_repeats (r :: f)) <-> q = p \/ In p (r :: f)). now rewrite IH.
 Qed.
 
 Lemma in_distinct : forall f p, In p (distinct f) <-> In p f.
 Proof.
-  induction f as [|q f IH]; intros p; cbn [distinct]; [tauto|].
-  destruct (existsb (fun r => same_list (fst q) (fst r) && same_list (snd q) (snd r)) f) eqn:E;
-    cbn [In]; rewrite IH; [|tauto].
-  apply existsb_exists in E. destruct E as [r [Hr E]]. apply andb_true_iff in E.
-  rewrite !same_list_eq in E. destruct q as [s A], r as [t B]. cbn in E. destruct E as [-> ->].
-  split; [tauto | intros [<-|H]; auto].
+  intros f p. unfold distinct. rewrite in_without_repeats.
+  split; apply Permutation_in; [apply Permutation_sym|]; apply PairSort.Permuted_sort.
 Qed.
+
+Lemma in_without : forall a A b, In b (without a A) <-> In b A /\ b <> a.
+Proof. intros a A b. unfold without. now rewrite filter_In, negb_true_iff, Nat.eqb_neq. Qed.
 
 Lemma without_length : forall a A, length (without a A) <= length A.
 Proof. intros a A. unfold without. induction A as [|b A IH]; cbn; [lia | destruct (b =? a); cbn; lia]. Qed.
@@ -151,25 +168,31 @@ Proof. intros a A. unfold without. induction A as [|b A IH]; cbn; [lia | destruc
 Lemma without_shorter : forall a A, In a A -> length (without a A) < length A.
 Proof.
   intros a A. assert (L := without_length a). unfold without in *. induction A as [|b A IH]; cbn; [contradiction|].
-  specialize (L A).
-  destruct (Nat.eqb_spec b a) as [->|differ]; cbn; [lia|].
+  specialize (L A). destruct (Nat.eqb_spec b a) as [->|differ]; cbn; [lia|].
   intros [E|H]; [contradiction|]. apply IH in H. lia.
 Qed.
 
-Lemma struck_some : forall A s t, struck spec A s t -> 0 < length A.
-Proof. intros A s t H. destruct H as [A s a e H _ | A s a e t H _ _]; destruct A; cbn in *; [easy | lia | easy | lia]. Qed.
+Lemma struck_some : forall A s t, struck spec A s t -> exists a, In a A.
+Proof. intros A s t H. destruct H as [A s a | A s a]; now exists a. Qed.
 
 Lemma struck_fine_safe : forall A s t, struck spec A s t ->
-  forall n f, struck_fine spec fine n f = true -> In (s, A) f -> length A <= n -> fine t = true.
+  forall n f B, struck_fine spec fine n f = true -> In (s, B) f -> incl A B -> length B <= n -> fine t = true.
 Proof.
-  induction 1 as [A s a e Ha He | A s a e t Ha He further IH]; intros n f F Hf long.
-  all: destruct n as [|n]; [destruct A; cbn in *; [contradiction | lia]|].
-  all: cbn [struck_fine] in F; apply andb_true_iff in F; destruct F as [now later].
-  all: assert (next := in_after_one _ _ _ _ _ Hf Ha He).
-  - rewrite forallb_forall in now. exact (now _ next).
-  - assert (shorter := without_shorter _ _ Ha). assert (some := struck_some _ _ _ further).
-    destruct n as [|n]; [lia|].
-    apply (IH (S n) (distinct (after_one spec f)) later); [now apply in_distinct | lia].
+  induction 1 as [A s a e Ha He | A s a e t Ha He further IH]; intros n f B F Hf more long.
+  all: assert (HB := more a Ha).
+  all: destruct n as [|n]; [destruct B; cbn in *; [contradiction | lia]|].
+  all: pose proof F as G; cbn [struck_fine] in G; apply andb_true_iff in G; destruct G as [now later].
+  - rewrite forallb_forall in now. specialize (now _ Hf). cbn [fst snd] in now. rewrite one_fine_spec in now. now apply (now a).
+  - destruct (list_eq_dec Nat.eq_dec (apply e s) s) as [same|new].
+    + apply (IH (S n) f B F); [now rewrite same | | exact long].
+      intros b Hb. apply in_without in Hb. now apply more.
+    + assert (shorter := without_shorter _ _ HB).
+      assert (less : incl (without a A) (without a B)).
+      { intros b Hb. apply in_without in Hb. apply in_without. split; [now apply more | apply Hb]. }
+      destruct (struck_some _ _ _ further) as [b some]. apply less in some.
+      destruct n as [|n]; [destruct (without a B); cbn in *; [contradiction | lia]|].
+      apply (IH (S n) (distinct (after_one spec f)) (without a B) later); [|exact less | lia].
+      now apply in_distinct, in_after_one.
 Qed.
 
 Lemma safe_struck_fine : forall n f,
@@ -177,7 +200,7 @@ Lemma safe_struck_fine : forall n f,
 Proof.
   induction n as [|n IH]; intros f H; [reflexivity|].
   cbn [struck_fine]. apply andb_true_iff. split.
-  - apply forallb_forall. intros p Hp. destruct (after_one_in _ _ Hp) as (s & A & a & e & Hf & Ha & He & ->).
+  - apply forallb_forall. intros [s A] Hf. apply one_fine_spec. intros a e Ha He.
     apply (H s A); [exact Hf | now apply last_effect with a].
   - destruct n as [|n]; [reflexivity|]. apply IH. intros t B u HB Hu.
     apply in_distinct, after_one_in in HB. destruct HB as (s & A & a & e & Hf & Ha & He & [= -> ->]).
@@ -191,14 +214,11 @@ Proof.
   { rewrite fine_safe. split; [now intros H t -> | auto]. }
   set (B := a :: A). destruct order.
   - split.
-    + intros F t H. apply fine_safe. apply (struck_fine_safe _ _ _ H _ _ F); [now left | lia].
+    + intros F t H. apply fine_safe. apply (struck_fine_safe _ _ _ H _ _ B F); [now left | now intros b | lia].
     + intros H. apply safe_struck_fine. intros s' A' t [[= <- <-]|[]] Ht. now apply fine_safe, H.
-  - cbn [struck_fine]. rewrite andb_true_r, forallb_forall. split.
-    + intros F t (b & e & Hb & He & ->). apply fine_safe.
-      apply (F (apply e s, without b B)). apply in_after_one; [now left | exact Hb | exact He].
-    + intros H p Hp. apply after_one_in in Hp.
-      destruct Hp as (s' & A' & b & e & [[= <- <-]|[]] & Hb & He & ->).
-      apply fine_safe, H. now exists b, e.
+  - cbn [struck_fine forallb fst snd]. rewrite !andb_true_r, one_fine_spec. split.
+    + intros F t (b & e & Hb & He & ->). apply fine_safe. now apply (F b).
+    + intros H b e Hb He. apply fine_safe, H. now exists b, e.
 Qed.
 
 (** ** What is allowed *)
@@ -445,7 +465,7 @@ Proof.
   - apply in_seq. specialize (declared_ a Ha). lia.
   - apply andb_true_iff. split.
     + apply all_hold_spec. now apply (preconditions_hold _ _ _ _ allowed).
-    + apply forallb_forall. intros e He. apply fine_safe. apply (outcomes_safe _ _ _ _ allowed).
+    + apply one_fine_spec. intros b e [<-|[]] He. apply fine_safe. apply (outcomes_safe _ _ _ _ allowed).
       unfold out. destruct A as [|b A]; [contradiction|]. destruct order.
       * now apply last_effect with a.
       * now exists a, e.
