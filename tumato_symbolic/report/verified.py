@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Diagnostic, Source
@@ -56,6 +57,8 @@ def as_text(done: Verified, colour: bool) -> str:
     left = [name for name in PROPERTIES if name not in {result.name for result in found.properties}]
     if left:
         lines.append(f"Not asked: {enumeration(left)}.")
+    if found.verdict == "refuted":
+        lines += ["", f"Next: mend the policy, or let `tumato-sym synth {shlex.quote(done.source.name)}` make one."]
     return "\n".join(lines)
 
 
