@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import pytest
-
 from tests.generate import PROFILES, random_spec
 from tests.semantics.build import Build, constraint, priority, when
 from tumato_symbolic.semantics import active_goals, all_states, is_valid
@@ -20,12 +18,6 @@ def check_regions(spec: Spec) -> None:
         assert homes == ([active_goals(spec, state)] if is_valid(spec, state) else []), state
 
 
-overwritten = pytest.mark.xfail(
-    strict=True, reason="where two parts of a constraint list yield the same set, one is lost"
-)
-
-
-@overwritten
 def test_one_body_twice_in_a_constraint_list() -> None:
     """A body that stands alone and again under a condition is one goal, whether the condition holds or not."""
     build = Build({"x": "ab"})
@@ -33,7 +25,6 @@ def test_one_body_twice_in_a_constraint_list() -> None:
     check_regions(build.spec(constraint(body, priority(when(build.atom("x=a"), body)))))
 
 
-@overwritten
 def test_regions_are_the_active_goals_of_every_state() -> None:
     """The sets that synthesis works on are `Γ`, state by state, nested lists and repeated bodies included."""
     for profile in PROFILES.values():

@@ -7,28 +7,53 @@ from tumato_symbolic.symbolic.manager import Bdd
 
 
 def preferred(encoding: Encoding, relation: Bdd) -> Bdd:
-    """The functional part of a relation: for each related state the smallest set, then the one declared first.
-
-    Two sets of one size are compared as sorted lists of declaration positions; the smaller list is the one that holds
-    the first action in which they differ, so a pass over the actions decides.
-    """
+    """The functional part of a relation: for each related state the smallest set, then the one declared first."""
     manager = encoding.manager
-    choice_bits = encoding.all_choice_bits
-    undecided, result = relation, manager.false
-    for exactly in _by_size(encoding):
+    nobody = manager.cube(_all_idle(encoding))
+    result = relation & nobody
+    undecided = relation & ~manager.cofactor(relation, _all_idle(encoding))
+    single = _first_alone(encoding, undecided)
+    result = result | single
+    undecided = undecided & ~manager.exists(encoding.all_choice_bits, single)
+    for exactly in _by_size(encoding)[2:]:
         if undecided == manager.false:
             break
-        smallest = undecided & exactly
-        if smallest == manager.false:
-            continue
-        undecided = undecided & ~manager.exists(choice_bits, smallest)
-        for action in range(len(encoding.spec.actions)):
-            runs = encoding.executing(action)
-            with_it = smallest & runs
-            if with_it != manager.false:
-                smallest = with_it | (smallest & ~manager.exists(choice_bits, with_it))
+        smallest = _first_declared(encoding, undecided & exactly)
+        undecided = undecided & ~manager.exists(encoding.all_choice_bits, smallest)
         result = result | smallest
     return result
+
+
+def _all_idle(encoding: Encoding) -> dict[str, bool]:
+    """The empty set, as constants for the choice bits."""
+    return dict.fromkeys(encoding.all_choice_bits, False)
+
+
+def _first_alone(encoding: Encoding, relation: Bdd) -> Bdd:
+    """For each state the first action that the relation has as a set of its own."""
+    manager = encoding.manager
+    result = decided = manager.false
+    for action in range(len(encoding.spec.actions)):
+        choice = _all_idle(encoding) | encoding.action_bits(action)
+        states = manager.cofactor(relation, choice) & ~decided
+        if states != manager.false:
+            result = result | (states & manager.cube(choice))
+            decided = decided | states
+    return result
+
+
+def _first_declared(encoding: Encoding, relation: Bdd) -> Bdd:
+    """For each state the first of its sets, which are all of one size.
+
+    Sets of one size are compared as sorted lists of declaration positions; the smaller list is the one that holds the
+    first action in which they differ, so a pass over the actions decides.
+    """
+    manager = encoding.manager
+    for action in range(len(encoding.spec.actions)):
+        with_it = relation & encoding.executing(action)
+        if with_it != manager.false:
+            relation = with_it | (relation & ~manager.exists(encoding.all_choice_bits, with_it))
+    return relation
 
 
 def _by_size(encoding: Encoding) -> list[Bdd]:

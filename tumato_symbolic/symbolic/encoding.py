@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from tumato_symbolic.semantics import ActionSet, State, nominal_agrees
 from tumato_symbolic.spec import And, Assignment, Constant, Executing, Formula, Iff, Is, Not, Or, Spec
@@ -73,11 +74,27 @@ class Encoding:
 
     def executing(self, action: int) -> Bdd:
         """The choices that contain an action."""
-        return self.manager.cube(self.action_bits(action))
+        return self._executing[action]
+
+    @cached_property
+    def _executing(self) -> list[Bdd]:
+        return [self.manager.cube(self.action_bits(action)) for action in range(len(self.spec.actions))]
 
     def idle(self, group: Group) -> Bdd:
         """The choices without an action of a group."""
         return self.manager.cube(self.idle_bits(group))
+
+    @cached_property
+    def nominal_moves(self) -> list[list[tuple[Assignment, Bdd]]]:
+        """For every group, its choices by what they nominally write; being idle writes nothing."""
+        found = []
+        for group in self.groups:
+            moves: dict[Assignment, Bdd] = {(): self.idle(group)}
+            for action in group.actions:
+                effect = self.spec.actions[action].nominal
+                moves[effect] = moves.get(effect, self.manager.false) | self.executing(action)
+            found.append(list(moves.items()))
+        return found
 
     def choices_cube(self, chosen: ActionSet) -> Bdd:
         """One set of actions as a set of choices."""

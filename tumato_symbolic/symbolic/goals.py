@@ -85,7 +85,8 @@ def _walk(encoding: Encoding, goal: Goal, here: Bdd, idle: list[Goal]) -> tuple[
         combined: Regions = {}
         for active, states in found.items():
             _add(combined, {active: states & ~entered}, false)
-            _add(combined, {active | more: states & others for more, others in parts.items()}, false)
+            for more, others in parts.items():
+                _add(combined, {active | more: states & others}, false)
         found = combined
     return here, found
 

@@ -92,6 +92,13 @@ class Manager:
         result: Bdd = self._bdd.let(dict(values), u)
         return result
 
+    def compose(self, u: Bdd, functions: Mapping[str, Bdd]) -> Bdd:
+        """`u` with functions substituted for bits, all at once."""
+        if not functions:
+            return u
+        result: Bdd = self._bdd.let(dict(functions), u)
+        return result
+
     def exists(self, bits: Iterable[str], u: Bdd) -> Bdd:
         """`∃ bits. u`."""
         result: Bdd = self._bdd.exist(list(bits), u)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from tumato_symbolic.spec import Assignment, Ordering
+from tumato_symbolic.spec import Ordering
 from tumato_symbolic.symbolic.encoding import Encoding, Group, conflicting
 from tumato_symbolic.symbolic.manager import Bdd
 
@@ -48,13 +48,27 @@ class Steps:
     def successors(self, relation: Bdd) -> Bdd:
         """`{δ(s, A) : (s, A) ∈ relation}` for sets whose nominal effects agree."""
         encoding, manager = self.encoding, self.encoding.manager
-        for group in encoding.groups:
-            moved = [manager.exists(group.bits, relation & encoding.idle(group))]
-            for effect, choices in _by_nominal(encoding, group).items():
+        for group, moves in zip(encoding.groups, encoding.nominal_moves, strict=True):
+            moved = []
+            for effect, choices in moves:
                 written = encoding.assignment_bits(effect)
-                moved.append(manager.exists([*group.bits, *written], relation & choices) & manager.cube(written))
+                moved.append(manager.and_exists([*group.bits, *written], relation, choices) & manager.cube(written))
             relation = manager.union(moved)
         return relation
+
+    def next_state(self, policy: Bdd) -> dict[str, Bdd]:
+        """`s ↦ δ(s, π(s))` for a functional relation, as one function for every bit that the policy changes somewhere.
+
+        A state without a decision stays where it is.
+        """
+        encoding, manager = self.encoding, self.encoding.manager
+        acting = [self.states_of(policy & encoding.executing(a)) for a in range(len(encoding.spec.actions))]
+        written: dict[str, list[Bdd]] = {}
+        for action, states in zip(encoding.spec.actions, acting, strict=True):
+            for bit, value in encoding.assignment_bits(action.nominal).items():
+                ones = written.setdefault(bit, [manager.false, manager.false])
+                ones[value] = ones[value] | states
+        return {bit: up | (manager.cube({bit: True}) & ~down) for bit, (down, up) in written.items()}
 
 
 def build_steps(encoding: Encoding, ordering: Ordering) -> Steps:
@@ -80,21 +94,11 @@ def build_steps(encoding: Encoding, ordering: Ordering) -> Steps:
 
 def nominal_predecessor(encoding: Encoding, target: Bdd) -> Bdd:
     """`{(s, A) : δ(s, A) ∈ target}`, group by group: agreeing effects commute."""
-    for group in encoding.groups:
-        parts = [encoding.idle(group) & target]
-        for effect, choices in _by_nominal(encoding, group).items():
-            parts.append(choices & encoding.manager.cofactor(target, encoding.assignment_bits(effect)))
-        target = encoding.manager.union(parts)
+    for moves in encoding.nominal_moves:
+        target = encoding.manager.union(
+            choices & encoding.manager.cofactor(target, encoding.assignment_bits(effect)) for effect, choices in moves
+        )
     return target
-
-
-def _by_nominal(encoding: Encoding, group: Group) -> dict[Assignment, Bdd]:
-    """A group's choices by what they nominally write."""
-    found: dict[Assignment, Bdd] = {}
-    for action in group.actions:
-        effect = encoding.spec.actions[action].nominal
-        found[effect] = found.get(effect, encoding.manager.false) | encoding.executing(action)
-    return found
 
 
 def _compatible(encoding: Encoding) -> Bdd:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tumato_symbolic.symbolic import Bdd, preferred
-from tumato_symbolic.synthesis.problem import Layers, Problem, evaluate
+from tumato_symbolic.synthesis.problem import Layers, Problem, evaluate, serves_all
 from tumato_symbolic.synthesis.routing import shortest_decisions
 
 TRIES_TO_GIVE_BACK = 200
@@ -63,6 +63,7 @@ def give_back(problem: Problem, before: Bdd, after: Bdd) -> Bdd:
     """
     encoding, steps = problem.encoding, problem.steps
     pending = [list(encoding.states_in(steps.states_of(after & ~before)))]
+    suspects = list(range(len(problem.targets)))
     tries = 0
     while pending and tries < TRIES_TO_GIVE_BACK:
         part = pending.pop()
@@ -71,7 +72,7 @@ def give_back(problem: Problem, before: Bdd, after: Bdd) -> Bdd:
         states = encoding.manager.union(map(encoding.state_cube, part))
         candidate = (after & ~states) | (before & states)
         tries += 1
-        if evaluate(problem, candidate).failing == problem.false:
+        if serves_all(problem, candidate, suspects):
             after = candidate
         elif len(part) > 1:
             pending += [part[len(part) // 2 :], part[: len(part) // 2]]

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.symbolic import (
@@ -60,18 +61,40 @@ Layers = list[Bdd]
 """Disjoint sets of safe states: in layer `j` are those that reach the target in `j` steps and not earlier."""
 
 
-def attractor(problem: Problem, target: Bdd, relation: Bdd, within: Bdd, limit: int | None) -> Layers:
-    """Backward layers of `target`: `μ Z. target ∪ (within ∩ pre(relation, Z))`, at most `limit` steps deep.
+Predecessor: TypeAlias = Callable[[Bdd, Bdd], Bdd]
+"""Those states of the first set from where one step leads into the second."""
 
-    With a policy for `relation` these are the exact ranks of its runs; with all allowed pairs, the distances.
+
+def by_any_step(problem: Problem, relation: Bdd) -> Predecessor:
+    """The predecessor when any pair of a relation may be taken."""
+    return lambda states, target: states & problem.steps.predecessor(relation & states, target)
+
+
+def by_policy(problem: Problem, policy: Bdd) -> Predecessor:
+    """The predecessor under a policy: a policy is a function, and the predecessor a composition with it."""
+    following = problem.steps.next_state(policy)
+    decided = problem.steps.states_of(policy)
+    return lambda states, target: states & decided & problem.encoding.manager.compose(target, following)
+
+
+def attractor(problem: Problem, target: Bdd, predecessor: Predecessor, within: Bdd, limit: int | None) -> Layers:
+    """Backward layers of `target`: `μ Z. target ∪ (within ∩ pre(Z))`, at most `limit` steps deep.
+
+    With a policy's predecessor these are the exact ranks of its runs; with that of all allowed pairs, the distances.
     """
     layers = [target]
     left = within & ~target
     while layers[-1] != problem.false and (limit is None or len(layers) <= limit):
-        layer = left & problem.steps.predecessor(relation & left, layers[-1])
+        layer = predecessor(left, layers[-1])
         layers.append(layer)
         left = left & ~layer
     return layers
+
+
+def ranks_of(problem: Problem, policy: Bdd, limit: int | None) -> tuple[Layers, ...]:
+    """The ranks of every target under a policy that is defined in every safe state."""
+    step = by_policy(problem, policy)
+    return tuple(attractor(problem, target.states, step, problem.steps.safe, limit) for target in problem.targets)
 
 
 @dataclass(frozen=True)
@@ -89,9 +112,7 @@ class Evaluation:
 def evaluate(problem: Problem, policy: Bdd) -> Evaluation:
     """Judge a policy that is defined in every safe state; unsafe states may take any allowed set."""
     steps = problem.steps
-    ranks = tuple(
-        attractor(problem, target.states, policy, steps.safe, problem.last_layer) for target in problem.targets
-    )
+    ranks = ranks_of(problem, policy, problem.last_layer)
     return Evaluation(ranks, steps.valid & ~served(problem, ranks, policy | (steps.allowed & steps.unsafe)))
 
 
@@ -103,3 +124,21 @@ def served(problem: Problem, ranks: Sequence[Layers], relation: Bdd) -> Bdd:
         for target, layers in zip(problem.targets, ranks, strict=True)
         if (relation & target.owed) != problem.false
     )
+
+
+def serves_all(problem: Problem, policy: Bdd, suspects: list[int]) -> bool:
+    """Whether no state fails under a policy that is defined in every safe state.
+
+    Targets are tried in the order of `suspects`, a permutation of their numbers; one that fails moves to the front.
+    """
+    steps, manager = problem.steps, problem.encoding.manager
+    restored, step = problem.false, by_policy(problem, policy)
+    for place, number in enumerate(suspects):
+        target = problem.targets[number]
+        layers = attractor(problem, target.states, step, steps.safe, problem.last_layer)
+        reached = steps.before(manager.union(layers)) & target.owed
+        if (policy & target.owed & ~reached) != problem.false:
+            suspects.insert(0, suspects.pop(place))
+            return False
+        restored = restored | steps.states_of(reached & steps.unsafe)
+    return (steps.unsafe & ~restored) == problem.false

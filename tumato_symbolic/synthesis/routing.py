@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from tumato_symbolic.symbolic import Bdd, Target, preferred
-from tumato_symbolic.synthesis.problem import Layers, Problem, attractor
+from tumato_symbolic.synthesis.problem import Layers, Problem, attractor, by_policy
 
 
 def own_region_policy(problem: Problem) -> Bdd:
@@ -43,7 +43,8 @@ def route(problem: Problem, policy: Bdd, undecided: Bdd, within: Bdd, owing: Seq
     """
     while undecided != problem.false:
         decided = within & problem.steps.states_of(policy)
-        ranks = [attractor(problem, target.states, policy, decided, problem.last_layer) for target in owing]
+        step = by_policy(problem, policy)
+        ranks = [attractor(problem, target.states, step, decided, problem.last_layer) for target in owing]
         nearest = next(iter(_by_steps(problem, owing, ranks, undecided, problem.steps.allowed)), None)
         if nearest is None:
             break

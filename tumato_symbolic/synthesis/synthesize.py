@@ -25,7 +25,7 @@ from tumato_symbolic.synthesis.outcome import (
     Unrealizable,
 )
 from tumato_symbolic.synthesis.overriding import give_back, override
-from tumato_symbolic.synthesis.problem import Layers, Problem, attractor, evaluate, pose, served
+from tumato_symbolic.synthesis.problem import Layers, Problem, attractor, by_any_step, evaluate, pose, ranks_of, served
 from tumato_symbolic.synthesis.restoring import restoring_policy
 from tumato_symbolic.synthesis.routing import own_region_policy, route, shortest_decisions
 
@@ -135,7 +135,7 @@ def _finish(
 ) -> Realizable:
     """Add restoring sets and the certificate to a policy for the safe states that serves every valid state."""
     steps = problem.steps
-    ranks = [attractor(problem, target.states, policy, steps.safe, None) for target in problem.targets]
+    ranks = ranks_of(problem, policy, None)
     within = None if problem.last_layer is None else problem.last_layer + 1
     tell("choosing restoring sets")
     restoring, durations = restoring_policy(problem, [layers[:within] for layers in ranks])
@@ -163,9 +163,9 @@ def _as(policy: Policy, policy_format: PolicyFormat, states: int) -> Policy:
 
 def _distances(problem: Problem) -> list[Layers]:
     """How far every safe state is from each target when any allowed steps may be taken."""
-    steps = problem.steps
+    step = by_any_step(problem, problem.steps.allowed)
     return [
-        attractor(problem, target.states, steps.allowed, steps.safe, problem.last_layer) for target in problem.targets
+        attractor(problem, target.states, step, problem.steps.safe, problem.last_layer) for target in problem.targets
     ]
 
 
