@@ -1,0 +1,81 @@
+"""Coq, where it is installed: the library of `proofs/coq`, exported files, and many checks in one file."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from tumato_symbolic.export.coq import export
+from tumato_symbolic.policy import policy_from_rows
+from tumato_symbolic.semantics import ActionSet, State
+from tumato_symbolic.spec import Ordering, Spec
+
+SOURCES = Path(__file__).parents[2] / "proofs" / "coq"
+
+COQC = shutil.which("coqc")
+
+
+@dataclass(frozen=True)
+class Case:
+    """A policy to be judged."""
+
+    spec: Spec
+    rows: Mapping[State, ActionSet]
+    ordering: Ordering
+
+    @property
+    def text(self) -> str:
+        """The exported file."""
+        return export(policy_from_rows(self.spec, self.rows), self.spec, self.ordering)
+
+
+@dataclass(frozen=True)
+class Library:
+    """The sources in a folder of their own, so that nothing is left in the repository."""
+
+    folder: Path
+
+    @classmethod
+    def copy_to(cls, folder: Path) -> Library:
+        """A copy, not yet compiled."""
+        for source in (*SOURCES.glob("*.v"), SOURCES / "Makefile"):
+            shutil.copy(source, folder)
+        return cls(folder)
+
+    def build(self) -> subprocess.CompletedProcess[str]:
+        """What `make -C proofs/coq` does."""
+        return _run(["make", "-C", str(self.folder)], self.folder)
+
+    def compile(self, text: str) -> subprocess.CompletedProcess[str]:
+        """Compile one file against the library."""
+        path = self.folder / "judged.v"
+        path.write_text(text, encoding="utf-8")
+        return _run([str(COQC), "-q", "-R", ".", "Tumato", path.name], self.folder)
+
+    def checks(self, cases: Sequence[Case]) -> list[bool]:
+        """What `check` answers for each case, computed in one file."""
+        if not cases:
+            return []
+        answer = self.compile(together([case.text for case in cases]))
+        assert answer.returncode == 0, answer.stderr
+        return [word == "true" for word in re.findall(r"= (true|false)\b", answer.stdout)]
+
+
+def together(texts: Sequence[str]) -> str:
+    """One file that computes the check of each exported file instead of proving that it is `true`."""
+    head = texts[0].partition("(* Numbers")[0]
+    modules = []
+    for number, text in enumerate(texts):
+        ordering = re.findall(r"^Lemma accepted : check spec (\w+) decisions", text, re.MULTILINE)[0]
+        start, end = text.index("Definition spec"), text.index("(* Coq computes")
+        modules.append(f"Module C{number}.\n{text[start:end]}Eval vm_compute in check spec {ordering} decisions.\n")
+        modules.append(f"End C{number}.\n")
+    return head + "".join(modules)
+
+
+def _run(command: Sequence[str], folder: Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)

@@ -1,0 +1,215 @@
+"""The theorem file: its shape, and (where Coq is installed) that it compiles exactly for right policies."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from random import Random
+
+import pytest
+
+from tests.differential import changed_policies
+from tests.export.compiler import COQC, Case, Library
+from tests.generate import random_spec
+from tests.oracle import World, decide_world
+from tests.profiles import PROFILES
+from tumato_symbolic import parse
+from tumato_symbolic.diagnostics import Code, UserError
+from tumato_symbolic.export.coq import MOST_STATES, export
+from tumato_symbolic.policy import Table, as_diagram, load, policy_from_rows
+from tumato_symbolic.semantics import State, is_safe, judge
+from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.synthesis import Realizable, synthesize
+
+ROOT = Path(__file__).parents[2]
+
+needs_coq = pytest.mark.skipif(COQC is None, reason="coqc is not installed: the theorem is not compiled here")
+
+
+def example(name: str) -> Spec:
+    return parse((ROOT / "examples" / f"{name}.tum").read_text(encoding="utf-8"))
+
+
+def rows_of(spec: Spec, ordering: Ordering) -> dict:
+    """The synthesized decisions."""
+    outcome = synthesize(spec, ordering)
+    assert isinstance(outcome, Realizable)
+    assert isinstance(outcome.policy.decisions, Table)
+    return dict(outcome.policy.decisions.rows)
+
+
+@pytest.fixture(scope="module")
+def amr() -> Case:
+    spec = example("amr")
+    policy = load(str(ROOT / "proofs" / "amr.policy.json"))
+    assert isinstance(policy.decisions, Table)
+    return Case(spec, policy.decisions.rows, "any")
+
+
+@pytest.fixture(scope="module")
+def library(tmp_path_factory) -> Library:
+    found = Library.copy_to(tmp_path_factory.mktemp("coq"))
+    built = found.build()
+    assert built.returncode == 0, built.stderr
+    return found
+
+
+def test_the_file_states_the_theorem_and_prints_what_it_rests_on(amr):
+    """The last command prints the assumptions; the ordering is the one that was asked for."""
+    text = amr.text
+    assert text.endswith("Print Assumptions policy_is_right.\n")
+    assert "sound_and_complete spec Any (policy_of decisions) /\\ minimal spec Any (policy_of decisions)" in text
+    assert "check spec First decisions = true" in replace(amr, ordering="first").text
+    assert "Admitted" not in text
+
+
+def test_the_specification_is_written_in_numbers_and_explained_in_comments(amr):
+    """A reader finds every name and every rule as it was written, beside its numbers."""
+    text = amr.text
+    assert "sizes := [4; 2; 2; 2];" in text
+    assert "     0 S_Location: 0 corridor, 1 charger, 2 workstation_1, 3 workstation_2\n" in text
+    assert "    (* 4 receive_workpiece *)\n    {| duration := 3%N; resources := [0; 1];\n" in text
+    assert "alternatives := [[(2, 1); (3, 0)]; [(2, 1); (3, 1)]] |}" in text
+    assert "    (* IF S_Location is corridor OR S_Location is charger THEN S_Conveyor is off *)\n" in text
+    assert "    Or [Not (Or [Is 0 0; Is 0 1]); Is 3 1]\n" in text
+    assert "      (* when S_Battery is low *)\n      (When (Is 1 0)\n" in text
+    assert "max_plan_length := Some 5%N" in text
+    assert text.count("Leaf") == 32
+
+
+def test_a_diagram_gives_the_same_file_as_its_table(amr):
+    """What is exported are the decisions, not the form of the policy."""
+    policy = policy_from_rows(amr.spec, amr.rows)
+    assert export(replace(policy, decisions=as_diagram(policy)), amr.spec, "any") == amr.text
+
+
+def test_texts_of_rules_cannot_end_their_comment(amr):
+    """Whatever a rule's text holds, it stays inside one comment of one line."""
+    hostile = replace(amr.spec.state_rules[0], text='a *) Axiom f : False. (* "b (*)\nc')
+    text = replace(amr, spec=replace(amr.spec, state_rules=(hostile,))).text
+    line = next(line for line in text.splitlines() if "Axiom" in line)
+    assert line == "    (* a * ) Axiom f : False. ( * 'b ( * ) c *)"
+
+
+def test_a_policy_that_leaves_a_valid_state_undecided_is_an_error(amr):
+    """There is nothing to prove about a policy that is not total."""
+    rows = dict(amr.rows)
+    del rows[0, 0, 0, 1]
+    with pytest.raises(UserError) as error:
+        export(policy_from_rows(amr.spec, rows), amr.spec, "any")
+    (diagnostic,) = error.value.diagnostics
+    assert diagnostic.code is Code.TUM502
+    assert "S_Location is corridor, S_Battery is low, S_Load is loaded, S_Conveyor is off" in diagnostic.message
+
+
+def test_too_many_states_are_an_error(amr):
+    """The checker goes through all states; where these are too many, the exporter says so."""
+    values = ", ".join(f"v{number}" for number in range(MOST_STATES + 1))
+    spec = parse(f"BEGIN STATE VECTOR\nstate S can be {values}\nEND STATE VECTOR")
+    with pytest.raises(UserError) as error:
+        export(policy_from_rows(spec, {(n,): frozenset() for n in range(MOST_STATES + 1)}), spec, "any")
+    assert error.value.diagnostics[0].code is Code.TUM508
+
+
+def test_a_policy_for_another_specification_is_an_error(amr):
+    """The policy is bound to the specification by names."""
+    with pytest.raises(UserError) as error:
+        export(policy_from_rows(amr.spec, amr.rows), example("coin"), "any")
+    assert error.value.diagnostics[0].code is Code.TUM503
+
+
+def test_states_that_are_not_valid_need_no_decision():
+    """A decision in an invalid state is not exported either."""
+    text = "BEGIN STATE VECTOR\nstate S can be a, b\nEND STATE VECTOR\n"
+    spec = parse(f"{text}BEGIN ASSUMPTIONS\nassume: S is a\nEND ASSUMPTIONS")
+    total = policy_from_rows(spec, {(0,): frozenset(), (1,): frozenset()})
+    assert "Node [Leaf d0; Leaf none]" in export(total, spec, "any")
+    assert export(total, spec, "any") == export(policy_from_rows(spec, {(0,): frozenset()}), spec, "any")
+
+
+@needs_coq
+def test_the_theorem_of_the_amr_compiles_and_rests_on_nothing(amr, library):
+    """The policy of the paper's example is proved right, without axioms."""
+    answer = library.compile(amr.text)
+    assert answer.returncode == 0, answer.stderr
+    assert answer.stdout.strip() == "Closed under the global context"
+
+
+@needs_coq
+def test_a_changed_decision_is_refused(amr, library):
+    """The exporter judges nothing: the file of a wrong policy is written, and Coq refuses it."""
+    wrong = replace(amr, rows={**amr.rows, (1, 0, 0, 1): frozenset()})
+    answer = library.compile(wrong.text)
+    assert answer.returncode != 0
+    assert "true" in answer.stderr
+
+
+@needs_coq
+def test_an_undecided_state_is_refused(amr, library):
+    """A hole in the table is no empty decision."""
+    text = amr.text.replace("Leaf d0", "Leaf none", 1)
+    assert library.compile(text).returncode != 0
+
+
+@needs_coq
+def test_orderings_differ(library):
+    """What is right under `first` may be wrong under `any`."""
+    spec = example("concurrent")
+    first = rows_of(spec, "first")
+    cases = [Case(spec, first, "first"), Case(spec, first, "any"), Case(spec, rows_of(spec, "any"), "any")]
+    assert library.checks(cases) == [True, False, True]
+
+
+@needs_coq
+def test_a_restoring_set_that_is_not_the_cheapest_is_refused(amr, library):
+    """Minimality is part of the theorem: an allowed set that serves, but longer than needed, does not pass."""
+    world, rows = World(amr.spec, "any"), dict(amr.rows)
+    state: State = (0, 1, 0, 0)
+    assert not is_safe(amr.spec, state)
+    dearer = [{**rows, state: option.chosen} for option in world.options[state] if option.chosen != rows[state]]
+    sound = [changed for changed in dearer if judge(amr.spec, changed, "any").sound_and_complete]
+    assert sound
+    assert not any(library.checks([Case(amr.spec, changed, "any") for changed in sound]))
+
+
+@needs_coq
+@pytest.mark.parametrize("profile", PROFILES)
+def test_the_checker_agrees_with_the_explicit_meaning(profile: str, library):
+    """`check` answers `true` for right policies, of generated specifications, and for no others."""
+    cases = generated(profile, range(12), 4)
+    expected = [is_right(case) for case in cases]
+    assert any(expected)
+    assert not all(expected)
+    assert library.checks(cases) == expected
+
+
+def generated(profile: str, seeds: range, mutants: int) -> list[Case]:
+    """Policies of the realizable specifications among `seeds`: synthesized ones, the oracle's, and mutants of both."""
+    cases = []
+    for seed in seeds:
+        spec, ordering = random_spec(seed, PROFILES[profile]), ("any", "first")[seed % 2]
+        world = World(spec, ordering)
+        policy = decide_world(world).policy
+        if policy is None:
+            continue
+        right = rows_of(spec, ordering)
+        mutated = [rows for _, rows in changed_policies(world, right, Random(seed), mutants)]
+        total = [rows for rows in (right, policy, *mutated) if rows.keys() == right.keys()]
+        cases += [Case(spec, rows, ordering) for rows in total]
+    return cases
+
+
+def is_right(case: Case) -> bool:
+    """The explicit meaning."""
+    judgement = judge(case.spec, case.rows, case.ordering)
+    return judgement.sound_and_complete and judgement.minimal
+
+
+@needs_coq
+@pytest.mark.parametrize("planted", ["Lemma gap : False. Proof. Admitted.", "Axiom gap : False."])
+def test_the_build_refuses_gaps(planted: str, tmp_path):
+    """`make` fails on a proof that is not finished and on an axiom, used or not."""
+    library = Library.copy_to(tmp_path)
+    path = tmp_path / "Semantics.v"
+    path.write_text(path.read_text(encoding="utf-8") + planted + "\n", encoding="utf-8")
+    assert library.build().returncode != 0

@@ -1,0 +1,221 @@
+"""A policy as a theorem for Coq: the specification, the table, and a proof that is checked by computing.
+
+The meaning and the theorem are in `proofs/coq`. Nothing is judged here: a wrong policy gives a file that Coq refuses.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import islice
+
+from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
+from tumato_symbolic.policy import Policy, as_table, bind
+from tumato_symbolic.semantics import ActionSet, State, action_names, all_states, count_states, is_valid, named
+from tumato_symbolic.spec import (
+    Action,
+    And,
+    Assignment,
+    ConditionalGoal,
+    Constant,
+    Executing,
+    Formula,
+    Goal,
+    Iff,
+    Is,
+    Not,
+    Or,
+    Ordering,
+    Rule,
+    SimpleGoal,
+    Spec,
+)
+
+MOST_STATES = 2000
+"""The checker goes through all states, valid or not; this many take about a minute."""
+
+_HEAD = """\
+(* Compiling this file proves that the policy below is sound, complete and minimal for the specification below.
+   What that means is written in Semantics.v, that the checker tells the truth is proved in Correct.v (proofs/coq).
+   Written by `tumato-sym export-proof`; comments are for readers and prove nothing. *)
+
+From Coq Require Import List NArith.
+From Tumato Require Import Semantics Checker Correct.
+Import ListNotations.
+"""
+
+_THEOREM = """\
+(* Coq computes the check. Where the policy is wrong, it says here that `true` is not what comes out;
+   `tumato-sym verify` tells why. *)
+Lemma accepted : check spec {ordering} decisions = true.
+Proof. vm_cast_no_check (eq_refl true). Qed.
+
+Theorem policy_is_right :
+  sound_and_complete spec {ordering} (policy_of decisions) /\\ minimal spec {ordering} (policy_of decisions).
+Proof. exact (checker_sound spec {ordering} decisions accepted). Qed.
+
+Print Assumptions policy_is_right.
+"""
+
+
+def export(policy: Policy, spec: Spec, ordering: Ordering) -> str:
+    """The text of a Coq file that compiles when `policy` is sound, complete and minimal under `ordering`.
+
+    What that means is section 5 of `docs/semantics.md`; `proofs/coq/README.md` tells how to compile. Raises
+    `UserError` where the policy does not fit the specification (`bind`), where it leaves a valid state undecided
+    (TUM502), or where the specification has more than `MOST_STATES` states (TUM508).
+    """
+    rows = _rows(bind(policy, spec), spec)
+    parts = [_HEAD, *_specification(spec), *_decisions(spec, rows), _THEOREM.format(ordering=ordering.capitalize())]
+    return "\n".join(parts)
+
+
+def _rows(policy: Policy, spec: Spec) -> dict[State, ActionSet]:
+    """The decisions in the valid states."""
+    count = count_states(spec)
+    if count > MOST_STATES:
+        message = f"the specification has {count:,} states, a proof by computing is for at most {MOST_STATES:,}"
+        raise _fault(Code.TUM508, message, "use `tumato-sym verify`, which proves all states at once")
+    table = as_table(policy, count)
+    rows = {} if table is None else table.rows
+    valid = [state for state in all_states(spec) if is_valid(spec, state)]
+    missing = next((state for state in valid if state not in rows), None)
+    if missing is not None:
+        state = ", ".join(f"{name} is {value}" for name, value in islice(named(spec, missing).items(), 20))
+        raise _fault(Code.TUM502, f"the policy decides nothing in the valid state ({state})", "synthesize it again")
+    return {state: rows[state] for state in valid}
+
+
+def _fault(code: Code, message: str, help: str) -> UserError:
+    return UserError((Diagnostic(code, message, help=help),))
+
+
+def _specification(spec: Spec) -> Iterator[str]:
+    """The record of a specification, in the order of `Semantics.v`."""
+    yield "(* Numbers count from 0, as declared. Resources: " + _numbered(spec.resources) + ". Variables:"
+    yield from (f"     {number} {v.name}: {_numbered(v.values)}" for number, v in enumerate(spec.variables))
+    yield "*)"
+    yield "Definition spec : specification := {|"
+    yield f"  sizes := {_list(str(len(variable.values)) for variable in spec.variables)};"
+    yield from _field("declared", [(f"{number} {a.name}", _action(a)) for number, a in enumerate(spec.actions)])
+    yield from _field("reaction_rules", _rules(spec.reaction_rules))
+    yield from _field("state_rules", _rules(spec.state_rules))
+    yield from _field("assumptions", _rules(spec.assumptions))
+    if spec.goals is None:
+        yield "  goals := None;"
+    else:
+        yield "  goals := Some"
+        yield f"{_goal(spec, spec.goals, 2)};"
+    bound = spec.max_plan_length
+    yield "  max_plan_length := " + ("None" if bound is None else f"Some {bound}%N")
+    yield "|}.\n"
+
+
+def _numbered(names: Sequence[str]) -> str:
+    return ", ".join(f"{number} {name}" for number, name in enumerate(names)) or "none"
+
+
+def _list(entries: Iterable[str]) -> str:
+    return f"[{'; '.join(entries)}]"
+
+
+def _comment(text: str) -> str:
+    """A comment of one line; what would end it, or begin another or a string, is broken up."""
+    words = text.replace("*", " * ").replace('"', "'").split()
+    return f"(* {' '.join(words)} *)"
+
+
+def _field(name: str, entries: Sequence[tuple[str, str]]) -> Iterator[str]:
+    """A field that is a list, every entry under its comment."""
+    if not entries:
+        yield f"  {name} := [];"
+        return
+    yield f"  {name} := ["
+    for number, (text, entry) in enumerate(entries, 1):
+        yield f"    {_comment(text)}"
+        yield f"    {entry}{';' if number < len(entries) else ''}"
+    yield "  ];"
+
+
+def _rules(rules: Iterable[Rule]) -> list[tuple[str, str]]:
+    return [(rule.text, _formula(rule.formula)) for rule in rules]
+
+
+def _formula(formula: Formula) -> str:
+    match formula:
+        case Constant(value):
+            return f"Constant {'true' if value else 'false'}"
+        case Is(variable, value):
+            return f"Is {variable} {value}"
+        case Executing(action):
+            return f"Executing {action}"
+        case Not(operand):
+            return f"Not ({_formula(operand)})"
+        case And(operands):
+            return f"And {_list(map(_formula, operands))}"
+        case Or(operands):
+            return f"Or {_list(map(_formula, operands))}"
+        case Iff(left, right):
+            return f"Iff ({_formula(left)}) ({_formula(right)})"
+
+
+def _action(action: Action) -> str:
+    return (
+        f"{{| duration := {action.duration}%N; resources := {_list(map(str, sorted(action.resources)))};\n"
+        f"       preconditions := {_list(_formula(rule.formula) for rule in action.preconditions)};\n"
+        f"       nominal := {_assignment(action.nominal)};\n"
+        f"       alternatives := {_list(_assignment(o) for entry in action.alternatives for o in entry.outcomes)} |}}"
+    )
+
+
+def _assignment(assignment: Assignment) -> str:
+    return _list(f"({variable}, {value})" for variable, value in assignment)
+
+
+def _goal(spec: Spec, goal: Goal, depth: int) -> str:
+    indent = "  " * depth
+    if isinstance(goal, SimpleGoal):
+        body = spec.bodies[goal.body]
+        return f"{indent}{_comment('goal: ' + body.text)}\n{indent}(Simple ({_formula(body.formula)}))"
+    if isinstance(goal, ConditionalGoal):
+        condition = goal.condition
+        head = f"{indent}{_comment('when ' + condition.text)}\n{indent}(When ({_formula(condition.formula)})"
+        return f"{head}\n{_goal(spec, goal.goal, depth + 1)})"
+    members = ";\n".join(_goal(spec, member, depth + 1) for member in goal.members)
+    return f"{indent}(Goals {goal.kind.capitalize()} [\n{members}])"
+
+
+def _decisions(spec: Spec, rows: dict[State, ActionSet]) -> Iterator[str]:
+    """Every set that occurs, by a name, and the tree of the decisions: one level for every variable."""
+    chosen = sorted({tuple(sorted(decision)) for decision in rows.values()})
+    yield "(* The decisions. *)"
+    yield "Definition none : option actions := None. (* an invalid state *)"
+    for number, decision in enumerate(chosen):
+        names = ", ".join(action_names(spec, frozenset(decision))) or "nothing"
+        yield f"Definition d{number} : option actions := Some {_list(map(str, decision))}. (* {names} *)"
+    names_of = {frozenset(decision): f"d{number}" for number, decision in enumerate(chosen)}
+    writer = _TreeWriter(spec, lambda state: names_of[rows[state]] if state in rows else "none")
+    yield f"\nDefinition decisions : table :=\n{writer.tree((), 1)}.\n"
+
+
+@dataclass(frozen=True, slots=True)
+class _TreeWriter:
+    """Writes a tree over the states; `leaf` gives what stands at the end."""
+
+    spec: Spec
+    leaf: Callable[[State], str]
+
+    def tree(self, prefix: State, depth: int) -> str:
+        """The tree below the states that begin with `prefix`, `depth` times two columns to the right."""
+        variables, indent = self.spec.variables, "  " * depth
+        if len(prefix) == len(variables):
+            return f"{indent}Leaf {self.leaf(prefix)}"
+        variable = variables[len(prefix)]
+        if len(prefix) == len(variables) - 1:
+            leaves = _list(f"Leaf {self.leaf((*prefix, value))}" for value in range(len(variable.values)))
+            return f"{indent}Node {leaves}"
+        below = (
+            f"{indent} (* {variable.name} is {name} *)\n{self.tree((*prefix, value), depth + 1)}"
+            for value, name in enumerate(variable.values)
+        )
+        return f"{indent}Node [\n" + ";\n".join(below) + "]"
