@@ -73,8 +73,6 @@ class Solver:
         self._solver.set("timeout", NO_TIMEOUT if left > LONGEST else max(1, int(left * 1000)))
         with self.scope(*terms):
             answer = str(self._solver.check())
-            if answer == "unknown" and "interrupted" in self._solver.reason_unknown():
-                raise KeyboardInterrupt  # Z3 took Ctrl-C for itself
             self._model = self._solver.model() if answer == "sat" else None
             if answer == "unknown" and "interrupted" in self._solver.reason_unknown():
                 raise KeyboardInterrupt  # Z3 takes the signal for itself
