@@ -91,18 +91,12 @@ def attractor(problem: Problem, target: Bdd, predecessor: Predecessor, within: B
     return layers
 
 
-def ranks_of(problem: Problem, policy: Bdd, limit: int | None) -> tuple[Layers, ...]:
-    """The ranks of every target under a policy that is defined in every safe state."""
-    step = by_policy(problem, policy)
-    return tuple(attractor(problem, target.states, step, problem.steps.safe, limit) for target in problem.targets)
-
-
 @dataclass(frozen=True)
 class Evaluation:
     """What a policy achieves.
 
-    `ranks[k]` are the layers of target `k` under the policy, within the plan bound; `failing` the valid states that
-    have no good decision: safe ones whose run misses what they owe, and unsafe ones where no allowed set serves.
+    `ranks[k]` are the exact layers of target `k` under the policy; `failing` the valid states that have no good
+    decision: safe ones whose run misses what they owe, and unsafe ones where no allowed set serves.
     """
 
     ranks: tuple[Layers, ...]
@@ -111,17 +105,22 @@ class Evaluation:
 
 def evaluate(problem: Problem, policy: Bdd) -> Evaluation:
     """Judge a policy that is defined in every safe state; unsafe states may take any allowed set."""
-    steps = problem.steps
-    ranks = ranks_of(problem, policy, problem.last_layer)
+    steps, step = problem.steps, by_policy(problem, policy)
+    ranks = tuple(attractor(problem, target.states, step, steps.safe, None) for target in problem.targets)
     return Evaluation(ranks, steps.valid & ~served(problem, ranks, policy | (steps.allowed & steps.unsafe)))
 
 
+def in_time(problem: Problem, ranks: Sequence[Layers]) -> list[Layers]:
+    """The layers that a first successor may be in, where the plan bound leaves room for the rest of the run."""
+    return [layers[: problem.spec.max_plan_length] for layers in ranks]
+
+
 def served(problem: Problem, ranks: Sequence[Layers], relation: Bdd) -> Bdd:
-    """The states where some pair of `relation` leads to a state that has a rank for the target which the pair owes."""
+    """The states where some pair of `relation` leads, in time, to a state with a rank for the target that it owes."""
     manager = problem.encoding.manager
     return manager.union(
         problem.steps.predecessor(relation & target.owed, manager.union(layers))
-        for target, layers in zip(problem.targets, ranks, strict=True)
+        for target, layers in zip(problem.targets, in_time(problem, ranks), strict=True)
         if (relation & target.owed) != problem.false
     )
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -25,7 +25,7 @@ from tumato_symbolic.synthesis.outcome import (
     Unrealizable,
 )
 from tumato_symbolic.synthesis.overriding import give_back, override
-from tumato_symbolic.synthesis.problem import Layers, Problem, attractor, by_any_step, evaluate, pose, ranks_of, served
+from tumato_symbolic.synthesis.problem import Layers, Problem, attractor, by_any_step, evaluate, in_time, pose, served
 from tumato_symbolic.synthesis.restoring import restoring_policy
 from tumato_symbolic.synthesis.routing import own_region_policy, route, shortest_decisions
 
@@ -66,8 +66,8 @@ def synthesize(
     policy = own_region_policy(problem)
     statistics = replace(statistics, own_region=_count_decided(problem, policy))
     undecided = problem.steps.safe & ~problem.steps.states_of(policy)
-    failing = undecided if undecided != problem.false else evaluate(problem, policy).failing
-    if (failing | stuck) != problem.false:
+    evaluation = evaluate(problem, policy) if undecided == problem.false else None
+    if stuck != problem.false or evaluation is None or evaluation.failing != problem.false:
         tell("measuring distances")
         distances = tuple(_distances(problem))
         helpless = problem.steps.valid & ~stuck & ~served(problem, distances, problem.steps.allowed)
@@ -80,8 +80,9 @@ def synthesize(
         resolved = _resolve(problem, policy, distances, statistics, tell)
         if isinstance(resolved, Undecided | Unrealizable):
             return replace(resolved, warnings=warnings)
-        policy, statistics = resolved.policy, resolved.statistics
-    return replace(_finish(problem, policy, statistics, policy_format, tell), warnings=warnings)
+        policy, statistics, evaluation = resolved.policy, resolved.statistics, evaluate(problem, resolved.policy)
+    found, statistics = _finish(problem, policy, evaluation.ranks, statistics, tell)
+    return Realizable(_as(found, policy_format, statistics.valid), statistics, warnings)
 
 
 def _no_valid_state(spec: Spec) -> Diagnostic:
@@ -131,25 +132,23 @@ def _resolve(
 
 
 def _finish(
-    problem: Problem, policy: Bdd, statistics: Statistics, policy_format: PolicyFormat, tell: Callable[[str], None]
-) -> Realizable:
+    problem: Problem, policy: Bdd, ranks: Sequence[Layers], statistics: Statistics, tell: Callable[[str], None]
+) -> tuple[Policy, Statistics]:
     """Add restoring sets and the certificate to a policy for the safe states that serves every valid state."""
     steps = problem.steps
-    ranks = ranks_of(problem, policy, None)
-    within = None if problem.last_layer is None else problem.last_layer + 1
     tell("choosing restoring sets")
-    restoring, durations = restoring_policy(problem, [layers[:within] for layers in ranks])
+    restoring, durations = restoring_policy(problem, in_time(problem, ranks))
     policy = policy | restoring
     assert steps.states_of(policy) == steps.valid, "a served state was left without a decision"
     longest = max(
         1 + rank
-        for target, layers in zip(problem.targets, ranks, strict=True)
-        for rank, layer in enumerate(layers[:within])
+        for target, layers in zip(problem.targets, in_time(problem, ranks), strict=True)
+        for rank, layer in enumerate(layers)
         if (policy & target.owed & steps.before(layer)) != problem.false
     )
     tell("extracting the policy and its certificate")
     statistics = replace(statistics, longest_run=longest, restoring_durations=len(durations))
-    return Realizable(_as(policy_diagram(problem, policy, ranks), policy_format, statistics.valid), statistics)
+    return policy_diagram(problem, policy, ranks), statistics
 
 
 def _as(policy: Policy, policy_format: PolicyFormat, states: int) -> Policy:
