@@ -25,7 +25,17 @@ from tumato_symbolic.synthesis.outcome import (
     Unrealizable,
 )
 from tumato_symbolic.synthesis.overriding import give_back, override
-from tumato_symbolic.synthesis.problem import Layers, Problem, attractor, by_any_step, evaluate, in_time, pose, served
+from tumato_symbolic.synthesis.problem import (
+    Layers,
+    Problem,
+    attractor,
+    by_any_step,
+    by_policy,
+    evaluate,
+    in_time,
+    pose,
+    served,
+)
 from tumato_symbolic.synthesis.restoring import restoring_policy
 from tumato_symbolic.synthesis.routing import own_region_policy, route, shortest_decisions
 
@@ -81,8 +91,8 @@ def synthesize(
         if isinstance(resolved, Undecided | Unrealizable):
             return replace(resolved, warnings=warnings)
         policy, statistics, evaluation = resolved.policy, resolved.statistics, evaluate(problem, resolved.policy)
-    found, statistics = _finish(problem, policy, evaluation.ranks, statistics, tell)
-    return Realizable(_as(found, policy_format, statistics.valid), statistics, warnings)
+    complete, statistics = _finish(problem, policy, evaluation.ranks, statistics, tell)
+    return Realizable(_as(complete, policy_format, statistics.valid), statistics, warnings)
 
 
 def _no_valid_state(spec: Spec) -> Diagnostic:
@@ -140,15 +150,23 @@ def _finish(
     restoring, durations = restoring_policy(problem, in_time(problem, ranks))
     policy = policy | restoring
     assert steps.states_of(policy) == steps.valid, "a served state was left without a decision"
-    longest = max(
-        1 + rank
-        for target, layers in zip(problem.targets, in_time(problem, ranks), strict=True)
-        for rank, layer in enumerate(layers)
-        if (policy & target.owed & steps.before(layer)) != problem.false
-    )
+    longest = _longest_run(problem, policy, in_time(problem, ranks))
     tell("extracting the policy and its certificate")
     statistics = replace(statistics, longest_run=longest, restoring_durations=len(durations))
     return policy_diagram(problem, policy, ranks), statistics
+
+
+def _longest_run(problem: Problem, policy: Bdd, ranks: Sequence[Layers]) -> int:
+    """The largest number of steps that a run of a policy takes to what it owes."""
+    step = by_policy(problem, policy)
+    owing = [problem.steps.states_of(policy & target.owed) for target in problem.targets]
+    deepest = max(map(len, ranks))
+    return next(
+        1 + rank
+        for rank in reversed(range(deepest))
+        for states, layers in zip(owing, ranks, strict=True)
+        if rank < len(layers) and step(states, layers[rank]) != problem.false
+    )
 
 
 def _as(policy: Policy, policy_format: PolicyFormat, states: int) -> Policy:
