@@ -241,4 +241,5 @@ def test_an_unproved_policy_is_undecided_and_not_written(
     ran = cli("synth", "amr.tum", "--output-format", "json")
     report = json.loads(ran.out)
     assert (ran.code, report["verdict"], report["policy"]) == (3, "undecided", None)
+    assert "may be realizable" in cli("synth", "amr.tum").out
     assert not (tmp_path / "policy.json").exists()

@@ -73,9 +73,11 @@ def _realizable(done: Synthesized, outcome: Realizable, paint: Paint) -> list[st
     bound = done.spec.max_plan_length
     longest = f"  longest run to a goal: {count(statistics.longest_run or 0, 'step')}"
     longest += "" if bound is None else f" (max_plan_length: {bound})"
+    verdict = (
+        f"is {paint.good('realizable')}: the policy decides" if done.written else "may be realizable: a policy decides"
+    )
     head = [
-        f"{done.source.name} is {paint.good('realizable')}: the policy decides all {statistics.valid:,} valid states. "
-        f"Found in {seconds(done.solved_in)}.",
+        f"{done.source.name} {verdict} all {statistics.valid:,} valid states. Found in {seconds(done.solved_in)}.",
         _states(statistics),
         longest,
         f"  effects: {ORDERINGS[statistics.ordering]}",
