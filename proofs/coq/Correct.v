@@ -6,6 +6,13 @@ Import ListNotations.
 
 (** ** Trees and states *)
 
+Lemma seq_at : forall size start v, nth_error (seq start size) v = if v <? size then Some (start + v) else None.
+Proof.
+  induction size as [|size IH]; intros start v; destruct v as [|v]; cbn [seq nth_error]; try reflexivity.
+  - now rewrite Nat.add_0_r.
+  - rewrite IH, Nat.add_succ_r. reflexivity.
+Qed.
+
 Lemma lookup_build : forall X sizes (f : state -> X) s x,
   lookup (build f sizes) s = Some x <-> Forall2 lt s sizes /\ x = f s.
 Proof.
@@ -13,14 +20,11 @@ Proof.
   - split; [intros [= <-]; auto | intros [_ ->]; reflexivity].
   - split; [discriminate | intros [H _]; inversion H].
   - split; [discriminate | intros [H _]; inversion H].
-  - rewrite nth_error_map. destruct (Nat.ltb_spec v size) as [small|large].
-    + rewrite (nth_error_nth' (seq 0 size) 0) by (rewrite seq_length; exact small).
-      rewrite seq_nth by exact small. cbn. rewrite IH. split.
+  - rewrite nth_error_map, seq_at. destruct (Nat.ltb_spec v size) as [small|large]; cbn.
+    + rewrite IH. split.
       * intros [H ->]; auto.
       * intros [H ->]. inversion H; auto.
-    + replace (nth_error (seq 0 size) v) with (@None nat)
-        by (symmetry; apply nth_error_None; rewrite seq_length; exact large).
-      cbn. split; [discriminate | intros [H _]; inversion H; lia].
+    + split; [discriminate | intros [H _]; inversion H; lia].
 Qed.
 
 Lemma in_all_states : forall sizes s, Forall2 lt s sizes -> In s (all_states sizes).

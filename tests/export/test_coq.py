@@ -4,22 +4,19 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from random import Random
 
 import pytest
 
-from tests.differential import changed_policies
+from tests.export.cases import generated, is_right, rows_of
 from tests.export.compiler import COQC, Case, Library
-from tests.generate import random_spec
-from tests.oracle import World, decide_world
+from tests.oracle import World
 from tests.profiles import PROFILES
 from tumato_symbolic import parse
 from tumato_symbolic.diagnostics import Code, UserError
 from tumato_symbolic.export.coq import MOST_STATES, export
 from tumato_symbolic.policy import Table, as_diagram, load, policy_from_rows
 from tumato_symbolic.semantics import State, is_safe, judge
-from tumato_symbolic.spec import Ordering, Spec
-from tumato_symbolic.synthesis import Realizable, synthesize
+from tumato_symbolic.spec import Spec
 
 ROOT = Path(__file__).parents[2]
 
@@ -28,14 +25,6 @@ needs_coq = pytest.mark.skipif(COQC is None, reason="coqc is not installed: the 
 
 def example(name: str) -> Spec:
     return parse((ROOT / "examples" / f"{name}.tum").read_text(encoding="utf-8"))
-
-
-def rows_of(spec: Spec, ordering: Ordering) -> dict:
-    """The synthesized decisions."""
-    outcome = synthesize(spec, ordering)
-    assert isinstance(outcome, Realizable)
-    assert isinstance(outcome.policy.decisions, Table)
-    return dict(outcome.policy.decisions.rows)
 
 
 @pytest.fixture(scope="module")
@@ -176,33 +165,11 @@ def test_a_restoring_set_that_is_not_the_cheapest_is_refused(amr, library):
 @pytest.mark.parametrize("profile", PROFILES)
 def test_the_checker_agrees_with_the_explicit_meaning(profile: str, library):
     """`check` answers `true` for right policies, of generated specifications, and for no others."""
-    cases = generated(profile, range(12), 4)
+    cases = [case for seed in range(12) for case in generated(profile, seed, 4)]
     expected = [is_right(case) for case in cases]
     assert any(expected)
     assert not all(expected)
     assert library.checks(cases) == expected
-
-
-def generated(profile: str, seeds: range, mutants: int) -> list[Case]:
-    """Policies of the realizable specifications among `seeds`: synthesized ones, the oracle's, and mutants of both."""
-    cases = []
-    for seed in seeds:
-        spec, ordering = random_spec(seed, PROFILES[profile]), ("any", "first")[seed % 2]
-        world = World(spec, ordering)
-        policy = decide_world(world).policy
-        if policy is None:
-            continue
-        right = rows_of(spec, ordering)
-        mutated = [rows for _, rows in changed_policies(world, right, Random(seed), mutants)]
-        total = [rows for rows in (right, policy, *mutated) if rows.keys() == right.keys()]
-        cases += [Case(spec, rows, ordering) for rows in total]
-    return cases
-
-
-def is_right(case: Case) -> bool:
-    """The explicit meaning."""
-    judgement = judge(case.spec, case.rows, case.ordering)
-    return judgement.sound_and_complete and judgement.minimal
 
 
 @needs_coq

@@ -5,8 +5,7 @@ The meaning and the theorem are in `proofs/coq`. Nothing is judged here: a wrong
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import islice
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
@@ -194,28 +193,20 @@ def _decisions(spec: Spec, rows: dict[State, ActionSet]) -> Iterator[str]:
         names = ", ".join(action_names(spec, frozenset(decision))) or "nothing"
         yield f"Definition d{number} : option actions := Some {_list(map(str, decision))}. (* {names} *)"
     names_of = {frozenset(decision): f"d{number}" for number, decision in enumerate(chosen)}
-    writer = _TreeWriter(spec, lambda state: names_of[rows[state]] if state in rows else "none")
-    yield f"\nDefinition decisions : table :=\n{writer.tree((), 1)}.\n"
+    leaves = [f"Leaf {names_of[rows[state]] if state in rows else 'none'}" for state in all_states(spec)]
+    yield f"\nDefinition decisions : table :=\n{_tree(spec, leaves)}.\n"
 
 
-@dataclass(frozen=True, slots=True)
-class _TreeWriter:
-    """Writes a tree over the states; `leaf` gives what stands at the end."""
-
-    spec: Spec
-    leaf: Callable[[State], str]
-
-    def tree(self, prefix: State, depth: int) -> str:
-        """The tree below the states that begin with `prefix`, `depth` times two columns to the right."""
-        variables, indent = self.spec.variables, "  " * depth
-        if len(prefix) == len(variables):
-            return f"{indent}Leaf {self.leaf(prefix)}"
-        variable = variables[len(prefix)]
-        if len(prefix) == len(variables) - 1:
-            leaves = _list(f"Leaf {self.leaf((*prefix, value))}" for value in range(len(variable.values)))
-            return f"{indent}Node {leaves}"
-        below = (
-            f"{indent} (* {variable.name} is {name} *)\n{self.tree((*prefix, value), depth + 1)}"
-            for value, name in enumerate(variable.values)
-        )
-        return f"{indent}Node [\n" + ";\n".join(below) + "]"
+def _tree(spec: Spec, leaves: list[str]) -> str:
+    """The tree with the given leaves, in the order of the states; the leaves of one node share a line."""
+    trees = leaves
+    for depth, variable in reversed(list(enumerate(spec.variables, 1))):
+        size, indent = len(variable.values), "  " * depth
+        groups = [trees[start : start + size] for start in range(0, len(trees), size)]
+        if depth == len(spec.variables):
+            trees = [f"{indent}Node {_list(group)}" for group in groups]
+        else:
+            comments = [f"{indent} (* {variable.name} is {value} *)\n" for value in variable.values]
+            members = (";\n".join(map("".join, zip(comments, group, strict=True))) for group in groups)
+            trees = [f"{indent}Node [\n{below}]" for below in members]
+    return trees[0]
