@@ -153,28 +153,26 @@ Definition is_ok (fine : state -> bool) (s : state) (A : actions) : bool :=
 
 (** ** Runs *)
 
-Inductive verdict := Hit | Miss | Unknown.
-
 Definition is_within (k : N) : bool := match max_plan_length spec with None => true | Some most => (k <=? most)%N end.
 
-(** Follow a run that has come to [here] after [k] steps. To notice loops, a state of the past is remembered: the
-    state that was met [lag] steps ago, replaced by the present one whenever [lag] comes to [patience], which then
-    doubles. [fuel] is only there to end; [Unknown] is what nobody gets who brings enough. *)
+(** Follow a run that has come to [here] after [k] steps: is [hit] within the bound? To notice loops early, a state of
+    the past is remembered: the one met [lag] steps ago, replaced by the present one whenever [lag] comes to [patience],
+    which then doubles. [fuel] is the number of states: nothing new comes later. *)
 Fixpoint chase (hit : state -> bool) (next : state -> state) (fuel : nat) (k : N)
-    (past : state) (lag patience : N) (here : state) : verdict :=
-  if negb (is_within k) then Miss
-  else if hit here then Hit
+    (past : state) (lag patience : N) (here : state) : bool :=
+  if negb (is_within k) then false
+  else if hit here then true
   else match fuel with
-  | 0 => Unknown
+  | 0 => false
   | S fuel =>
       let there := next here in
-      if same_list past there then Miss
+      if same_list past there then false
       else if (lag =? patience)%N then chase hit next fuel (N.succ k) there 1%N (2 * patience)%N there
       else chase hit next fuel (N.succ k) past (N.succ lag) patience there
   end.
 
 (** Whether the run from [s] that starts with [A] and goes on with [pi] meets its goal within the bound. *)
-Definition serves (pi : policy) (fuel : nat) (s : state) (A : actions) : verdict :=
+Definition serves (pi : policy) (fuel : nat) (s : state) (A : actions) : bool :=
   let bodies := active spec s in
   let first := delta spec s A in
   chase (fun t => forallb (holds t A) bodies) (fun t => delta spec t (pi t)) fuel 1%N first 1%N 1%N first.
@@ -200,7 +198,7 @@ Definition candidates (fine : state -> bool) (s : state) : actions :=
 
 Definition no_better (fine : state -> bool) (pi : policy) (fuel : nat) (s : state) (A : actions) : bool :=
   let budget := total_duration spec A in
-  let useless B := if is_ok fine s B then match serves pi fuel s B with Miss => true | _ => false end else true in
+  let useless B := negb (is_ok fine s B && serves pi fuel s B) in
   (budget =? 0)%N || all_cheaper useless (candidates fine s) [] budget.
 
 (** ** The whole *)
@@ -210,7 +208,7 @@ Definition check_state (fine : state -> bool) (t : table) (fuel : nat) (s : stat
   | Some (Some A) =>
       is_action_set A &&
       is_ok fine s A &&
-      match serves (policy_of t) fuel s A with Hit => true | _ => false end &&
+      serves (policy_of t) fuel s A &&
       (fine s || no_better fine (policy_of t) fuel s A)
   | _ => false
   end.
@@ -220,7 +218,7 @@ Definition is_true_at (t : tree bool) (s : state) : bool := match lookup t s wit
 Definition check (t : table) : bool :=
   let safe_states := build keeps_rules (sizes spec) in
   let states := all_states (sizes spec) in
-  let fuel := 4 * length states + 8 in
+  let fuel := length states in
   forallb (fun s => negb (assumed s) || check_state (is_true_at safe_states) t fuel s) states.
 
 End Checking.

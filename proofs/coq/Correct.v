@@ -1,4 +1,4 @@
-(** The checker is right: where it answers [true], the policy is sound, complete and minimal. *)
+(** The checker is right: it answers [true] exactly for the tables of sound, complete and minimal policies. *)
 
 From Coq Require Import Bool List Arith NArith Lia Sorted Permutation.
 From Tumato Require Import Semantics Checker.
@@ -27,10 +27,38 @@ Proof.
     + split; [discriminate | intros [H _]; inversion H; lia].
 Qed.
 
-Lemma in_all_states : forall sizes s, Forall2 lt s sizes -> In s (all_states sizes).
+Lemma in_all_states : forall sizes s, In s (all_states sizes) <-> Forall2 lt s sizes.
 Proof.
-  intros sizes s H. induction H as [|v size s sizes small _ IH]; cbn; [now left|].
-  apply in_flat_map. exists v. split; [apply in_seq; lia | now apply in_map].
+  intros sizes s. split.
+  - revert s. induction sizes as [|size sizes IH]; cbn; intros s H; [destruct H as [<-|[]]; constructor|].
+    apply in_flat_map in H. destruct H as [v [Hv H]]. apply in_map_iff in H. destruct H as [t [<- Ht]].
+    apply in_seq in Hv. constructor; [lia | now apply IH].
+  - intros H. induction H as [|v size s sizes small _ IH]; cbn; [now left|].
+    apply in_flat_map. exists v. split; [apply in_seq; lia | now apply in_map].
+Qed.
+
+(** Among the first [length space + 1] members of a sequence in [space], two are the same. *)
+Lemma pigeonhole : forall (f : nat -> state) space, (forall k, In (f k) space) ->
+  exists i j, i < j <= length space /\ f i = f j.
+Proof.
+  intros f space inside.
+  set (past := fix past n := match n with 0 => [] | S n => f n :: past n end).
+  assert (P : forall n s, In s (past n) <-> exists i, i < n /\ f i = s).
+  { induction n as [|n IH]; intros s; cbn [past In].
+    - split; [contradiction | intros [i [H _]]; lia].
+    - rewrite IH. split.
+      + intros [<-|[i [H <-]]]; [exists n | exists i]; split; auto; lia.
+      + intros [i [H <-]]. destruct (Nat.eq_dec i n) as [->|]; [now left | right; exists i; split; [lia | reflexivity]]. }
+  assert (D : forall n, (exists i j, i < j < n /\ f i = f j) \/ NoDup (past n)).
+  { induction n as [|n [[i [j [H E]]]|nd]]; [right; constructor | left; exists i, j; split; [lia | exact E] |].
+    destruct (in_dec (list_eq_dec Nat.eq_dec) (f n) (past n)) as [H|H].
+    - left. apply P in H. destruct H as [i [H E]]. exists i, n. split; [lia | exact E].
+    - right. now constructor. }
+  assert (L : forall n, length (past n) = n) by (induction n; cbn; congruence).
+  destruct (D (S (length space))) as [[i [j [H E]]]|nd]; [exists i, j; split; [lia | exact E]|].
+  assert (short : length (past (S (length space))) <= length space).
+  { apply NoDup_incl_length; [exact nd|]. intros s H. apply P in H. destruct H as [i [_ <-]]. apply inside. }
+  rewrite L in short. lia.
 Qed.
 
 (** ** Small questions *)
@@ -67,15 +95,18 @@ Proof.
 Qed.
 
 Lemma increasing_below_spec : forall most A least,
-  increasing_below most least A = true ->
-  StronglySorted lt A /\ forall a, In a A -> least <= a < most.
+  increasing_below most least A = true <-> StronglySorted lt A /\ forall a, In a A -> least <= a < most.
 Proof.
-  intros most A. induction A as [|a A IH]; cbn [increasing_below]; intros least H.
-  - split; [constructor | contradiction].
-  - rewrite !andb_true_iff, Nat.leb_le, Nat.ltb_lt in H. destruct H as [[low high] rest].
-    destruct (IH _ rest) as [sorted bounds]. split.
+  intros most A. induction A as [|a A IH]; cbn [increasing_below]; intros least.
+  { split; [intros _; split; [constructor | contradiction] | reflexivity]. }
+  rewrite !andb_true_iff, Nat.leb_le, Nat.ltb_lt, IH. split.
+  - intros [[low high] [sorted bounds]]. split.
     + constructor; [exact sorted|]. apply Forall_forall. intros b Hb. apply bounds in Hb. lia.
     + intros b [<-|Hb]; [lia | apply bounds in Hb; lia].
+  - intros [sorted bounds]. assert (here := bounds a (or_introl eq_refl)).
+    inversion sorted as [|? ? sorted' above]; subst. rewrite Forall_forall in above.
+    split; [lia | split; [exact sorted'|]]. intros b Hb.
+    assert (B := bounds b (or_intror Hb)). apply above in Hb. lia.
 Qed.
 
 Lemma sorted_nodup : forall A, StronglySorted lt A -> NoDup A.
@@ -293,27 +324,43 @@ Proof.
 Qed.
 
 (** Steps are counted from 1, for the run has come to [start] by its first one. *)
-Lemma chase_spec : forall fuel n i lag patience,
-  i <= n -> (forall m, m < n -> hit (at_ m) = false) ->
-  match chase spec hit next fuel (N.of_nat (S n)) (at_ i) lag patience (at_ n) with
-  | Hit => exists k, within_bound spec (S k) /\ hit (at_ k) = true
-  | Miss => forall k, within_bound spec (S k) -> hit (at_ k) = false
-  | Unknown => True
-  end.
+Lemma chase_true : forall fuel n past lag patience,
+  chase spec hit next fuel (N.of_nat (S n)) past lag patience (at_ n) = true ->
+  exists k, within_bound spec (S k) /\ hit (at_ k) = true.
 Proof.
-  induction fuel as [|fuel IH]; intros n i lag patience past none; cbn [chase].
-  all: destruct (is_within spec (N.of_nat (S n))) eqn:W; cbn [negb].
-  2,4: intros k Hk; destruct (Nat.lt_ge_cases k n) as [small|large]; [now apply none|];
-    apply (within_less (S n)) in Hk; [|lia]; apply is_within_spec in Hk; congruence.
+  induction fuel as [|fuel IH]; intros n past lag patience; cbn [chase].
+  all: destruct (is_within spec (N.of_nat (S n))) eqn:W; cbn [negb]; [|discriminate].
   all: apply is_within_spec in W; destruct (hit (at_ n)) eqn:h; [now exists n|].
-  { exact I. }
-  change (next (at_ n)) with (at_ (S n)).
-  assert (none' : forall m, m < S n -> hit (at_ m) = false).
-  { intros m Hm. destruct (Nat.eq_dec m n) as [->|]; [exact h | apply none; lia]. }
-  destruct (same_list (at_ i) (at_ (S n))) eqn:E.
-  - apply same_list_eq in E. intros k _.
-    destruct (loop_closed i n past (eq_sym E) k) as [m [small ->]]. apply none'. lia.
-  - rewrite <- Nat2N.inj_succ. destruct (lag =? patience)%N; apply IH; auto.
+  { discriminate. }
+  change (next (at_ n)) with (at_ (S n)). rewrite <- Nat2N.inj_succ.
+  destruct (same_list past (at_ (S n))); [discriminate|]. destruct (lag =? patience)%N; apply IH.
+Qed.
+
+Lemma loop_no_hit : forall i n, i <= n -> at_ (S n) = at_ i -> (forall m, m <= n -> hit (at_ m) = false) ->
+  forall k, hit (at_ k) = false.
+Proof.
+  intros i n order_ loop none k. destruct (loop_closed i n order_ loop k) as [m [small ->]]. now apply none.
+Qed.
+
+Lemma chase_false : forall space, (forall k, In (at_ k) space) -> forall fuel n i lag patience,
+  i <= n -> (forall m, m < n -> hit (at_ m) = false) -> length space <= n + fuel ->
+  chase spec hit next fuel (N.of_nat (S n)) (at_ i) lag patience (at_ n) = false ->
+  forall k, within_bound spec (S k) -> hit (at_ k) = false.
+Proof.
+  intros space inside. induction fuel as [|fuel IH]; intros n i lag patience past none enough; cbn [chase].
+  all: destruct (is_within spec (N.of_nat (S n))) eqn:W; cbn [negb].
+  2,4: intros _ k Hk; destruct (Nat.lt_ge_cases k n) as [small|large]; [now apply none|];
+    apply (within_less (S n)) in Hk; [|lia]; apply is_within_spec in Hk; congruence.
+  all: destruct (hit (at_ n)) eqn:h; [discriminate|].
+  all: assert (none' : forall m, m <= n -> hit (at_ m) = false)
+    by (intros m Hm; destruct (Nat.eq_dec m n) as [->|]; [exact h | apply none; lia]).
+  - intros _ k _. destruct (pigeonhole at_ space inside) as (i' & j & H & E).
+    destruct j as [|j]; [lia|]. apply (loop_no_hit i' j); [lia | now symmetry |].
+    intros m Hm. apply none'. lia.
+  - change (next (at_ n)) with (at_ (S n)). rewrite <- Nat2N.inj_succ.
+    destruct (same_list (at_ i) (at_ (S n))) eqn:E.
+    + apply same_list_eq in E. intros _ k _. now apply (loop_no_hit i n).
+    + destruct (lag =? patience)%N; apply IH; try lia; intros m Hm; apply none'; lia.
 Qed.
 
 End Chase.
@@ -327,22 +374,35 @@ Definition reaches (pi : policy) (s : state) (A : actions) : Prop :=
 Lemma met_spec : forall s A t, forallb (holds t A) (active spec s) = true <-> met spec s A t.
 Proof. intros s A t. apply forallb_forall. Qed.
 
-Lemma serves_spec : forall pi fuel s A,
-  match serves spec pi fuel s A with
-  | Hit => reaches pi s A
-  | Miss => ~ reaches pi s A
-  | Unknown => True
-  end.
+Lemma serves_reaches : forall pi fuel s A, serves spec pi fuel s A = true -> reaches pi s A.
 Proof.
-  intros pi fuel s A. unfold serves, reaches.
-  set (hit := fun t => forallb (holds t A) (active spec s)).
-  assert (C := chase_spec hit (fun t => delta spec t (pi t)) (delta spec s A) fuel 0 0 1%N 1%N (Nat.le_refl 0)
-    (fun m small => match Nat.nlt_0_r m small with end)).
-  cbn [steps] in C. change (N.of_nat 1) with 1%N in C.
-  destruct (chase _ _ _ _ _ _ _ _ _).
-  - destruct C as [k [W H]]. exists k. split; [exact W|]. now apply met_spec.
-  - intros [k [W H]]. apply met_spec in H. specialize (C k W). unfold follow in H. unfold hit in C. congruence.
-  - exact I.
+  intros pi fuel s A H. unfold serves in H.
+  apply (chase_true _ _ (delta spec s A) fuel 0) in H. destruct H as [k [W M]].
+  exists k. split; [exact W | now apply met_spec].
+Qed.
+
+(** A policy that allows nothing but what is allowed; its runs stay among the states. *)
+Definition keeps_ok (pi : policy) : Prop := forall s, valid spec s -> ok spec order s (pi s).
+
+Lemma follow_safe : forall pi s, keeps_ok pi -> safe spec s -> forall k, safe spec (follow pi s k).
+Proof.
+  intros pi s keep H k. induction k as [|k IH]; [exact H|].
+  exact (successor_safe _ _ _ _ (keep _ (proj1 IH))).
+Qed.
+
+Definition fuel : nat := length (all_states (sizes spec)).
+
+Lemma serves_spec : forall pi s A, keeps_ok pi -> ok spec order s A ->
+  serves spec pi fuel s A = true <-> reaches pi s A.
+Proof.
+  intros pi s A keep allowed. split; [apply serves_reaches|]. intros [k [W M]].
+  destruct (serves spec pi fuel s A) eqn:E; [reflexivity|]. unfold serves in E.
+  set (hit := fun t => forallb (holds t A) (active spec s)) in E. set (next := fun t => delta spec t (pi t)) in E.
+  assert (inside : forall j, In (steps next (delta spec s A) j) (all_states (sizes spec))).
+  { intros j. apply in_all_states. exact (proj1 (proj1 (follow_safe pi _ keep (successor_safe _ _ _ _ allowed) j))). }
+  assert (F : hit (steps next (delta spec s A) k) = false).
+  { apply (chase_false hit next (delta spec s A) _ inside fuel 0 0 1%N 1%N); auto. intros m Hm. lia. }
+  apply met_spec in M. unfold hit in F. unfold follow in M. fold next in M. congruence.
 Qed.
 
 Lemma run_follow : forall pi s k, run spec pi s (S k) = follow pi (delta spec s (pi s)) k.
@@ -428,11 +488,11 @@ Qed.
 
 (** ** Cheaper sets *)
 
-Lemma all_cheaper_spec : forall good cand, StronglySorted lt cand -> forall chosen budget,
+Lemma all_cheaper_all : forall good cand, StronglySorted lt cand -> forall chosen budget,
   all_cheaper spec good cand chosen budget = true ->
   forall B, StronglySorted lt B -> incl B cand -> NoDup (rev chosen ++ B) ->
   (forall a b, In a (rev chosen ++ B) -> In b (rev chosen ++ B) -> a <> b -> compatible spec a b = true) ->
-  B = [] \/ (total_duration spec B < budget)%N -> good (rev chosen ++ B) = true.
+  (total_duration spec B < budget)%N -> good (rev chosen ++ B) = true.
 Proof.
   intros good cand. induction 1 as [|a rest _ IH above]; cbn [all_cheaper]; intros chosen budget H B sorted inside nd comp cheap.
   - destruct B as [|b B]; [now rewrite app_nil_r | destruct (inside b (or_introl eq_refl))].
@@ -444,8 +504,7 @@ Proof.
         destruct (inside b (or_introl eq_refl)) as [->|Hb]; [reflexivity|].
         inversion sorted as [|? ? _ after]; subst. rewrite Forall_forall in *.
         apply after in Ha. apply above in Hb. lia. }
-      destruct E as [B' ->]. destruct cheap as [[=]|cheap].
-      inversion sorted as [|? ? sorted' after]; subst.
+      destruct E as [B' ->]. inversion sorted as [|? ? sorted' after]; subst.
       change (total_duration spec (a :: B')) with (duration (the spec a) + total_duration spec B')%N in cheap.
       assert (F : (duration (the spec a) <? budget)%N && forallb (compatible spec a) chosen = true).
       { apply andb_true_iff. split; [apply N.ltb_lt; lia|]. apply forallb_forall. intros b Hb.
@@ -458,10 +517,28 @@ Proof.
         rewrite Forall_forall in after. apply after in Hb. lia.
       * now rewrite R.
       * now rewrite R.
-      * right. lia.
+      * lia.
     + apply (IH _ _ skip B sorted); auto.
       intros b Hb. destruct (inside b Hb) as [<-|]; [contradiction | assumption].
 Qed.
+
+Lemma all_cheaper_from : forall good cand, StronglySorted lt cand -> forall chosen budget, (0 < budget)%N ->
+  (forall B, StronglySorted lt B -> incl B cand -> (total_duration spec B < budget)%N -> good (rev chosen ++ B) = true) ->
+  all_cheaper spec good cand chosen budget = true.
+Proof.
+  intros good cand. induction 1 as [|a rest _ IH above]; cbn [all_cheaper]; intros chosen budget some H.
+  - rewrite <- (app_nil_r (rev chosen)). apply H; [constructor | now intros b | exact some].
+  - apply andb_true_iff. split.
+    + apply IH; [exact some|]. intros B sorted inside. apply H; [exact sorted|]. now apply incl_tl.
+    + destruct (_ && _) eqn:E; [|reflexivity]. apply andb_true_iff in E. destruct E as [E _]. apply N.ltb_lt in E.
+      apply IH; [lia|]. intros B sorted inside cheap. cbn [rev]. rewrite <- app_assoc. apply H.
+      * constructor; [exact sorted|]. rewrite Forall_forall in *. intros b Hb. now apply above, inside.
+      * intros b [<-|Hb]; [now left | right; now apply inside].
+      * change (total_duration spec ([a] ++ B)) with (duration (the spec a) + total_duration spec B)%N. lia.
+Qed.
+
+Lemma candidates_sorted : forall s, StronglySorted lt (candidates spec fine s).
+Proof. intros s. apply filter_sorted, seq_sorted. Qed.
 
 Lemma ok_candidates : forall s A, action_set spec A -> ok spec order s A -> incl A (candidates spec fine s).
 Proof.
@@ -482,53 +559,96 @@ Proof.
   - apply agree_spec. intros x v w. now apply (nominals_agree _ _ _ _ allowed).
 Qed.
 
-Lemma no_better_spec : forall pi fuel s A, no_better spec order fine pi fuel s A = true ->
+Lemma no_better_spec : forall pi s A, keeps_ok pi ->
+  no_better spec order fine pi fuel s A = true <->
   forall B, action_set spec B -> ok spec order s B -> (total_duration spec B < total_duration spec A)%N ->
-  ~ reaches pi s B.
+    ~ reaches pi s B.
 Proof.
-  intros pi fuel s A H B set allowed cheap. unfold no_better in H. apply orb_true_iff in H.
-  destruct H as [H|H]; [apply N.eqb_eq in H; lia|].
-  assert (sorted := proj1 set).
-  apply (all_cheaper_spec _ _ (filter_sorted _ _ (seq_sorted _ _)) _ _) with (B := B) in H.
-  - cbn [rev app] in H. rewrite (proj2 (is_ok_spec s B) allowed) in H.
-    assert (V := serves_spec pi fuel s B). now destruct (serves _ _ _ _ _).
-  - exact sorted.
-  - exact (ok_candidates s B set allowed).
-  - now apply sorted_nodup.
-  - intros a b. now apply (ok_compatible s).
-  - now right.
+  intros pi s A keep. unfold no_better. split.
+  - intros H B set allowed cheap reach. apply orb_true_iff in H.
+    destruct H as [H|H]; [apply N.eqb_eq in H; lia|].
+    apply (all_cheaper_all _ _ (candidates_sorted s)) with (B := B) in H.
+    + cbn [rev app] in H. rewrite (proj2 (is_ok_spec s B) allowed) in H.
+      now rewrite (proj2 (serves_spec pi s B keep allowed) reach) in H.
+    + apply set.
+    + exact (ok_candidates s B set allowed).
+    + apply sorted_nodup, set.
+    + intros a b. now apply (ok_compatible s).
+    + exact cheap.
+  - intros H. apply orb_true_iff. destruct (N.eqb_spec (total_duration spec A) 0) as [|some]; [now left | right].
+    apply all_cheaper_from; [apply candidates_sorted | lia|]. intros B sorted inside cheap. cbn [rev app].
+    apply negb_true_iff, not_true_iff_false. rewrite andb_true_iff, is_ok_spec. intros [allowed reach].
+    apply (H B); [|exact allowed | exact cheap | now apply serves_reaches in reach].
+    split; [exact sorted|]. intros a Ha. apply inside, filter_In in Ha. destruct Ha as [Ha _]. apply in_seq in Ha. lia.
 Qed.
 
 (** ** The theorem *)
 
-Lemma check_state_spec : forall t fuel s, check_state spec order fine t fuel s = true ->
-  action_set spec (policy_of t s) /\ ok spec order s (policy_of t s) /\ reaches (policy_of t) s (policy_of t s) /\
-  (safe spec s \/ no_better spec order fine (policy_of t) fuel s (policy_of t s) = true).
+(** Every valid state has an entry. *)
+Definition total (t : table) : Prop := forall s, valid spec s -> exists A, lookup t s = Some (Some A).
+
+Lemma is_action_set_spec : forall A, is_action_set spec A = true <-> action_set spec A.
 Proof.
-  intros t fuel s H. unfold check_state in H. unfold policy_of at 1 2 4 6.
-  destruct (lookup t s) as [[A|]|]; try discriminate.
-  rewrite !andb_true_iff, orb_true_iff, fine_safe, is_ok_spec in H. destruct H as [[[set allowed] serve] best].
-  assert (V := serves_spec (policy_of t) fuel s A). destruct (serves _ _ _ _ _); try discriminate.
-  split; [|split; [exact allowed | split; [exact V | exact best]]].
-  apply increasing_below_spec in set. destruct set as [sorted bounds]. split; [exact sorted|]. apply bounds.
+  intros A. unfold is_action_set, action_set. rewrite increasing_below_spec.
+  split; intros [sorted bounds]; (split; [exact sorted|]); intros a Ha; specialize (bounds a Ha); lia.
+Qed.
+
+Lemma check_spec : forall t, check spec order t = true <->
+  forall s, valid spec s -> check_state spec order fine t fuel s = true.
+Proof.
+  intros t. unfold check. rewrite forallb_forall. split; intros H s.
+  - intros V. assert (I : is_state spec s) by apply V. specialize (H s (proj2 (in_all_states _ _) I)).
+    apply (assumed_spec s I) in V. now rewrite V in H.
+  - intros I. apply in_all_states in I. destruct (assumed spec s) eqn:E; [|reflexivity].
+    apply H. now apply assumed_spec.
+Qed.
+
+Lemma check_state_ok : forall t s, check_state spec order fine t fuel s = true -> ok spec order s (policy_of t s).
+Proof.
+  intros t s H. unfold check_state in H. unfold policy_of. destruct (lookup t s) as [[A|]|]; try discriminate.
+  rewrite !andb_true_iff in H. now apply is_ok_spec.
+Qed.
+
+Lemma check_state_spec : forall t s, keeps_ok (policy_of t) ->
+  check_state spec order fine t fuel s = true <->
+  (exists A, lookup t s = Some (Some A)) /\
+  action_set spec (policy_of t s) /\ ok spec order s (policy_of t s) /\ reaches (policy_of t) s (policy_of t s) /\
+  (~ safe spec s -> forall B, action_set spec B -> ok spec order s B ->
+    (total_duration spec B < total_duration spec (policy_of t s))%N -> ~ reaches (policy_of t) s B).
+Proof.
+  intros t s keep. unfold check_state. assert (E : forall A, lookup t s = Some (Some A) -> policy_of t s = A).
+  { intros A E. unfold policy_of. now rewrite E. }
+  destruct (lookup t s) as [[A|]|]; [|split; [discriminate | intros [[A H] _]; discriminate] ..].
+  rewrite (E A eq_refl), !andb_true_iff, orb_true_iff, is_action_set_spec, is_ok_spec, fine_safe,
+    (no_better_spec _ _ _ keep). split.
+  - intros [[[set allowed] serve] best]. apply (serves_spec _ _ _ keep allowed) in serve.
+    split; [now exists A|]. repeat (split; [assumption|]). intros U. now destruct best.
+  - intros (_ & set & allowed & reach & best). apply (serves_spec _ _ _ keep allowed) in reach.
+    split; [exact (conj (conj set allowed) reach)|]. destruct (fine s) eqn:F; [left; now apply fine_safe | right].
+    apply best. rewrite <- fine_safe, F. discriminate.
+Qed.
+
+Theorem checker_exact : forall t, check spec order t = true <->
+  total t /\ sound_and_complete spec order (policy_of t) /\ minimal spec order (policy_of t).
+Proof.
+  intros t. rewrite check_spec. split.
+  - intros H. assert (keep : keeps_ok (policy_of t)) by (intros s V; now apply check_state_ok, H).
+    assert (K : forall s, valid spec s -> _) by (intros s V; exact (proj1 (check_state_spec t s keep) (H s V))).
+    assert (right : sound_and_complete spec order (policy_of t)).
+    { intros s V. destruct (K s V) as (_ & set & allowed & reach & _). rewrite <- reaches_own. auto. }
+    split; [intros s V; apply (K s V) | split; [exact right|]].
+    apply minimal_iff; [exact right|]. intros s A V U. now apply (K s V).
+  - intros (entries & right & best) s V. assert (keep : keeps_ok (policy_of t)) by (intros u W; apply (right u W)).
+    apply (check_state_spec t s keep). destruct (right s V) as (set & allowed & reach).
+    repeat (split; [auto|]); [now apply reaches_own|].
+    intros U B. now apply (proj1 (minimal_iff _ right) best).
 Qed.
 
 Theorem checker_sound : forall t, check spec order t = true ->
   sound_and_complete spec order (policy_of t) /\ minimal spec order (policy_of t).
-Proof.
-  intros t H. unfold check in H. rewrite forallb_forall in H.
-  set (fuel := 4 * length (all_states (sizes spec)) + 8) in H.
-  assert (K : forall s, valid spec s -> check_state spec order fine t fuel s = true).
-  { intros s V. assert (I : is_state spec s) by apply V. specialize (H s (in_all_states _ _ I)).
-    apply (assumed_spec s I) in V. now rewrite V in H. }
-  clear H. split.
-  - intros s V. destruct (check_state_spec _ _ _ (K s V)) as (set & allowed & serve & _).
-    split; [exact set | split; [exact allowed | now apply reaches_own]].
-  - intros s A V U set allowed cheap right.
-    destruct (check_state_spec _ _ _ (K s V)) as (_ & _ & _ & [safe_here|best]); [contradiction|].
-    apply (no_better_spec _ _ _ _ best A set allowed cheap). now apply changed_reaches.
-Qed.
+Proof. intros t H. now apply checker_exact in H. Qed.
 
 End Correctness.
 
+Print Assumptions checker_exact.
 Print Assumptions checker_sound.
