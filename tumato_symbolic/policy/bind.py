@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 
@@ -10,7 +10,8 @@ from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.policy.diagram import Diagram, Leaf, Reference, rebuild
 from tumato_symbolic.policy.model import Certificate, DecisionDiagram, Policy, RankedGoal, Table, Vocabulary
 from tumato_symbolic.policy.problems import MOST, show, way_out
-from tumato_symbolic.spec import Spec
+from tumato_symbolic.semantics import ActionSet, State
+from tumato_symbolic.spec import Assignment, Spec
 
 
 def bind(policy: Policy, spec: Spec) -> Policy:
@@ -20,10 +21,7 @@ def bind(policy: Policy, spec: Spec) -> Policy:
     TUM505). A certificate that speaks of unknown actions is set aside.
     """
     target = Vocabulary.of(spec)
-    problems = tuple(islice(_problems(policy.vocabulary, target), MOST))
-    if problems:
-        raise UserError(problems)
-    renumbering = _Renumbering.between(policy.vocabulary, target)
+    renumbering = Renumbering.between(policy.vocabulary, target, "policy")
     certificate, problem = _certificate(policy, target)
     if certificate is not None:
         certificate = renumbering.certificate(certificate)
@@ -32,36 +30,36 @@ def bind(policy: Policy, spec: Spec) -> Policy:
     return replace(policy, vocabulary=target, decisions=bound, certificate=certificate, certificate_problem=problem)
 
 
-def _problems(source: Vocabulary, target: Vocabulary) -> Iterator[Diagnostic]:
+def _problems(source: Vocabulary, target: Vocabulary, what: str) -> Iterator[Diagnostic]:
     ours, theirs = dict(target.variables), dict(source.variables)
     for name, known in source.variables:
         if name not in ours:
-            message = f"the policy speaks of the variable {show(name)}, which the specification does not have"
+            message = f"the {what} speaks of the variable {show(name)}, which the specification does not have"
             yield Diagnostic(Code.TUM503, message, help=way_out(name, ours, "variables of the specification"))
             continue
         for value in known:
             if value not in ours[name]:
                 message = (
-                    f"the policy knows a value {show(value)} of {show(name)}, which the specification does not have"
+                    f"the {what} knows a value {show(value)} of {show(name)}, which the specification does not have"
                 )
                 yield Diagnostic(Code.TUM504, message, help=way_out(value, ours[name], "values in the specification"))
     for name, values in target.variables:
         if name not in theirs:
-            message = f"the policy does not know the variable {show(name)} of the specification"
-            yield Diagnostic(Code.TUM503, message, help="synthesize the policy again")
+            message = f"the {what} does not know the variable {show(name)} of the specification"
+            yield Diagnostic(Code.TUM503, message, help="synthesize again")
             continue
         for value in values:
             if value not in theirs[name]:
-                message = f"the policy does not know the value {show(value)} of {show(name)} in the specification"
-                yield Diagnostic(Code.TUM504, message, help="add it to `States`, or synthesize the policy again")
+                message = f"the {what} does not know the value {show(value)} of {show(name)} in the specification"
+                yield Diagnostic(Code.TUM504, message, help="add it to `States`, or synthesize again")
     for action in source.actions:
         if action not in target.actions:
-            message = f"the policy speaks of the action {show(action)}, which the specification does not have"
+            message = f"the {what} speaks of the action {show(action)}, which the specification does not have"
             yield Diagnostic(Code.TUM505, message, help=way_out(action, target.actions, "actions of the specification"))
     for action in target.actions:
         if action not in source.actions:
-            message = f"the policy does not know the action {show(action)} of the specification"
-            yield Diagnostic(Code.TUM505, message, help="add it to `Actions`, or synthesize the policy again")
+            message = f"the {what} does not know the action {show(action)} of the specification"
+            yield Diagnostic(Code.TUM505, message, help="add it to `Actions`, or synthesize again")
 
 
 def _certificate(policy: Policy, target: Vocabulary) -> tuple[Certificate | None, str | None]:
@@ -75,7 +73,7 @@ def _certificate(policy: Policy, target: Vocabulary) -> tuple[Certificate | None
 
 
 @dataclass(frozen=True, slots=True)
-class _Renumbering:
+class Renumbering:
     """`variables[old]` and `actions[old]` are new numbers; `values[old]` lists, for new value numbers, the old ones."""
 
     variables: tuple[int, ...]
@@ -84,7 +82,14 @@ class _Renumbering:
     action_count: int
 
     @classmethod
-    def between(cls, source: Vocabulary, target: Vocabulary) -> _Renumbering:
+    def between(cls, source: Vocabulary, target: Vocabulary, what: str) -> Renumbering:
+        """From one vocabulary to another with the same names. Raises `UserError` where they differ.
+
+        `what` is what the owner of `source` is called in messages.
+        """
+        problems = tuple(islice(_problems(source, target, what), MOST))
+        if problems:
+            raise UserError(problems)
         places = {name: number for number, (name, _) in enumerate(target.variables)}
         wanted = dict(target.variables)
         return cls(
@@ -93,6 +98,18 @@ class _Renumbering:
             tuple(target.actions.index(name) for name in source.actions),
             len(target.actions),
         )
+
+    def assignment(self, assignment: Iterable[tuple[int, int]]) -> Assignment:
+        """The same variables with the same values."""
+        return tuple(sorted((self.variables[old], self.values[old].index(value)) for old, value in assignment))
+
+    def state(self, state: State) -> State:
+        """The same state."""
+        return tuple(value for _, value in self.assignment(enumerate(state)))
+
+    def action_set(self, chosen: Iterable[int]) -> ActionSet:
+        """The same actions."""
+        return frozenset(self.actions[old] for old in chosen)
 
     def table(self, table: Table) -> Table:
         """Every row with new numbers, in row-major order."""
@@ -109,17 +126,18 @@ class _Renumbering:
         never = decisions.diagram.leaves.index(False)
         by_action = dict(zip(self.actions, decisions.roots, strict=True))
         wanted = [by_action.get(action, never) for action in range(self.action_count)]
-        diagram, roots = self._diagram(decisions.diagram, (*wanted, decisions.defined))
+        diagram, roots = self.diagram(decisions.diagram, (*wanted, decisions.defined))
         return DecisionDiagram(diagram, roots[:-1], roots[-1])
 
     def certificate(self, certificate: Certificate) -> Certificate:
         """The ranks of the same states."""
-        ranks, roots = self._diagram(certificate.ranks, [goal.root for goal in certificate.goals])
+        ranks, roots = self.diagram(certificate.ranks, [goal.root for goal in certificate.goals])
         kept = zip(certificate.goals, roots, strict=True)
         return Certificate(ranks, tuple(RankedGoal(goal.bodies, goal.executed, root) for goal, root in kept))
 
-    def _diagram(
+    def diagram(
         self, diagram: Diagram[Leaf], roots: Sequence[Reference]
     ) -> tuple[Diagram[Leaf], tuple[Reference, ...]]:
+        """The same functions of states with new numbers; the order of tests stays as it is."""
         order = [self.variables[variable] for variable in diagram.order]
         return rebuild(diagram, roots, order, [self.values[variable] for variable in diagram.order])

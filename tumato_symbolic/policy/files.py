@@ -16,6 +16,14 @@ from tumato_symbolic.policy.write import dumps
 
 def load(path: str) -> Policy:
     """The policy in the file at `path`, UTF-8; `-` is standard input. Raises `UserError` (TUM501 to TUM508)."""
+    return loads(*read_text(path))
+
+
+def read_text(path: str) -> tuple[str, str]:
+    """The text of the file at `path` (`-` is standard input), and what it is called in messages.
+
+    Raises `UserError` (TUM501, TUM508).
+    """
     name = "<stdin>" if path == "-" else path
     try:
         if path == "-":
@@ -29,11 +37,10 @@ def load(path: str) -> Policy:
     if len(data) > MAX_BYTES:
         raise too_large(name)
     try:
-        text = data.decode()
+        return data.decode(), name
     except UnicodeDecodeError as error:
         message = f"the policy is not UTF-8 text (byte {error.start})"
         raise fault(Code.TUM501, message, None, Source(name, "")) from None
-    return loads(text, name)
 
 
 def save(policy: Policy, path: Path) -> None:
@@ -41,7 +48,12 @@ def save(policy: Policy, path: Path) -> None:
 
     A regular file is replaced as a whole, once the new text is safely on the disk; a device or pipe is written to.
     """
-    data = dumps(policy).encode()
+    save_text(dumps(policy), path, "policy")
+
+
+def save_text(text: str, path: Path, what: str) -> None:
+    """Write a text to `path` as `save` does; `what` is what it is called in messages. Raises `UserError` (TUM510)."""
+    data = text.encode()
     try:
         target = path.resolve()
         if target.is_dir():
@@ -52,7 +64,7 @@ def save(policy: Policy, path: Path) -> None:
             _replace(target, data)
     except (OSError, ValueError, RuntimeError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise fault(Code.TUM510, f"the policy cannot be written: {reason}", None, Source(str(path), "")) from None
+        raise fault(Code.TUM510, f"the {what} cannot be written: {reason}", None, Source(str(path), "")) from None
 
 
 def _replace(target: Path, data: bytes) -> None:

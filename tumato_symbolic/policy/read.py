@@ -16,6 +16,9 @@ from tumato_symbolic.spec import Ordering
 FORMAT_VERSION = 1
 """The version of this project's own sections."""
 
+UNREALIZABLE = "unrealizable"
+"""The `Type` of certificates for the answer no."""
+
 
 def loads(text: str, name: str = "policy") -> Policy:
     """The policy that `text` describes; `name` is what it is called in messages.
@@ -24,31 +27,41 @@ def loads(text: str, name: str = "policy") -> Policy:
     and `Policy.certificate_problem` tells why.
     """
     try:
-        return _policy(as_object(parse_json(text, name), "the policy"))
+        return policy_of(as_object(parse_json(text, name), "the policy"))
     except UserError as error:
         raise UserError(error.diagnostics, error.source or Source(name, "")) from None
 
 
-def _policy(document: dict[str, Any]) -> Policy:
+def policy_of(document: dict[str, Any]) -> Policy:
+    """The policy that a JSON object describes. Raises `UserError` as `loads` does."""
     form = as_text(member(document, "Type", "the policy"), "`Type`")
+    if form == UNREALIZABLE:
+        message = "this is a certificate that a specification has no policy; there is nothing to decide by it"
+        raise fault(Code.TUM502, message, "check it with `tumato-sym verify`")
     if form not in ("policy", "policy-diagram"):
         raise fault(Code.TUM502, f"`Type` is {show(form)}", 'expected "policy" or "policy-diagram"')
     if "PolicyFrameworkVersion" in document:
         as_text(document["PolicyFrameworkVersion"], "`PolicyFrameworkVersion`")
-    if as_whole(document.get("FormatVersion", FORMAT_VERSION), "`FormatVersion`") > FORMAT_VERSION:
-        message = f"`FormatVersion` is {document['FormatVersion']}, this program reads {FORMAT_VERSION}"
-        raise fault(Code.TUM502, message, "use the version of tumato-sym that wrote the policy, or a later one")
-    vocabulary = _vocabulary(document)
+    check_version(document)
+    vocabulary = read_vocabulary(document, "the policy")
     body, other = ("Policy", "Diagram") if form == "policy" else ("Diagram", "Policy")
     if other in document:
         raise fault(Code.TUM502, f"a policy of type {show(form)} must not have `{other}`", f"keep `{body}` only")
     section = member(document, body, f"a policy of type {show(form)}")
     decisions = _table(section, vocabulary) if form == "policy" else _decision_diagram(section, vocabulary)
     certificate, problem = _certificate(document, vocabulary)
-    return Policy(vocabulary, decisions, _ordering(document), _digest(document), certificate, problem)
+    return Policy(vocabulary, decisions, read_ordering(document), read_digest(document), certificate, problem)
 
 
-def _ordering(document: dict[str, Any]) -> Ordering | None:
+def check_version(document: dict[str, Any]) -> None:
+    """Raise `UserError` for a file of a later format."""
+    if as_whole(document.get("FormatVersion", FORMAT_VERSION), "`FormatVersion`") > FORMAT_VERSION:
+        message = f"`FormatVersion` is {document['FormatVersion']}, this program reads {FORMAT_VERSION}"
+        raise fault(Code.TUM502, message, "use the version of tumato-sym that wrote the file, or a later one")
+
+
+def read_ordering(document: dict[str, Any]) -> Ordering | None:
+    """The recorded effect ordering."""
     if "EffectOrdering" not in document:
         return None
     match document["EffectOrdering"]:
@@ -60,29 +73,31 @@ def _ordering(document: dict[str, Any]) -> Ordering | None:
             raise wrong("`EffectOrdering`", '"any" or "first"', value)
 
 
-def _digest(document: dict[str, Any]) -> str | None:
+def read_digest(document: dict[str, Any]) -> str | None:
+    """The recorded digest of the specification."""
     if "SpecificationDigest" not in document:
         return None
     return as_text(document["SpecificationDigest"], "`SpecificationDigest`")
 
 
-def _vocabulary(document: dict[str, Any]) -> Vocabulary:
-    actions = as_names(member(document, "Actions", "the policy"), "`Actions`")
-    states = as_object(member(document, "States", "the policy"), "`States`")
+def read_vocabulary(document: dict[str, Any], where: str) -> Vocabulary:
+    """The names that the document called `where` speaks of."""
+    actions = as_names(member(document, "Actions", where), "`Actions`")
+    states = as_object(member(document, "States", where), "`States`")
     if not states:
         raise fault(Code.TUM502, "`States` names no variable")
     variables = []
     for variable, section in states.items():
-        where = f"{show(as_text(variable, 'a variable'))} in `States`"
-        numbered = as_object(section, where)
+        here = f"{show(as_text(variable, 'a variable'))} in `States`"
+        numbered = as_object(section, here)
         if not numbered:
-            raise fault(Code.TUM502, f"{where} has no values")
+            raise fault(Code.TUM502, f"{here} has no values")
         values: dict[int, str] = {}
         for value, number in numbered.items():
-            as_text(value, f"a value of {where}")
-            place = as_whole(number, f"the index of {show(value)} of {where}", len(numbered))
+            as_text(value, f"a value of {here}")
+            place = as_whole(number, f"the index of {show(value)} of {here}", len(numbered))
             if values.setdefault(place, value) != value:
-                raise fault(Code.TUM502, f"{where} gives {show(values[place])} and {show(value)} the index {place}")
+                raise fault(Code.TUM502, f"{here} gives {show(values[place])} and {show(value)} the index {place}")
         variables.append((variable, tuple(values[place] for place in range(len(values)))))
     return Vocabulary(tuple(variables), actions)
 
@@ -141,7 +156,7 @@ def _contradiction(vocabulary: Vocabulary, state: State, first: int, second: int
     return fault(Code.TUM506, message, "keep one of the two rows")
 
 
-def _diagram(
+def read_diagram(
     section: dict[str, Any], title: str, vocabulary: Vocabulary
 ) -> tuple[tuple[int, ...], list[Any], tuple[Node, ...]]:
     """Order, leaves (not empty, but unchecked) and nodes of the section called `title`."""
@@ -184,7 +199,7 @@ def _nodes(entries: list[Any], where: str, sizes: list[int], base: int) -> tuple
 def _decision_diagram(value: object, vocabulary: Vocabulary) -> DecisionDiagram:
     where = "`Diagram`"
     section = as_object(value, where)
-    order, leaves, nodes = _diagram(section, "Diagram", vocabulary)
+    order, leaves, nodes = read_diagram(section, "Diagram", vocabulary)
     if leaves != [False, True] or any(type(leaf) is not bool for leaf in leaves):
         raise fault(Code.TUM502, "`Diagram.Leaves` must be [false, true]")
     named = as_object(member(section, "Roots", where), "`Diagram.Roots`")
@@ -217,7 +232,7 @@ def _certificate(document: dict[str, Any], vocabulary: Vocabulary) -> tuple[Cert
 
 def _ranks(section: dict[str, Any], vocabulary: Vocabulary) -> Certificate:
     where = "`Certificate`"
-    order, leaves, nodes = _diagram(section, "Certificate", vocabulary)
+    order, leaves, nodes = read_diagram(section, "Certificate", vocabulary)
     for leaf in leaves:
         if leaf is not None:
             as_whole(leaf, "an entry of `Certificate.Leaves`")

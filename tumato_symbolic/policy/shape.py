@@ -52,7 +52,7 @@ def parse_json(text: str, name: str) -> object:
         raise _not_json(error, name, text) from None
     except RecursionError:
         raise fault(
-            Code.TUM501, "this is not a policy: the JSON is nested too deeply", None, Source(name, "")
+            Code.TUM501, "this is no policy and no certificate: the JSON is nested too deeply", None, Source(name, "")
         ) from None
     except ValueError as error:
         raise fault(Code.TUM501, f"this is not JSON: {error}", None, Source(name, "")) from None
@@ -74,10 +74,10 @@ def _not_json(error: json.JSONDecodeError, name: str, text: str) -> UserError:
     return UserError((Diagnostic(Code.TUM501, message, span),), Source(name, error.doc))
 
 
-def too_large(name: str) -> UserError:
+def too_large(name: str, what: str = "policy") -> UserError:
     """The error for what exceeds `MAX_BYTES`."""
-    message = f"the policy is larger than {MAX_BYTES // 1024**2} MiB"
-    return fault(Code.TUM508, message, "use `--policy-format diagram`", Source(name, ""))
+    message = f"the {what} is larger than {MAX_BYTES // 1024**2} MiB"
+    return fault(Code.TUM508, message, "use `--policy-format diagram`" if what == "policy" else None, Source(name, ""))
 
 
 def wrong(where: str, expected: str, found: object) -> UserError:

@@ -44,11 +44,11 @@ def _lines(policy: Policy) -> Iterator[str]:
         yield f'  "SpecificationDigest": {_json(policy.digest)},'
     if policy.ordering is not None:
         yield f'  "EffectOrdering": "{policy.ordering}",'
-    yield from _block('  "Actions": [', map(_json, vocabulary.actions), "  ],")
-    yield from _block('  "States": {', _variables(vocabulary), "  },")
+    yield from block('  "Actions": [', map(_json, vocabulary.actions), "  ],")
+    yield from block('  "States": {', variable_entries(vocabulary), "  },")
     last = "" if policy.certificate is None else ","
     if table is not None:
-        yield from _block('  "Policy": [', _rows(table, vocabulary), f"  ]{last}")
+        yield from block('  "Policy": [', _rows(table, vocabulary), f"  ]{last}")
     else:
         yield from _decisions(as_diagram(policy), vocabulary, last)
     if policy.certificate is not None:
@@ -56,7 +56,7 @@ def _lines(policy: Policy) -> Iterator[str]:
     yield "}"
 
 
-def _block(opening: str, entries: Iterable[str], closing: str) -> Iterator[str]:
+def block(opening: str, entries: Iterable[str], closing: str) -> Iterator[str]:
     """Entries between brackets, one on every line, two columns deeper."""
     yield opening
     deeper = " " * (len(opening) - len(opening.lstrip()) + 2)
@@ -70,7 +70,8 @@ def _block(opening: str, entries: Iterable[str], closing: str) -> Iterator[str]:
     yield closing
 
 
-def _variables(vocabulary: Vocabulary) -> Iterator[str]:
+def variable_entries(vocabulary: Vocabulary) -> Iterator[str]:
+    """The entries of `States`."""
     for name, values in vocabulary.variables:
         yield f"{_json(name)}: {_json({value: number for number, value in enumerate(values)})}"
 
@@ -86,7 +87,7 @@ def _rows(table: Table, vocabulary: Vocabulary) -> Iterator[str]:
 def _decisions(decisions: DecisionDiagram, vocabulary: Vocabulary, last: str) -> Iterator[str]:
     diagram, roots = rebuild(decisions.diagram, (*decisions.roots, decisions.defined))
     yield '  "Diagram": {'
-    yield from _diagram(diagram, vocabulary)
+    yield from diagram_lines(diagram, vocabulary)
     yield f'    "Roots": {_json(dict(zip(vocabulary.actions, roots, strict=False)))},'
     yield f'    "Defined": {roots[-1]}'
     yield f"  }}{last}"
@@ -95,16 +96,17 @@ def _decisions(decisions: DecisionDiagram, vocabulary: Vocabulary, last: str) ->
 def _certificate(certificate: Certificate, vocabulary: Vocabulary) -> Iterator[str]:
     ranks, roots = rebuild(certificate.ranks, [goal.root for goal in certificate.goals])
     yield '  "Certificate": {'
-    yield from _diagram(ranks, vocabulary)
+    yield from diagram_lines(ranks, vocabulary)
     goals = [
         _json({"Bodies": goal.bodies, "Executed": goal.executed, "Root": root})
         for goal, root in zip(certificate.goals, roots, strict=True)
     ]
-    yield from _block('    "Goals": [', goals, "    ]")
+    yield from block('    "Goals": [', goals, "    ]")
     yield "  }"
 
 
-def _diagram(diagram: Diagram[Any], vocabulary: Vocabulary) -> Iterator[str]:
+def diagram_lines(diagram: Diagram[Any], vocabulary: Vocabulary) -> Iterator[str]:
+    """`Order`, `Leaves` and `Nodes`, with a comma behind."""
     yield f'    "Order": {_json([vocabulary.variables[variable][0] for variable in diagram.order])},'
     yield f'    "Leaves": {_json(diagram.leaves)},'
-    yield from _block('    "Nodes": [', (_json(node) for node in diagram.nodes), "    ],")
+    yield from block('    "Nodes": [', (_json(node) for node in diagram.nodes), "    ],")
