@@ -1,0 +1,173 @@
+(** The checker's answers about one step: safe states, outcomes, allowed sets. *)
+
+From Coq Require Import Bool List Arith Lia Permutation.
+From Tumato Require Import Semantics Checker Lists.
+Import ListNotations.
+
+Section Steps.
+
+Variables (spec : specification) (order : ordering).
+
+Lemma all_hold_spec : forall s fs, forallb (holds s []) fs = true <-> all_hold s fs.
+Proof. intros s fs. apply forallb_forall. Qed.
+
+Lemma assumed_spec : forall s, is_state spec s -> assumed spec s = true <-> valid spec s.
+Proof. intros s H. unfold assumed, valid. rewrite all_hold_spec. tauto. Qed.
+
+Definition fine : state -> bool := is_true_at (build (keeps_rules spec) (sizes spec)).
+
+Lemma fine_safe : forall s, fine s = true <-> safe spec s.
+Proof.
+  intros s. unfold fine, is_true_at.
+  assert (K : forall b, lookup (build (keeps_rules spec) (sizes spec)) s = Some b <->
+    is_state spec s /\ b = keeps_rules spec s) by (intros b; apply lookup_build).
+  assert (R : is_state spec s -> keeps_rules spec s = true <-> safe spec s).
+  { intros H. unfold keeps_rules, safe. now rewrite andb_true_iff, assumed_spec, all_hold_spec. }
+  destruct (lookup _ s) as [b|] eqn:E.
+  - destruct (proj1 (K b) eq_refl) as [H ->]. now apply R.
+  - split; [discriminate|]. intros H. assert (I : is_state spec s) by apply H.
+    assert (F : None = Some true) by (apply K; split; [exact I | symmetry; now apply R]). discriminate F.
+Qed.
+
+(** ** What a step can lead to *)
+
+Lemma one_fine_spec : forall s A,
+  one_fine spec fine s A = true <-> forall a e, In a A -> In e (effects spec a) -> fine (apply e s) = true.
+Proof.
+  intros s A. unfold one_fine. rewrite forallb_forall. split.
+  - intros H a e Ha He. specialize (H a Ha). rewrite forallb_forall in H. now apply H.
+  - intros H a Ha. apply forallb_forall. intros e He. now apply (H a).
+Qed.
+
+Lemma in_after_one : forall f s A a e, In (s, A) f -> In a A -> In e (effects spec a) -> apply e s <> s ->
+  In (apply e s, without a A) (after_one spec f).
+Proof.
+  intros f s A a e H Ha He new. unfold after_one. apply in_flat_map. exists (s, A). split; [exact H|].
+  apply in_flat_map. exists a. split; [exact Ha|]. apply in_map_iff. exists e. split; [reflexivity|].
+  apply filter_In. split; [exact He|]. apply negb_true_iff, not_true_iff_false. now rewrite same_list_eq.
+Qed.
+
+Lemma after_one_in : forall f p, In p (after_one spec f) ->
+  exists s A a e, In (s, A) f /\ In a A /\ In e (effects spec a) /\ p = (apply e s, without a A).
+Proof.
+  intros f p H. unfold after_one in H. apply in_flat_map in H. destruct H as [[s A] [Hf H]].
+  apply in_flat_map in H. destruct H as [a [Ha H]]. apply in_map_iff in H. destruct H as [e [<- He]].
+  apply filter_In in He. now exists s, A, a, e.
+Qed.
+
+Lemma in_without_repeats : forall f p, In p (without_repeats f) <-> In p f.
+Proof.
+  induction f as [|q f IH]; intros p; [reflexivity|]. cbn [without_repeats]. destruct f as [|r f]; [reflexivity|].
+  destruct (same_list (fst q) (fst r) && same_list (snd q) (snd r)) eqn:E.
+  - rewrite IH. apply andb_true_iff in E. rewrite !same_list_eq in E. destruct q, r. cbn in E.
+    destruct E as [-> ->]. cbn [In]. tauto.
+  - change (q = p \/ In p (without_repeats (r :: f)) <-> q = p \/ In p (r :: f)). now rewrite IH.
+Qed.
+
+Lemma in_distinct : forall f p, In p (distinct f) <-> In p f.
+Proof.
+  intros f p. unfold distinct. rewrite in_without_repeats.
+  split; apply Permutation_in; [apply Permutation_sym|]; apply PairSort.Permuted_sort.
+Qed.
+
+Lemma in_without : forall a A b, In b (without a A) <-> In b A /\ b <> a.
+Proof. intros a A b. unfold without. now rewrite filter_In, negb_true_iff, Nat.eqb_neq. Qed.
+
+Lemma without_length : forall a A, length (without a A) <= length A.
+Proof. intros a A. unfold without. induction A as [|b A IH]; cbn; [lia | destruct (b =? a); cbn; lia]. Qed.
+
+Lemma without_shorter : forall a A, In a A -> length (without a A) < length A.
+Proof.
+  intros a A. assert (L := without_length a). unfold without in *. induction A as [|b A IH]; cbn; [contradiction|].
+  specialize (L A). destruct (Nat.eqb_spec b a) as [->|differ]; cbn; [lia|].
+  intros [E|H]; [contradiction|]. apply IH in H. lia.
+Qed.
+
+Lemma struck_some : forall A s t, struck spec A s t -> exists a, In a A.
+Proof. intros A s t H. destruct H as [A s a | A s a]; now exists a. Qed.
+
+Lemma struck_fine_safe : forall A s t, struck spec A s t ->
+  forall n f B, struck_fine spec fine n f = true -> In (s, B) f -> incl A B -> length B <= n -> fine t = true.
+Proof.
+  induction 1 as [A s a e Ha He | A s a e t Ha He further IH]; intros n f B F Hf more long.
+  all: assert (HB := more a Ha).
+  all: destruct n as [|n]; [destruct B; cbn in *; [contradiction | lia]|].
+  all: pose proof F as G; cbn [struck_fine] in G; apply andb_true_iff in G; destruct G as [now later].
+  - rewrite forallb_forall in now. specialize (now _ Hf). cbn [fst snd] in now. rewrite one_fine_spec in now. now apply (now a).
+  - destruct (list_eq_dec Nat.eq_dec (apply e s) s) as [same|new].
+    + apply (IH (S n) f B F); [now rewrite same | | exact long].
+      intros b Hb. apply in_without in Hb. now apply more.
+    + assert (shorter := without_shorter _ _ HB).
+      assert (less : incl (without a A) (without a B)).
+      { intros b Hb. apply in_without in Hb. apply in_without. split; [now apply more | apply Hb]. }
+      destruct (struck_some _ _ _ further) as [b some]. apply less in some.
+      destruct n as [|n]; [destruct (without a B); cbn in *; [contradiction | lia]|].
+      apply (IH (S n) (distinct (after_one spec f)) (without a B) later); [|exact less | lia].
+      now apply in_distinct, in_after_one.
+Qed.
+
+Lemma safe_struck_fine : forall n f,
+  (forall s A t, In (s, A) f -> struck spec A s t -> fine t = true) -> struck_fine spec fine n f = true.
+Proof.
+  induction n as [|n IH]; intros f H; [reflexivity|].
+  cbn [struck_fine]. apply andb_true_iff. split.
+  - apply forallb_forall. intros [s A] Hf. apply one_fine_spec. intros a e Ha He.
+    apply (H s A); [exact Hf | now apply last_effect with a].
+  - destruct n as [|n]; [reflexivity|]. apply IH. intros t B u HB Hu.
+    apply in_distinct, after_one_in in HB. destruct HB as (s & A & a & e & Hf & Ha & He & [= -> ->]).
+    apply (H s A); [exact Hf | now apply next_effect with a e].
+Qed.
+
+Lemma out_fine_spec : forall s A,
+  out_fine spec order fine s A = true <-> forall t, out spec order s A t -> safe spec t.
+Proof.
+  intros s A. unfold out_fine, out. destruct A as [|a A].
+  { rewrite fine_safe. split; [now intros H t -> | auto]. }
+  set (B := a :: A). destruct order.
+  - split.
+    + intros F t H. apply fine_safe. apply (struck_fine_safe _ _ _ H _ _ B F); [now left | now intros b | lia].
+    + intros H. apply safe_struck_fine. intros s' A' t [[= <- <-]|[]] Ht. now apply fine_safe, H.
+  - cbn [struck_fine forallb fst snd]. rewrite !andb_true_r, one_fine_spec. split.
+    + intros F t (b & e & Hb & He & ->). apply fine_safe. now apply (F b).
+    + intros H b e Hb He. apply fine_safe, H. now exists b, e.
+Qed.
+
+(** ** What is allowed *)
+
+Lemma pairs_spec : forall A,
+  forallb (fun a => forallb (fun b =>
+    if a =? b then agree (nominal (the spec a)) (nominal (the spec a)) else compatible spec a b) A) A = true <->
+  (forall a b r, In a A -> In b A -> a <> b -> In r (resources (the spec a)) -> ~ In r (resources (the spec b))) /\
+  (forall a b x v w, In a A -> In b A ->
+    In (x, v) (nominal (the spec a)) -> In (x, w) (nominal (the spec b)) -> v = w).
+Proof.
+  intros A. rewrite forallb_forall. split.
+  - intros H.
+    assert (P : forall a b, In a A -> In b A ->
+      if a =? b then agree (nominal (the spec a)) (nominal (the spec a)) = true else compatible spec a b = true).
+    { intros a b Ha Hb. specialize (H a Ha). rewrite forallb_forall in H. specialize (H b Hb). now destruct (a =? b). }
+    split.
+    + intros a b r Ha Hb differ. specialize (P a b Ha Hb). apply Nat.eqb_neq in differ. rewrite differ in P.
+      apply andb_true_iff in P. now apply disjoint_spec.
+    + intros a b x v w Ha Hb. specialize (P a b Ha Hb). destruct (Nat.eqb_spec a b) as [same|differ].
+      * subst b. now apply agree_spec.
+      * apply andb_true_iff in P. now apply agree_spec.
+  - intros [R N] a Ha. apply forallb_forall. intros b Hb. destruct (Nat.eqb_spec a b) as [<-|differ].
+    + apply agree_spec. intros x v w. now apply N.
+    + apply andb_true_iff. split.
+      * apply disjoint_spec. intros r. now apply R.
+      * apply agree_spec. intros x v w. now apply N.
+Qed.
+
+Lemma is_ok_spec : forall s A, is_ok spec order fine s A = true <-> ok spec order s A.
+Proof.
+  intros s A. unfold is_ok. rewrite !andb_true_iff, pairs_spec, out_fine_spec, fine_safe, !forallb_forall.
+  assert (same : (forall a, In a A -> applicable spec s a = true) <->
+    (forall a, In a A -> all_hold s (preconditions (the spec a)))).
+  { split; intros H a Ha; now apply all_hold_spec, H. }
+  rewrite same. split.
+  - intros [[[[P [R N]] Q] D] O]. now constructor.
+  - intros [P R N Q O D]. tauto.
+Qed.
+
+End Steps.
