@@ -16,8 +16,11 @@ from tumato_symbolic.symbolic import Bdd, preferred
 from tumato_symbolic.synthesis.problem import Layers, Problem, evaluate
 from tumato_symbolic.synthesis.solver import Choices, Pick
 
+NARROW_ROUNDS = 24
+"""So many rounds explain one failing run only: a conflict, which often recurs all over the states, then shows soon."""
+
 RUNS_PER_ROUND = 64
-"""How many failing runs are explained before the solver is asked again."""
+"""How many failing runs are explained in every later round."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,6 +75,7 @@ class Repair:
         self._picked: list[int] = []
         self._cuts: list[tuple[int, FailingRun]] = []
         self._cubes: dict[State, Bdd] = {}
+        self._touched = problem.false
         self._rounds = 0
         self._distance: dict[tuple[int, State], int | None] = {}
 
@@ -135,10 +139,11 @@ class Repair:
 
     def _explain_some(self, failing: Bdd) -> None:
         """Clauses for some failing starts that have no state of an explained run in common."""
-        for _ in range(RUNS_PER_ROUND):
+        for _ in range(RUNS_PER_ROUND if self._rounds > NARROW_ROUNDS else 1):
             if failing == self._problem.false:
                 return
-            start = self._problem.encoding.first_state(failing)
+            met = failing & self._touched
+            start = self._problem.encoding.first_state(met if met != self._problem.false else failing)
             failing = failing & ~self._problem.encoding.manager.union(map(self._cube, self._explain(start)))
 
     def _explain(self, start: State) -> set[State]:
@@ -221,6 +226,7 @@ class Repair:
             self._numbers[state] = number
             self._options.append(options)
             self._states.append(state)
+            self._touched = self._touched | self._cube(state)
             self._picked.append(0)
         return self._numbers[state]
 
