@@ -21,7 +21,7 @@ def cases(first_seed: int) -> Iterator[Case]:
     """The profiles in turn, without end."""
     for seed in count(first_seed):
         for profile in PROFILES:
-            yield from generated(profile, seed, 3)
+            yield from generated(profile, seed, 12)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

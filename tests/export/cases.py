@@ -37,7 +37,7 @@ def generated(profile: str, seed: int, mutants: int) -> list[Case]:
     if found is None:
         return []
     right = rows_of(spec, ordering)
-    mutated = [rows for _, rows in changed_policies(world, right, Random(seed), mutants)]
+    mutated = [rows for _, rows in changed_policies(world, right, Random(seed), mutants) if rows != right]
     policies = [rows for rows in (right, found, *mutated) if rows.keys() == right.keys()]
     cases = [Case(spec, rows, ordering) for rows in policies]
     return [
