@@ -10,12 +10,14 @@ from tumato_symbolic.verify.result import (
     PropertyName,
     PropertyResult,
     Refutation,
+    UnrealizabilityVerdict,
     Verdict,
     Verification,
 )
 
 if TYPE_CHECKING:
     from tumato_symbolic.verify.prove import verify
+    from tumato_symbolic.verify.unrealizable import verify_unrealizable
 
 __all__ = [
     "PROPERTIES",
@@ -23,15 +25,21 @@ __all__ = [
     "PropertyName",
     "PropertyResult",
     "Refutation",
+    "UnrealizabilityVerdict",
     "Verdict",
     "Verification",
     "verify",
+    "verify_unrealizable",
 ]
 
 
-def __getattr__(name: str) -> Any:  # noqa: ANN401 - the one lazy name: it loads z3
-    if name != "verify":
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    from tumato_symbolic.verify.prove import verify
+def __getattr__(name: str) -> Any:  # noqa: ANN401 - the two lazy names: they load z3
+    if name == "verify":
+        from tumato_symbolic.verify.prove import verify
 
-    return verify
+        return verify
+    if name == "verify_unrealizable":
+        from tumato_symbolic.verify.unrealizable import verify_unrealizable
+
+        return verify_unrealizable
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -8,7 +8,8 @@ from typing import Any
 
 import z3
 
-from tumato_symbolic.semantics import ActionSet
+from tumato_symbolic.semantics import ActionSet, Objection
+from tumato_symbolic.spec import Spec
 from tumato_symbolic.verify.encoding import (
     Place,
     agreement_terms,
@@ -17,28 +18,28 @@ from tumato_symbolic.verify.encoding import (
     safe_term,
     successor_place,
 )
-from tumato_symbolic.verify.frame import Frame
 from tumato_symbolic.verify.solver import Solver
 from tumato_symbolic.verify.terms import Number, Term, at_most_one, conjunction, disjunction, implies
 
 
 class Choice:
-    """`executed[a]` is `a ∈ A` for a set `A` to be chosen in the state of `frame`; `after` is `δ(s, A)`."""
+    """`executed[a]` is `a ∈ A` for a set `A` to be chosen in the state `here`; `after` is `δ(s, A)`."""
 
-    def __init__(self, frame: Frame, solver: Solver) -> None:
-        self._frame = frame
-        self._spec = frame.spec
+    def __init__(self, spec: Spec, here: Place, solver: Solver) -> None:
+        self._spec = spec
+        self._here = here
         self.executed: list[Term] = [z3.Bool(f"a.{number}") for number in range(len(self._spec.actions))]
-        bits = successor_place(self._spec, frame.state, self.executed).bits
+        bits = successor_place(spec, here, self.executed).bits
         self.after = Place([[_named(solver, bit) for bit in code] for code in bits])
 
-    def conditions(self) -> list[Term]:
-        """Conditions 1 to 4 and 6, condition 5 for one effect alone, and that `A` is not empty.
+    def conditions(self, may_idle: Term = False) -> list[Term]:
+        """Conditions 1 to 4 and 6, condition 5 for one effect alone, and that `A` is not empty except where `may_idle`.
 
-        They are necessary for a set that is allowed in an unsafe state, and sufficient but for condition 5.
+        Where `may_idle` is `s ∈ S`, or false in an unsafe state, they are necessary for a set that is allowed, and
+        sufficient but for condition 5.
         """
-        spec, here, executed = self._spec, self._frame.state, self.executed
-        required: list[Term] = [disjunction(executed)]
+        spec, here, executed = self._spec, self._here, self.executed
+        required: list[Term] = [disjunction((may_idle, *executed))]
         for number, action in enumerate(spec.actions):
             holds = conjunction(formula_term(rule.formula, here) for rule in action.preconditions)
             safe = conjunction(safe_term(spec, here.after(effect)) for effect in action.effects)
@@ -50,6 +51,18 @@ class Choice:
         required += [formula_term(rule.formula, here, executed) for rule in spec.reaction_rules]
         required.append(safe_term(spec, self.after))
         return required
+
+    def lemma(self, objection: Objection) -> Term:
+        """What an unsafe outcome of a proposed set teaches of all states.
+
+        Where these actions are executed, their effects in this order lead to a safe state.
+        """
+        if objection.kind != "unsafe" or len(objection.outcome) < 2:
+            raise RuntimeError(f"the solver proposes a set that violates what it knows: {objection}")
+        written = dict(pair for step in objection.outcome for pair in step.effect)
+        reached = self._here.after(tuple(sorted(written.items())))
+        together = conjunction(self.executed[step.action] for step in objection.outcome)
+        return implies(together, safe_term(self._spec, reached))
 
     def cheaper_than(self, other: Sequence[Term]) -> Term:
         """`A` has a smaller duration than the set `other`."""

@@ -8,7 +8,6 @@ import z3
 
 from tumato_symbolic.semantics import (
     ActionSet,
-    Objection,
     Residual,
     Run,
     State,
@@ -19,13 +18,12 @@ from tumato_symbolic.semantics import (
 from tumato_symbolic.spec import Ordering
 from tumato_symbolic.verify.certificate import RankSource
 from tumato_symbolic.verify.choice import Choice
-from tumato_symbolic.verify.encoding import safe_term
 from tumato_symbolic.verify.frame import Frame, unknown_bits
 from tumato_symbolic.verify.outcomes import objections_to
 from tumato_symbolic.verify.rank_terms import RankFunction
 from tumato_symbolic.verify.result import PropertyResult, Refutation
 from tumato_symbolic.verify.solver import UndecidedError
-from tumato_symbolic.verify.terms import Term, conjunction, implies, negation
+from tumato_symbolic.verify.terms import Term, implies, negation
 
 Cheaper: TypeAlias = tuple[State, ActionSet, Run]
 
@@ -59,7 +57,7 @@ class _Search:
         self._source = source
         self._ordering = ordering
         self._solver = frame.new_solver()
-        self._choice = Choice(frame, self._solver)
+        self._choice = Choice(frame.spec, frame.state, self._solver)
         self.ranked: dict[Residual, RankFunction] = {}
         self._solver.add(frame.decided, negation(frame.safe), *self._choice.conditions())
         self._solver.add(self._choice.cheaper_than(frame.executed))
@@ -82,7 +80,7 @@ class _Search:
         failed = objections_to(spec, state, chosen, self._ordering, self._frame.deadline())
         if failed:
             for objection in failed:
-                self._learn_outcome(objection)
+                self._solver.add(self._choice.lemma(objection))
             return None
         run = follow(spec, self._source.decisions, state, chosen)
         if run.end != "goal":
@@ -91,15 +89,6 @@ class _Search:
         if duration(spec, chosen) >= duration(spec, self._source.decisions[state]):
             raise RuntimeError(f"{sorted(chosen)} is not cheaper in {state}, against the solver")
         return run
-
-    def _learn_outcome(self, objection: Objection) -> None:
-        """Where these actions are executed, their effects in this order lead to a safe state."""
-        if objection.kind != "unsafe" or len(objection.outcome) < 2:
-            raise RuntimeError(f"the solver proposes a set that violates what it knows: {objection}")
-        written = dict(pair for step in objection.outcome for pair in step.effect)
-        reached = self._frame.state.after(tuple(sorted(written.items())))
-        together = conjunction(self._choice.executed[step.action] for step in objection.outcome)
-        self._solver.add(implies(together, safe_term(self._frame.spec, reached)))
 
     def _learn_ranks(self, goal: Residual) -> None:
         """A set with this residual goal steps to a state with a rank below the bound."""

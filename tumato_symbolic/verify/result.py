@@ -10,7 +10,8 @@ from tumato_symbolic.spec import Ordering
 
 Verdict: TypeAlias = Literal["proved", "refuted", "undecided"]
 PropertyName: TypeAlias = Literal["total", "safe", "goals", "minimal", "ordering"]
-OrderingSource: TypeAlias = Literal["command line", "policy", "specification", "default"]
+OrderingSource: TypeAlias = Literal["command line", "policy", "certificate", "specification", "default"]
+UnrealizabilityKind: TypeAlias = Literal["no-allowed-set", "no-plan", "conflict"]
 
 PROPERTIES: tuple[PropertyName, ...] = ("total", "safe", "goals", "minimal")
 """What is asked by default, in the order in which it is proved."""
@@ -73,3 +74,24 @@ class Verification:
     ordering_source: OrderingSource
     certificate: CertificateUse
     valid_states: int | None
+
+
+@dataclass(frozen=True, slots=True)
+class UnrealizabilityVerdict:
+    """The answer of `verify_unrealizable`.
+
+    `reason` tells which check failed, or why there is no verdict; `state` and `chosen` are the witness, where there is
+    one: an allowed set that the certificate should have spoken of. `stale`: the certificate was made for another
+    specification, and was judged against this one all the same. `by_solver`: Z3 was needed.
+    """
+
+    verdict: Verdict
+    kind: UnrealizabilityKind
+    ordering: Ordering
+    ordering_source: OrderingSource
+    stale: bool
+    obligations: int = 0
+    by_solver: bool = False
+    reason: str | None = None
+    state: State | None = None
+    chosen: ActionSet | None = None

@@ -1,0 +1,248 @@
+"""JSON values to the certificate of the answer no. The format is described in `docs/certificate.md`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Literal, TypeVar
+
+from tumato_symbolic.diagnostics import Code
+from tumato_symbolic.policy.diagram import Diagram, Reference, rebuild
+from tumato_symbolic.policy.model import RankedGoal, Vocabulary
+from tumato_symbolic.policy.problems import fault, show, way_out
+from tumato_symbolic.policy.read import (
+    UNREALIZABLE,
+    check_version,
+    read_diagram,
+    read_digest,
+    read_ordering,
+    read_vocabulary,
+)
+from tumato_symbolic.policy.shape import as_list, as_names, as_object, as_text, as_whole, member, wrong
+from tumato_symbolic.policy.unrealizable import (
+    Choice,
+    Conflict,
+    Cube,
+    Cut,
+    Layers,
+    NoAllowedSet,
+    NoPlan,
+    Strike,
+    Unrealizability,
+    Violation,
+)
+from tumato_symbolic.semantics import State
+
+Entry = TypeVar("Entry")
+
+WHERE = "the certificate"
+
+
+def unrealizability_of(document: dict[str, Any]) -> Unrealizability:
+    """The certificate that a JSON object describes. Raises `UserError` (TUM502 to TUM505) where it describes none."""
+    form = as_text(member(document, "Type", WHERE), "`Type`")
+    if form != UNREALIZABLE:
+        raise fault(Code.TUM502, f"`Type` is {show(form)}", f'expected "{UNREALIZABLE}"')
+    check_version(document)
+    vocabulary = read_vocabulary(document, WHERE)
+    ordering, digest = read_ordering(document), read_digest(document)
+    if ordering is None or digest is None:
+        lost = "EffectOrdering" if ordering is None else "SpecificationDigest"
+        raise fault(Code.TUM502, f"{WHERE} has no `{lost}`")
+    reason = _Reader(vocabulary).reason(as_object(member(document, "Reason", WHERE), "`Reason`"))
+    return Unrealizability(vocabulary, ordering, digest, reason)
+
+
+class _Reader:
+    """Reads by the names of one vocabulary."""
+
+    def __init__(self, vocabulary: Vocabulary) -> None:
+        self._vocabulary = vocabulary
+        self._actions = {name: number for number, name in enumerate(vocabulary.actions)}
+        self._variables = {name: number for number, (name, _) in enumerate(vocabulary.variables)}
+        self._values = [{value: number for number, value in enumerate(values)} for _, values in vocabulary.variables]
+
+    def reason(self, section: dict[str, Any]) -> NoAllowedSet | NoPlan | Conflict:
+        """What `Reason` holds."""
+        match as_text(member(section, "Kind", "`Reason`"), "`Reason.Kind`"):
+            case "no-allowed-set":
+                return self._no_allowed_set(section)
+            case "no-plan":
+                return self._no_plan(section)
+            case "conflict":
+                return self._conflict(section)
+            case kind:
+                expected = 'expected "no-allowed-set", "no-plan" or "conflict"'
+                raise fault(Code.TUM502, f"`Reason.Kind` is {show(kind)}", expected)
+
+    def _no_allowed_set(self, section: dict[str, Any]) -> NoAllowedSet:
+        state = self._state(member(section, "State", "`Reason`"), "`Reason.State`")
+        cubes = member(section, "Cubes", "`Reason`")
+        return NoAllowedSet(state, None if cubes is None else _each(cubes, "Cubes", "cube", self._cube))
+
+    def _cube(self, value: object, where: str) -> Cube:
+        section = as_object(value, where)
+        executed = self._action_list(member(section, "Executed", where), f"`Executed` of {where}")
+        idle = self._action_list(member(section, "Idle", where), f"`Idle` of {where}")
+        violation = self._violation(member(section, "Violation", where), f"`Violation` of {where}")
+        return Cube(frozenset(executed), frozenset(idle), violation)
+
+    def _violation(self, value: object, where: str) -> Violation:
+        section = as_object(value, where)
+        kind = as_text(member(section, "Kind", where), f"`Kind` in {where}")
+        match kind:
+            case "precondition" | "resource" | "nominal-conflict":
+                actions = self._action_list(member(section, "Actions", where), f"`Actions` in {where}")
+                wanted = 1 if kind == "precondition" else 2
+                if len(actions) != wanted:
+                    message = f"`Actions` in {where} has {len(actions)} entries, expected {wanted}"
+                    raise fault(Code.TUM502, message)
+                return Violation(kind, actions)
+            case "reaction-rule":
+                return Violation(kind, rule=as_text(member(section, "Rule", where), f"`Rule` in {where}"))
+            case "unsafe":
+                entries = as_list(member(section, "Outcome", where), f"`Outcome` in {where}")
+                strikes = [self._strike(entry, f"strike {n} of {where}") for n, entry in enumerate(entries, 1)]
+                return Violation(kind, outcome=tuple(strikes))
+            case "idle" | "nominal-unsafe":
+                return Violation(kind)
+            case _:
+                raise fault(Code.TUM502, f"`Kind` in {where} is {show(kind)}, which is no condition")
+
+    def _strike(self, value: object, where: str) -> Strike:
+        section = as_object(value, where)
+        action = self._action(member(section, "Action", where), f"`Action` of {where}")
+        effect = as_object(member(section, "Effect", where), f"`Effect` of {where}")
+        return action, tuple(sorted(self._assigned(name, value, where) for name, value in effect.items()))
+
+    def _no_plan(self, section: dict[str, Any]) -> NoPlan:
+        state = self._state(member(section, "State", "`Reason`"), "`Reason.State`")
+        order, leaves, nodes = read_diagram(section, "Reason", self._vocabulary)
+        if leaves != [False, True] or any(type(leaf) is not bool for leaf in leaves):
+            raise fault(Code.TUM502, "`Reason.Leaves` must be [false, true]")
+        end = len(leaves) + len(nodes)
+
+        def goal(value: object, where: str) -> Layers:
+            bodies, executed, entry = self._goal(value, where)
+            layers = as_list(member(entry, "Layers", where), f"`Layers` of {where}")
+            if not layers:
+                raise fault(Code.TUM502, f"`Layers` of {where} is empty")
+            return Layers(bodies, executed, tuple(as_whole(root, f"a layer of {where}", end) for root in layers))
+
+        goals = _each(member(section, "Goals", "`Reason`"), "Goals", "goal", goal)
+        found: Diagram[bool] = Diagram(order, tuple(leaves), nodes)
+        diagram, roots = rebuild(found, [root for each in goals for root in each.roots])
+        left = iter(roots)
+        kept = tuple(Layers(each.bodies, each.executed, tuple(next(left) for _ in each.roots)) for each in goals)
+        return NoPlan(state, diagram, kept)
+
+    def _conflict(self, section: dict[str, Any]) -> Conflict:
+        order, leaves, nodes = read_diagram(section, "Reason", self._vocabulary)
+        for leaf in leaves:
+            if leaf is not None:
+                as_whole(leaf, "an entry of `Reason.Leaves`")
+        if len(set(leaves)) != len(leaves):
+            raise fault(Code.TUM502, "`Reason.Leaves` has an entry twice")
+        end = len(leaves) + len(nodes)
+
+        def goal(value: object, where: str) -> RankedGoal:
+            bodies, executed, entry = self._goal(value, where)
+            return RankedGoal(bodies, executed, as_whole(member(entry, "Root", where), f"`Root` of {where}", end))
+
+        goals = _each(member(section, "Goals", "`Reason`"), "Goals", "goal", goal)
+        choices = _each(
+            member(section, "Choices", "`Reason`"),
+            "Choices",
+            "choice",
+            lambda value, where: self._choice(value, where, len(goals)),
+        )
+        cuts = _each(
+            member(section, "Cuts", "`Reason`"),
+            "Cuts",
+            "cut",
+            lambda value, where: self._cut(value, where, len(goals), len(choices)),
+        )
+        starts = _numbers(member(section, "Starts", "`Reason`"), "`Reason.Starts`", len(choices))
+        found: Diagram[int | None] = Diagram(order, tuple(leaves), nodes)
+        distances, roots = rebuild(found, [each.root for each in goals])
+        named = tuple(RankedGoal(each.bodies, each.executed, root) for each, root in zip(goals, roots, strict=True))
+        return Conflict(starts, choices, cuts, distances, named)
+
+    def _choice(self, value: object, where: str, goals: int) -> Choice:
+        section = as_object(value, where)
+        state = self._state(member(section, "State", where), f"`State` of {where}")
+        options = []
+        for entry in as_list(member(section, "Options", where), f"`Options` of {where}"):
+            option = as_object(entry, f"an option of {where}")
+            successor = self._state(member(option, "Successor", f"an option of {where}"), f"`Successor` in {where}")
+            goal = as_whole(member(option, "Goal", f"an option of {where}"), f"`Goal` of an option of {where}", goals)
+            options.append((successor, goal))
+        return Choice(state, tuple(options))
+
+    def _cut(self, value: object, where: str, goals: int, choices: int) -> Cut:
+        section = as_object(value, where)
+        kind: Literal["path", "loop"]
+        end: State | None
+        match member(section, "Kind", where):
+            case "path":
+                kind, end = "path", self._state(member(section, "End", where), f"`End` of {where}")
+            case "loop":
+                kind, end = "loop", None
+                if "End" in section:
+                    raise fault(Code.TUM502, f"{where} is a loop, but has an `End`")
+            case found:
+                raise wrong(f"`Kind` of {where}", '"path" or "loop"', found)
+        goal = as_whole(member(section, "Goal", where), f"`Goal` of {where}", goals)
+        states = _numbers(member(section, "States", where), f"`States` of {where}", choices)
+        if not states:
+            raise fault(Code.TUM502, f"`States` of {where} is empty")
+        return Cut(kind, goal, states, end)
+
+    def _goal(self, value: object, where: str) -> tuple[tuple[str, ...], tuple[str, ...], dict[str, Any]]:
+        """Bodies, executed actions, and the whole entry."""
+        section = as_object(value, where)
+        bodies = as_names(member(section, "Bodies", where), f"`Bodies` of {where}")
+        executed = self._action_list(member(section, "Executed", where), f"`Executed` of {where}")
+        return bodies, tuple(self._vocabulary.actions[number] for number in executed), section
+
+    def _action_list(self, value: object, where: str) -> tuple[int, ...]:
+        """Different actions."""
+        return tuple(self._action(name, where) for name in as_names(value, where))
+
+    def _action(self, value: object, where: str) -> int:
+        name = as_text(value, where)
+        if name not in self._actions:
+            message = f"{where} speaks of the unknown action {show(name)}"
+            raise fault(Code.TUM505, message, way_out(name, self._actions, "actions"))
+        return self._actions[name]
+
+    def _state(self, value: object, where: str) -> State:
+        """A value for every variable, and nothing else."""
+        section = as_object(value, where)
+        given = dict(self._assigned(name, value, where) for name, value in section.items())
+        for number, (name, _) in enumerate(self._vocabulary.variables):
+            if number not in given:
+                raise fault(Code.TUM503, f"{where} has no value for {show(name)}")
+        return tuple(given[number] for number in range(len(given)))
+
+    def _assigned(self, name: str, value: object, where: str) -> tuple[int, int]:
+        """One variable and its value, by numbers."""
+        if name not in self._variables:
+            message = f"{where} has the unknown variable {show(name)}"
+            raise fault(Code.TUM503, message, way_out(name, self._variables, "variables"))
+        variable = self._variables[name]
+        text = as_text(value, f"{show(name)} in {where}")
+        known = self._values[variable]
+        if text not in known:
+            message = f"{where} gives {show(name)} the unknown value {show(text)}"
+            raise fault(Code.TUM504, message, way_out(text, known, "values"))
+        return variable, known[text]
+
+
+def _each(value: object, title: str, noun: str, read: Callable[[object, str], Entry]) -> tuple[Entry, ...]:
+    """Every entry of a list, read."""
+    entries = as_list(value, f"`Reason.{title}`")
+    return tuple(read(entry, f"{noun} {number} of `Reason`") for number, entry in enumerate(entries))
+
+
+def _numbers(value: object, where: str, below: int) -> tuple[Reference, ...]:
+    return tuple(as_whole(number, f"an entry of {where}", below) for number in as_list(value, where))

@@ -1,0 +1,107 @@
+"""Any state with any set that is allowed in it, for claims about all allowed steps (`docs/certificate.md`)."""
+
+from __future__ import annotations
+
+import math
+import time
+from typing import TypeAlias
+
+import z3
+
+from tumato_symbolic.semantics import ActionSet, State, is_safe, successor
+from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.verify.choice import Choice
+from tumato_symbolic.verify.encoding import Place, safe_term
+from tumato_symbolic.verify.goal_terms import GoalTerms
+from tumato_symbolic.verify.outcomes import objections_to
+from tumato_symbolic.verify.solver import Solver, UndecidedError
+from tumato_symbolic.verify.terms import Term, conjunction
+
+Step: TypeAlias = tuple[State, ActionSet, State]
+"""A state, a set that is allowed in it, and the nominal successor."""
+
+
+class FalseClaimError(Exception):
+    """A certificate claims what is not so; `state` and `chosen` show it, where a state and an allowed set can."""
+
+    def __init__(self, reason: str, state: State | None = None, chosen: ActionSet | None = None) -> None:
+        super().__init__(reason)
+        self.reason = reason
+        self.state = state
+        self.chosen = chosen
+
+
+class AllowedStep:
+    """A state `s`, a set `A` with `Ok(s, A)`, and `t = δ(s, A)`, sought by lazy refinement.
+
+    The solver proposes a set that meets every condition but one, which speaks of all outcomes. `semantics` checks it;
+    a proposal with an unsafe outcome teaches a lemma that holds in all states.
+    """
+
+    def __init__(self, spec: Spec, ordering: Ordering, budget: float | None) -> None:
+        self.spec = spec
+        self.proved = 0
+        self._ordering: Ordering = ordering
+        self._budget = budget
+        self._names = 0
+        self._states, self._steps = Solver(), Solver()
+        self.state = Place.fresh(spec, "s")
+        self._choice = Choice(spec, self.state, self._steps)
+        self.executed = self._choice.executed
+        self.after = self._choice.after
+        self._define(self.state.in_range(spec))
+        self.safe = self.name(safe_term(spec, self.state))
+        self._steps.add(*self._choice.conditions(self.safe))
+        active = GoalTerms.of(spec, self.state).active
+        self.goals = GoalTerms(spec, {body: self.name(term) for body, term in active.items()})
+
+    def name(self, term: Term) -> Term:
+        """A Boolean that stands for `term`."""
+        if isinstance(term, bool) or z3.is_const(term):
+            return term
+        self._names += 1
+        name = z3.Bool(f"n!{self._names}")
+        self._define(name == term)
+        return name
+
+    def _define(self, term: Term) -> None:
+        self._states.define(term)
+        self._steps.define(term)
+
+    def deadline(self) -> float:
+        """When the time for an obligation that is begun now is over, on the monotonic clock."""
+        return math.inf if self._budget is None else time.monotonic() + self._budget
+
+    def some_state(self, claim: str, *terms: Term) -> State | None:
+        """A state that meets `terms`; None where there is none, which proves `claim`. Raises `UndecidedError`."""
+        answer = self._states.ask(*terms, deadline=self.deadline())
+        if answer == "unknown":
+            raise UndecidedError(claim)
+        if answer == "sat":
+            return self.state.read(self._states.model)
+        self.proved += 1
+        return None
+
+    def some_step(self, claim: str, *terms: Term) -> Step | None:
+        """An allowed step that meets `terms`; None where there is none, which proves `claim`.
+
+        Raises `UndecidedError`.
+        """
+        deadline = self.deadline()
+        while (answer := self._steps.ask(*terms, deadline=deadline)) == "sat":
+            state, chosen = self.state.read(self._steps.model), self._choice.read(self._steps.model)
+            failed = objections_to(self.spec, state, chosen, self._ordering, deadline)
+            if not failed:
+                return state, chosen, successor(self.spec, state, chosen)
+            if not chosen:
+                raise RuntimeError(f"the solver does nothing in {state}, safe: {is_safe(self.spec, state)}")
+            self._steps.add(*map(self._choice.lemma, failed))
+        if answer == "unknown":
+            raise UndecidedError(claim)
+        self.proved += 1
+        return None
+
+
+def is_state(place: Place, state: State) -> Term:
+    """The place is this state."""
+    return conjunction(place.has(variable, value) for variable, value in enumerate(state))

@@ -1,0 +1,78 @@
+"""The verdict on a certificate that a specification has no policy (`docs/certificate.md`)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from tumato_symbolic.policy.unrealizable import NoAllowedSet, NoPlan, Unrealizability
+from tumato_symbolic.policy.unrealizable_file import bind
+from tumato_symbolic.spec import Ordering, Spec, digest
+from tumato_symbolic.verify.allowed_step import AllowedStep, FalseClaimError
+from tumato_symbolic.verify.conflict import check_conflict
+from tumato_symbolic.verify.no_allowed_set import check_no_allowed_set
+from tumato_symbolic.verify.no_plan import check_no_plan
+from tumato_symbolic.verify.result import UnrealizabilityKind, UnrealizabilityVerdict
+from tumato_symbolic.verify.solver import UndecidedError
+
+OBLIGATION_BUDGET = 30.0
+"""How many seconds Z3 may think about one obligation."""
+
+_WRITES_FIRST = (
+    "it speaks of the effect ordering any, but the specification writes first, under which more sets are allowed"
+)
+
+
+def verify_unrealizable(
+    certificate: Unrealizability,
+    spec: Spec,
+    *,
+    ordering: Ordering | None = None,
+    timeout: float | None = OBLIGATION_BUDGET,
+    progress: Callable[[str], None] | None = None,
+) -> UnrealizabilityVerdict:
+    """Prove by `certificate` that `spec` has no policy, or refute the certificate with the check that it fails.
+
+    Nothing in the certificate is believed. `ordering` overrules the effect ordering that it records. `timeout` limits
+    the time, in seconds, of each obligation (None: no limit); what is not proved in time is undecided.
+
+    *Refuted* says that the certificate is no proof, not that there is a policy. Raises `UserError` when the names of
+    the certificate do not fit the specification.
+    """
+    reason = bind(certificate, spec).reason
+    judged: Ordering = ordering or certificate.ordering
+    found = UnrealizabilityVerdict(
+        "proved",
+        _kind(certificate),
+        judged,
+        "command line" if ordering is not None else "certificate",
+        certificate.digest != digest(spec),
+    )
+    if ordering is None and (judged, spec.effect_ordering) == ("any", "first"):
+        return replace(found, verdict="refuted", reason=_WRITES_FIRST)
+    if progress is not None:
+        progress("checking why there is no policy")
+    step = AllowedStep(spec, judged, timeout)
+    try:
+        match reason:
+            case NoAllowedSet():
+                checked = check_no_allowed_set(reason, step, judged)
+            case NoPlan():
+                checked = check_no_plan(reason, step)
+            case _:
+                checked = check_conflict(reason, step)
+    except FalseClaimError as false:
+        return replace(found, verdict="refuted", reason=false.reason, state=false.state, chosen=false.chosen)
+    except UndecidedError as undecided:
+        return replace(found, verdict="undecided", reason=str(undecided))
+    return replace(found, obligations=checked + step.proved, by_solver=step.proved > 0)
+
+
+def _kind(certificate: Unrealizability) -> UnrealizabilityKind:
+    match certificate.reason:
+        case NoAllowedSet():
+            return "no-allowed-set"
+        case NoPlan():
+            return "no-plan"
+        case _:
+            return "conflict"
