@@ -40,8 +40,10 @@ $(VENV)/.made:
 
 $(VENV)/.runtime: pyproject.toml | $(VENV)/.made
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e .
+	$(BIN)/python -m compileall -q tumato_symbolic
 	@touch $@
 
 $(VENV)/.development: pyproject.toml | $(VENV)/.made
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[dev]'
+	$(BIN)/python -m compileall -q tumato_symbolic
 	@touch $@ $(VENV)/.runtime
