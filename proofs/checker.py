@@ -12,17 +12,18 @@ second opinion that can be read in one sitting. It looks at every valid state an
     minimal  where safety is restored, no cheaper allowed set would do as well
 
 Exit codes: 0 all hold; 1 one fails; 2 unreadable input, or a specification with errors; 3 too large to look at every
-state; 70 this program is broken. A certificate (ranks) is judged as well, but counts only with `--strict`.
+state; 70 this program is broken. A certificate (ranks) is judged as well: one that is wrong, or stale (made for another
+specification), counts only with `--strict`; one that is absent or incomplete never does.
 
-Not judged: policies of type `policy-diagram`; whether a certificate is stale, that is, whether the digest in the policy
-is that of this specification; and whether the specification says what was meant. Of the limits on the size of a text
-(docs/language.md) only those on numbers are kept.
+Not judged: policies of type `policy-diagram`; and whether the specification says what was meant. Of the limits on the
+size of a text (docs/language.md) only those on numbers are kept.
 """
 # ruff: noqa: ANN401, D102, N818
 
 from __future__ import annotations
 
 import argparse
+import hashlib
 import itertools
 import json
 import math
@@ -30,7 +31,7 @@ import re
 import sys
 import traceback
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -808,31 +809,58 @@ def text_of(formula: Formula, spec: Specification) -> str:
 
 # ----------------------------------------------------------------------------------------------------------------------
 # 7. The certificate (docs/certificate.md, docs/policy.md): for every residual goal a diagram with the ranks of the safe
-#    states. It is right when a rank is 0 only where the goal holds, is otherwise larger than that of the successor, and
-#    every first successor has one below L.
+#    states. It is wrong when a rank is 0 where the goal does not hold, is otherwise not larger than that of the
+#    successor, or is not below L in the first successor of a state that owes the goal; incomplete where ranks miss.
 
 
-def judge_certificate(judge: Judge, document: dict[str, Any]) -> None:
-    """Raise Unreadable where the certificate is wrong."""
-    certificate, world = document["Certificate"], judge.world
+def judge_certificate(judge: Judge, document: dict[str, Any]) -> tuple[str, str]:
+    """What the certificate is (`absent`, `stale`, `wrong`, `incomplete` or `right`), and why."""
+    if "Certificate" not in document:
+        return "absent", ""
+    if document.get("SpecificationDigest") != digest(judge.world.spec):
+        return "stale", "it was made for another specification, or says for none"
+    try:
+        ranks = read_ranks(judge.world, document)
+        for goal, rank in ranks.items():
+            for state, own in rank.items():
+                check_rank(judge, goal, rank, state, own)
+        missing = [check_bound(judge, state, ranks) for state in judge.allowed]
+    except Unreadable as problem:
+        return "wrong", str(problem)
+    first = next((why for why in missing if why), "")
+    return ("incomplete", first) if first else ("right", "")
+
+
+def read_ranks(world: World, document: dict[str, Any]) -> dict[Residual, dict[State, int | None]]:
+    """The ranks of all safe states, by residual goal."""
+    certificate = document["Certificate"]
     check_diagram(certificate, document["States"])
     bodies = {text_of(body, world.spec): body for body in bodies_of(world.spec.goals)}
-    ranked: list[tuple[Residual, dict[State, Any]]] = []
+    ranks: dict[Residual, dict[State, int | None]] = {}
     for entry in certificate["Goals"]:
         need(isinstance(entry, dict) and {"Bodies", "Executed", "Root"} <= set(entry), "an entry of `Goals` is no goal")
-        need(is_texts(entry["Bodies"]) and is_texts(entry["Executed"]), "`Bodies` and `Executed` are lists of texts")
+        for key in ("Bodies", "Executed"):
+            need(is_texts(entry[key]) and len(set(entry[key])) == len(entry[key]), f"`{key}` is no list of names")
         need(set(entry["Bodies"]) <= set(bodies), f"there is no such goal: {entry['Bodies']}")
         goal = frozenset(bodies[text] for text in entry["Bodies"]), frozenset(entry["Executed"])
         need(goal[1] <= actions_in(goal[0]), "`Executed` has an action of which the goal does not speak")
-        rank = {state: leaf(certificate, document["States"], entry["Root"], world, state) for state in world.safe}
-        for state, own in rank.items():
-            check_rank(judge, goal, rank, state, own)
-        ranked.append((goal, rank))
-    for state in judge.allowed:
-        after, goal = judge.after[state], world.residual_goal(state, judge.decided[state])
-        own = [rank[after] for other, rank in ranked if other == goal]
-        need(own != [] and None not in own, f"{world.show(after)}, which follows {world.show(state)}, has no rank")
-        need(world.spec.bound is None or max(own) < world.spec.bound, f"the rank {max(own)} is not below the bound")
+        need(goal not in ranks, f"it ranks {entry['Bodies']} twice")
+        ranks[goal] = {s: leaf(certificate, document["States"], entry["Root"], world, s) for s in world.safe}
+    return ranks
+
+
+def check_bound(judge: Judge, state: State, ranks: dict[Residual, dict[State, int | None]]) -> str:
+    """Refuse a rank of the successor that exceeds the bound; tell where one that is needed is missing."""
+    world, after = judge.world, judge.after[state]
+    goal = world.residual_goal(state, judge.decided[state])
+    own = ranks.get(goal, {}).get(after)
+    if not goal[0]:
+        return ""  # nothing is owed
+    if own is None:
+        return f"{world.show(after)}, which follows {world.show(state)}, has no rank"
+    below = world.spec.bound is None or own < world.spec.bound
+    need(below, f"the rank {own} of {world.show(after)}, which follows {world.show(state)}, is not below the bound")
+    return ""
 
 
 def check_rank(judge: Judge, goal: Residual, rank: dict[State, Any], state: State, own: int | None) -> None:
@@ -849,6 +877,51 @@ def bodies_of(goal: Goal | None) -> set[Formula]:
     if goal is None:
         return set()
     return ({goal.body} if goal.kind == "goal" else set()).union(*map(bodies_of, goal.members))
+
+
+def digest(spec: Specification) -> str:
+    """What identifies the meaning of a specification (docs/certificate.md, The digest)."""
+    meaning = {
+        "version": 1,
+        "variables": {name: sorted(values) for name, values in spec.variables.items()},
+        "actions": {name: meaning_of_action(spec, action) for name, action in spec.actions.items()},
+        "reaction_rules": texts_of(spec, spec.reaction_rules),
+        "state_rules": texts_of(spec, spec.state_rules),
+        "assumptions": texts_of(spec, spec.assumptions),
+        "goals": meaning_of_goal(spec, spec.goals) if spec.goals is not None and spec.goals.members else None,
+        "max_plan_length": spec.bound,
+    }
+    text = json.dumps(meaning, sort_keys=True, separators=(",", ":"))
+    return "sha256:" + hashlib.sha256(text.encode()).hexdigest()
+
+
+def texts_of(spec: Specification, rules: list[Located]) -> list[str]:
+    """Rules without their places and their order."""
+    return sorted({text_of(rule, spec) for rule, _ in rules})
+
+
+def meaning_of_action(spec: Specification, action: Action) -> dict[str, Any]:
+    """An action by names; what it does nominally is no alternative, and an alternative counts once."""
+    names = list(spec.variables)
+    nominal, *others = ({names[place]: value for place, value in effect.items()} for effect in action.effects)
+    alternatives = sorted({tuple(sorted(effect.items())) for effect in others if effect != nominal})
+    return {
+        "duration": action.duration,
+        "resources": sorted(action.holds_resources),
+        "preconditions": texts_of(spec, action.preconditions),
+        "nominal": nominal,
+        "alternatives": [dict(effect) for effect in alternatives],
+    }
+
+
+def meaning_of_goal(spec: Specification, goal: Goal) -> list[Any]:
+    """The order of goals matters in a priority list only."""
+    if goal.condition is not None:
+        return ["when", text_of(goal.condition, spec), meaning_of_goal(spec, replace(goal, condition=None))]
+    if goal.kind == "goal":
+        return ["goal", text_of(goal.body, spec)]
+    members = [meaning_of_goal(spec, member) for member in goal.members]
+    return [goal.kind, *(sorted(members, key=json.dumps) if goal.kind == "constraint" else members)]
 
 
 def check_diagram(certificate: Any, states: dict[str, dict[str, int]]) -> None:
@@ -889,7 +962,7 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("policy")
     parser.add_argument("spec")
     parser.add_argument("--effect-ordering", choices=("any", "first"))
-    parser.add_argument("--strict", action="store_true", help="a wrong certificate makes the verdict no")
+    parser.add_argument("--strict", action="store_true", help="a wrong or stale certificate makes the verdict no")
     options = parser.parse_args(argv)
     recursion_limit = sys.getrecursionlimit()
     sys.setrecursionlimit(max(10_000, recursion_limit))
@@ -921,13 +994,10 @@ def judge_files(options: argparse.Namespace) -> int:
     for name, (states, reason) in judge.verdicts().items():
         print(f"{name:8} " + (f"FAILS in {len(states)} states: {reason(states[0])}" if states else "holds"))
         right = right and not states
-    if "Certificate" in policy.document:
-        try:
-            judge_certificate(judge, policy.document)
-            print("certificate: right")
-        except Unreadable as problem:
-            print(f"certificate: WRONG: {problem}")
-            right = right and not options.strict
+    status, why = judge_certificate(judge, policy.document)
+    if status in ("stale", "wrong"):
+        status, right = status.upper(), right and not options.strict
+    print(f"certificate: {status}" + (f": {why}" if why else ""))
     return 0 if right else 1
 
 

@@ -13,9 +13,12 @@ from typing import Any
 
 import pytest
 
-from tests.checker.standalone import CHECKER, ask
+from tests.checker.standalone import CHECKER, ask, checker
+from tests.generate import random_text
+from tests.profiles import PROFILES
 from tumato_symbolic import Realizable, parse, synthesize
 from tumato_symbolic.policy import dumps
+from tumato_symbolic.spec import digest
 
 EXAMPLES = CHECKER.parents[1] / "examples"
 AMR = (EXAMPLES / "amr.tum").read_text(encoding="utf-8")
@@ -200,11 +203,10 @@ def _goal(document: Document, number: int) -> Document:
 WRONG_CERTIFICATES: dict[str, Change] = {
     "null": lambda document: document.update(Certificate=None),
     "empty": lambda document: document.update(Certificate={}),
-    "a goal is missing": lambda document: document["Certificate"]["Goals"].pop(),
     "another goal": lambda document: _goal(document, 0).update(Bodies=["S_Battery is low"]),
     "no predicate": lambda document: _goal(document, 0).update(Bodies=["what ever"]),
     "an action that is not mentioned": lambda document: _goal(document, 0).update(Executed=["charge"]),
-    "never reached": lambda document: _goal(document, 0).update(Root=0),
+    "a goal twice": lambda document: document["Certificate"]["Goals"].append(_goal(document, 0)),
     "always reached": lambda document: _goal(document, 0).update(Root=1),
     "the ranks of another goal": lambda document: _goal(document, 0).update(Root=_goal(document, 1)["Root"]),
     "a root that is not there": lambda document: _goal(document, 0).update(Root=10_000),
@@ -218,6 +220,44 @@ WRONG_CERTIFICATES: dict[str, Change] = {
         0, len(document["Certificate"]["Leaves"])
     ),
 }
+
+
+INCOMPLETE_CERTIFICATES: dict[str, Change] = {
+    "a goal is missing": lambda document: document["Certificate"]["Goals"].pop(),
+    "no rank at all": lambda document: _goal(document, 0).update(Root=0),
+}
+
+STALE_CERTIFICATES: dict[str, Change] = {
+    "no digest": lambda document: document.pop("SpecificationDigest"),
+    "another digest": lambda document: document.update(SpecificationDigest="sha256:0"),
+    "another digest and false ranks": lambda document: document.update(SpecificationDigest="", Certificate=None),
+}
+
+
+@pytest.mark.parametrize("name", INCOMPLETE_CERTIFICATES)
+def test_incomplete_certificates_hold(name: str, tmp_path: Path) -> None:
+    """A rank that is missing claims nothing false: it is reported, and no more, also with `--strict`."""
+    answer = ask(tmp_path, changed(INCOMPLETE_CERTIFICATES[name]), AMR, "--strict")
+    assert answer.code == 0
+    assert "certificate: incomplete: " in answer.out
+
+
+@pytest.mark.parametrize("name", STALE_CERTIFICATES)
+def test_stale_certificates_count_when_strict(name: str, tmp_path: Path) -> None:
+    """A certificate for another meaning is not looked at, and fails with `--strict` only."""
+    policy = changed(STALE_CERTIFICATES[name])
+    lenient, strict = ask(tmp_path, policy, AMR), ask(tmp_path, policy, AMR, "--strict")
+    assert (lenient.code, strict.code) == (0, 1)
+    assert "certificate: STALE" in lenient.out
+
+
+def test_the_digest_is_the_package_s(tmp_path: Path) -> None:
+    """The same meaning has the same digest in the checker and in the package, whatever the text looks like."""
+    for profile in PROFILES.values():
+        for seed in range(20):
+            text = random_text(seed, profile)
+            own = checker.digest(checker.resolve(checker.Parser(text).specification()))
+            assert own == digest(parse(text)), (seed, text)
 
 
 @pytest.mark.parametrize("name", WRONG_CERTIFICATES)
@@ -238,12 +278,14 @@ def test_right_or_absent_certificates_hold(change: Change, tmp_path: Path) -> No
 
 def test_any_decreasing_rank_is_right(tmp_path: Path) -> None:
     """Ranks need not count steps, as long as they fall and stay below the bound."""
-    policy = changed(
-        lambda document: document["Certificate"].update(
-            Leaves=[rank and 2 * rank for rank in document["Certificate"]["Leaves"]]
-        )
-    )
-    assert ask(tmp_path, policy, AMR.replace("max_plan_length: 5", "max_plan_length: 50"), "--strict").code == 0
+    spec = AMR.replace("max_plan_length: 5", "max_plan_length: 50")
+
+    def double(document: Document) -> None:
+        document["SpecificationDigest"] = digest(parse(spec))
+        document["Certificate"]["Leaves"] = [rank and 2 * rank for rank in document["Certificate"]["Leaves"]]
+
+    answer = ask(tmp_path, changed(double), spec, "--strict")
+    assert (answer.code, "certificate: right" in answer.out) == (0, True)
 
 
 @pytest.mark.parametrize("path", sorted(CHECKER.parent.glob("*.policy.json")), ids=lambda path: path.name)
