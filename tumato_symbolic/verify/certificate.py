@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 from tumato_symbolic.policy.model import Certificate, Policy
-from tumato_symbolic.semantics import Residual, State, action_names
-from tumato_symbolic.spec import Ordering, canonical_text, digest
+from tumato_symbolic.semantics import Residual, State, action_names, named
+from tumato_symbolic.spec import Ordering, Spec, canonical_text, digest, executing_atoms
 from tumato_symbolic.verify.decisions import Decisions, Ranks
 from tumato_symbolic.verify.frame import Frame
 from tumato_symbolic.verify.outcomes import objections_to
@@ -56,7 +54,14 @@ class RankSource:
             for goal in certificate.goals:
                 executed = frozenset(actions[name] for name in goal.executed)
                 key = Residual(frozenset(bodies[text] for text in goal.bodies), executed)
+                spoken = frozenset[int]().union(*(executing_atoms(spec.bodies[body].formula) for body in key.bodies))
+                if key in self.given:
+                    return self.reject(f"it ranks {self.described(key)} twice")
+                if not executed <= spoken:
+                    unspoken = action_names(spec, executed - spoken)[0]
+                    return self.reject(f"`Executed` has {unspoken}, of which its goal does not speak")
                 self.given[key] = RankFunction(key, certificate.ranks, goal.root, given=True)
+        return None
 
     def owes_a_run(self, state: State) -> bool:
         """Whether the decision for `state` owes a run: those that are not allowed are refuted without one."""
@@ -69,8 +74,8 @@ class RankSource:
         self.given = {}
         self.use = CertificateUse("wrong" if self._policy_is_safe else "set aside", reason)
 
-    def check_given(self, goals: Iterable[Residual]) -> bool:
-        """Whether the certificate ranks all of `goals`, and all its ranks decrease; otherwise it is set aside.
+    def check_given(self) -> bool:
+        """Whether there is a certificate all of whose ranks decrease; a false one is set aside.
 
         Raises `UndecidedError`.
         """
@@ -78,14 +83,19 @@ class RankSource:
             return False
         for goal, ranks in self.given.items():
             if not RankProof(self._frame, ranks).decreases():
-                self.reject(f"the ranks of {self._described(goal)} do not go down to it")
+                self.reject(f"the ranks of {self.described(goal)} do not go down to it")
                 return False
-        missing = next((goal for goal in goals if goal not in self.given), None)
-        if missing is not None:
-            self.use = CertificateUse("incomplete", f"it has no ranks of {self._described(missing)}")
-            return False
-        self.use = CertificateUse("used")
         return True
+
+    def serve(self) -> None:
+        """The ranks carried a proof."""
+        if self.use == _UNNEEDED:
+            self.use = CertificateUse("used")
+
+    def lacks(self, goal: Residual, state: State | None = None) -> None:
+        """A rank that is needed is missing: that of `goal` after `state`, or all of them."""
+        where = "" if state is None else f" after {_listed(self._frame.spec, state)}"
+        self.fall_short(f"it has no {'ranks' if state is None else 'rank'} of {self.described(goal)}{where}")
 
     def recomputed(self, goal: Residual) -> RankFunction:
         """The ranks that the runs have. Needs a policy small enough to be followed."""
@@ -99,31 +109,36 @@ class RankSource:
         given = self.given.get(goal)
         if given is not None:
             if RankProof(self._frame, given).is_lower_bound():
-                if self.use == _UNNEEDED:
-                    self.use = CertificateUse("used")
+                self.serve()
                 return given
         elif self.given:
-            self._partly(f"it has no ranks of {self._described(goal)}")
+            self.lacks(goal)
         return self.exact(goal)
 
     def exact(self, goal: Residual) -> RankFunction:
         """The lengths of the runs themselves, proved as a lower bound. Raises `UndecidedError`."""
         if goal in self.given:
-            self._partly(f"its ranks of {self._described(goal)} are not the lengths of the runs")
+            self.fall_short(f"its ranks of {self.described(goal)} are not the lengths of the runs")
         if self.decisions.rows is None:
-            why = f"there are no exact ranks of {self._described(goal)}, and too many states to follow all runs"
+            why = f"there are no exact ranks of {self.described(goal)}, and too many states to follow all runs"
             raise UndecidedError("no cheaper allowed set serves as well", why)
         ranks = self.recomputed(goal)
         if not RankProof(self._frame, ranks).is_lower_bound():
             raise RuntimeError(f"the lengths of runs are no ranks of {goal}")
         return ranks
 
-    def _partly(self, reason: str) -> None:
+    def fall_short(self, reason: str) -> None:
+        """Some ranks had to be recomputed."""
         if self.use.status in ("used", "unneeded"):
             self.use = CertificateUse("incomplete", reason)
 
-    def _described(self, goal: Residual) -> str:
+    def described(self, goal: Residual) -> str:
+        """A residual goal in the user's words."""
         spec = self._frame.spec
         text = " AND ".join(f"({spec.bodies[body].text})" for body in sorted(goal.bodies)) or "'no goal'"
         executed = ", ".join(action_names(spec, goal.executed))
         return f"{text} while executing {executed}" if executed else text
+
+
+def _listed(spec: Spec, state: State) -> str:
+    return ", ".join(f"{name} is {value}" for name, value in named(spec, state).items())

@@ -48,15 +48,30 @@ def _residuals(frame: Frame) -> list[Residual]:
 
 def _by_certificate(frame: Frame, source: RankSource, goals: list[Residual]) -> PropertyResult | None:
     """The proof with the ranks that came with the policy, or a failing run; None where they do not serve."""
-    if not source.check_given(goals):
+    if not source.check_given():
         return None
+    whole = True
     for goal in goals:
-        state = RankProof(frame, source.given[goal]).first_beyond(source.owes_a_run)
-        if state is not None:
-            failed = _failing(frame, source, state)
-            if failed is None:
-                source.reject("its ranks exceed the bound where the runs do not")
+        if goal not in source.given:
+            source.lacks(goal)
+            whole = False
+            continue
+        proof = RankProof(frame, source.given[goal])
+        state = proof.first_beyond(source.owes_a_run)
+        if state is None:
+            continue
+        failed = _failing(frame, source, state)
+        if failed is not None:
+            source.serve()
             return failed
+        if proof.first_too_large(source.owes_a_run) is not None:
+            source.reject(f"its ranks of {source.described(goal)} exceed the bound")
+            return None
+        source.lacks(goal, state)
+        whole = False
+    if not whole:
+        return None
+    source.serve()
     return _proved(goals)
 
 

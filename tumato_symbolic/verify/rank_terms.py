@@ -130,11 +130,22 @@ class RankProof:
 
         States for which `owes_a_run` is false are passed over.
         """
+        near = conjunction((self._covered_after, self._ranks.within_bound(self._frame, self._frame.after)))
+        return self._first_owing(negation(near), owes_a_run)
+
+    def first_too_large(self, owes_a_run: Callable[[State], bool]) -> State | None:
+        """The first one whose rank is a number, and not below the bound."""
+        bound = self._frame.spec.max_plan_length
+        if bound is None:
+            return None
+        large = self._after(lambda rank: rank is not None and rank >= bound)
+        return self._first_owing(conjunction((self._covered_after, large)), owes_a_run)
+
+    def _first_owing(self, fault: Term, owes_a_run: Callable[[State], bool]) -> State | None:
         frame = self._frame
-        goes = conjunction((self._covered_after, self._ranks.within_bound(frame, frame.after)))
         mine = frame.goals.is_residual(self._ranks.goal, frame.executed)
         deadline = frame.deadline()
-        with frame.solver.scope(frame.acting, mine, negation(goes)):
+        with frame.solver.scope(frame.acting, mine, fault):
             while (model := frame.first_model("ranks are below the bound", deadline=deadline)) is not None:
                 state = frame.state.read(model)
                 if owes_a_run(state):
