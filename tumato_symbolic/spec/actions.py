@@ -47,19 +47,22 @@ class Actions:
         preconditions: tuple[Rule, ...] = ()
         nominal: Assignment = ()
         alternatives: list[Alternative] = []
+        resource_span: Span | None = None
         for field in declaration.fields:
             match field:
                 case ast.Duration(value):
                     duration = self._duration(field, value)
-                case ast.ControlledResources(names):
-                    resources = self._resources(names)
+                case ast.ControlledResources(names, span):
+                    resources, resource_span = self._resources(names), span
                 case ast.Preconditions(predicates):
                     preconditions = self._parts(predicates, "a precondition")[0]
                 case ast.NominalEffects(predicates, span):
                     nominal = self._nominal(predicates, name, span)
                 case ast.AlternativeEffects(predicates, span):
                     alternatives.extend(self._alternative(predicates, name, span))
-        return Action(name, duration, resources, preconditions, nominal, tuple(alternatives), declaration.name.span)
+        written = tuple(alternatives)
+        span = declaration.name.span
+        return Action(name, duration, resources, preconditions, nominal, written, span, resource_span)
 
     def _once_each(self, declaration: ast.ActionDeclaration) -> None:
         first: dict[str, Span] = {}

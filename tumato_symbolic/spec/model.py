@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
 from tumato_symbolic.diagnostics import Span
@@ -43,7 +43,10 @@ class Alternative:
 
 @dataclass(frozen=True, slots=True)
 class Action:
-    """An action. `resources` are resource numbers; the preconditions are a conjunction."""
+    """An action. `resources` are resource numbers; the preconditions are a conjunction.
+
+    `resource_span` is where the resources are listed, None where the text has no such field.
+    """
 
     name: str
     duration: int
@@ -52,6 +55,7 @@ class Action:
     nominal: Assignment
     alternatives: tuple[Alternative, ...]
     span: Span
+    resource_span: Span | None = field(default=None, compare=False)
 
     @property
     def effects(self) -> tuple[Assignment, ...]:
@@ -95,7 +99,7 @@ class Spec:
 
     Variables, resources and actions are known by their position. `bodies` holds the goal bodies, each structure
     once (aliases expanded), so that two goals are the same exactly when their body numbers are. `max_plan_length`
-    is None where plans are unbounded, `effect_ordering` is None where the text does not say.
+    is None where plans are unbounded, `effect_ordering` is None where the text does not say. `bound_span` is where the plan bound is set.
     """
 
     variables: tuple[Variable, ...]
@@ -108,3 +112,4 @@ class Spec:
     bodies: tuple[Rule, ...]
     max_plan_length: int | None
     effect_ordering: Ordering | None
+    bound_span: Span | None = field(default=None, compare=False)

@@ -69,8 +69,9 @@ def resolve(parsed: Parsed, tree: ast.Specification, source: Source) -> Resoluti
             assumptions,
             goal_list,
             tuple(goals.bodies.values()),
-            bound,
+            bound.value if bound else None,
             ordering,
+            bound.span if bound else None,
         )
     return Resolution(spec, tuple(findings.diagnostics), names, frozenset(predicates.used_aliases))
 
@@ -160,7 +161,7 @@ class _Goals:
                 return GoalList(kind or "constraint", tuple(each for each in parts if each is not None), span)
 
 
-def _settings(tree: ast.Specification, findings: Findings) -> tuple[int | None, Ordering | None]:
+def _settings(tree: ast.Specification, findings: Findings) -> tuple[ast.MaxPlanLength | None, Ordering | None]:
     bound: ast.MaxPlanLength | None = None
     ordering: ast.EffectOrdering | None = None
     for block in tree.blocks:
@@ -175,7 +176,7 @@ def _settings(tree: ast.Specification, findings: Findings) -> tuple[int | None, 
                 _check_bound(setting, findings)
             else:
                 ordering = setting
-    return bound.value if bound else None, ordering.value if ordering else None
+    return bound, ordering.value if ordering else None
 
 
 def _check_bound(setting: ast.MaxPlanLength, findings: Findings) -> None:

@@ -71,11 +71,15 @@ class Steps:
         return {bit: up | (manager.cube({bit: True}) & ~down) for bit, (down, up) in written.items()}
 
 
-def build_steps(encoding: Encoding, ordering: Ordering) -> Steps:
-    """The step relation of the encoding's specification under an effect ordering."""
+def build_steps(encoding: Encoding, ordering: Ordering, within: Bdd | None = None) -> Steps:
+    """The step relation of the encoding's specification under an effect ordering.
+
+    `within` is one more assumption, as a set of states.
+    """
     spec, manager = encoding.spec, encoding.manager
     domain = encoding.domain()
     valid = domain & encoding.all_of(rule.formula for rule in spec.assumptions)
+    valid = valid if within is None else valid & within
     safe = valid & encoding.all_of(rule.formula for rule in spec.state_rules)
     compatible = _compatible(encoding)
     applicable = manager.intersection(

@@ -172,3 +172,35 @@ def _satisfiable(solver: Term, *assumptions: Term) -> bool:
             raise KeyboardInterrupt
         raise RuntimeError(f"Z3 gave no answer: {solver.reason_unknown()}")
     return bool(answer == z3.sat)
+
+
+class HittingSets:
+    """Smallest sets of numbers that have an element in common with each of some sets."""
+
+    def __init__(self, size: int) -> None:
+        self._solver = z3.SolverFor("QF_FD")
+        self._literals = [z3.Bool(f"h{number}") for number in range(size)]
+        self._least = 0
+
+    def require(self, numbers: Sequence[int]) -> None:
+        """One of these numbers must be chosen."""
+        self._solver.add(_any([self._literals[number] for number in numbers]))
+
+    def exclude(self, numbers: Sequence[int]) -> None:
+        """Not all of these numbers may be chosen."""
+        self._solver.add(_any([z3.Not(self._literals[number]) for number in numbers]))
+
+    def smallest(self) -> frozenset[int] | None:
+        """A set of the smallest size; None where there is none. Sizes never fall from one answer to the next."""
+        if not _satisfiable(self._solver):
+            return None
+        while True:
+            self._solver.push()
+            if self._literals:
+                self._solver.add(z3.AtMost(*self._literals, self._least))
+            found = _satisfiable(self._solver)
+            model = self._solver.model() if found else None
+            self._solver.pop()
+            if model is not None:
+                return frozenset(n for n, literal in enumerate(self._literals) if _is_true(model, literal))
+            self._least += 1

@@ -1,0 +1,199 @@
+"""Whether an explanation is right, by the explicit meaning alone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import product
+
+from tests.generate import NOWHERE
+from tests.oracle import Together, World, conflict_is_minimal, decide_world
+from tumato_symbolic import parse
+from tumato_symbolic.explain.elements import Element, elements_of, keep_only, replace_rule, rule_of
+from tumato_symbolic.explain.explanation import Explanation, Reason, Repair
+from tumato_symbolic.semantics import State, all_states, allowed_sets, is_valid
+from tumato_symbolic.spec import And, Formula, Is, Or, Ordering, Rule, Spec
+
+SAMPLED = 4
+"""Of so many states of every reason the core is checked."""
+
+
+def complaints(explanation: Explanation) -> Iterator[str]:
+    """Everything that is wrong with an explanation."""
+    spec, ordering = explanation.spec, explanation.ordering
+    yield from _wrong_states(explanation)
+    for reason in explanation.reasons:
+        yield from _wrong_cores(spec, ordering, reason)
+    yield from _wrong_repairs(explanation)
+    yield from _wrong_part(explanation)
+
+
+def _wrong_states(explanation: Explanation) -> Iterator[str]:
+    """The reasons hold exactly the failing states, by kind, in disjoint cubes."""
+    spec = explanation.spec
+    verdict = decide_world(World(spec, explanation.ordering))
+    if verdict.kind == "realizable":
+        yield "there is a policy"
+    for kind, expected in (("no-allowed-set", verdict.no_allowed_set), ("no-plan", verdict.no_plan)):
+        listed = [state for reason in explanation.reasons if reason.kind == kind for state in states_of(spec, reason)]
+        if len(listed) != len(set(listed)):
+            yield f"cubes of {kind} overlap"
+        if set(listed) != expected:
+            yield f"the states of {kind} are wrong"
+    for reason in explanation.reasons:
+        states = set(states_of(spec, reason))
+        if len(states) != reason.count or reason.example not in states:
+            yield f"count or example of {reason.kind} is wrong"
+        if reason.kind == "conflict":
+            if states != set(reason.together):
+                yield "the cubes of the conflict are wrong"
+            if not conflict_is_minimal(spec, explanation.ordering, reason.together):
+                yield "the conflict is none, or not minimal"
+
+
+def states_of(spec: Spec, reason: Reason) -> list[State]:
+    """The valid states in the cubes of a reason, with repetitions where cubes overlap."""
+    return [state for cube in reason.cubes for state in product(*cube) if is_valid(spec, state)]
+
+
+def _wrong_cores(spec: Spec, ordering: Ordering, reason: Reason) -> Iterator[str]:
+    states = list(dict.fromkeys([reason.example, *states_of(spec, reason)]))[:SAMPLED]
+    for number, core in enumerate(reason.cores):
+        for state in states if number == 0 and reason.kind != "conflict" else states[:1]:
+            if not _fails(spec, ordering, reason, state, frozenset(core)):
+                yield f"a core of {reason.kind} is not sufficient: {core}"
+            for element in core:
+                if _fails(spec, ordering, reason, state, frozenset(core) - {element}):
+                    yield f"a core of {reason.kind} is not minimal: {core} without {element}"
+
+
+def _fails(spec: Spec, ordering: Ordering, reason: Reason, state: State, kept: frozenset[Element]) -> bool:
+    """Whether the state (of a conflict: all states together) fails as the reason says with these elements only."""
+    rest = keep_only(spec, kept)
+    if reason.kind == "no-allowed-set":
+        return next(allowed_sets(rest, state, ordering), None) is None
+    world = World(rest, ordering)
+    if reason.kind == "no-plan":
+        return not any(map(world.has_plan, world.options[state]))
+    return _TogetherWhereDefined(world).serve(reason.together) is None
+
+
+class _TogetherWhereDefined(Together):
+    """Policies that need not be defined where no set is allowed: dropping assumptions makes such states."""
+
+    def _choose_one(self, state: State) -> None:
+        if self._world.options[state]:
+            super()._choose_one(state)
+        else:
+            self._pick[state], self._option[state] = {}, {}
+
+
+def realizable(spec: Spec, ordering: Ordering) -> bool:
+    """By the explicit meaning."""
+    return decide_world(World(spec, ordering)).kind == "realizable"
+
+
+def _wrong_repairs(explanation: Explanation) -> Iterator[str]:
+    spec, ordering = explanation.spec, explanation.ordering
+    everything = frozenset(elements_of(spec))
+    sizes = [len(repair.changes) for repair in explanation.repairs if repair.drops]
+    if sizes != sorted(sizes):
+        yield "the repairs are not ordered by size"
+    for repair in explanation.repairs:
+        yield from (
+            _wrong_drop(spec, ordering, repair, everything) if repair.drops else _wrong_edit(spec, ordering, repair)
+        )
+    assumptions = frozenset(each for each in everything if each.kind == "assumption")
+    if (explanation.hopeless is None) != realizable(keep_only(spec, assumptions), ordering):
+        yield "whether there is hope is wrong"
+    if explanation.hopeless is None and not explanation.repairs:
+        yield "there is hope, but no repair"
+
+
+def _wrong_drop(spec: Spec, ordering: Ordering, repair: Repair, everything: frozenset[Element]) -> Iterator[str]:
+    dropped = frozenset(change.element for change in repair.changes)
+    if any(element.kind == "assumption" for element in dropped):
+        yield "a repair drops an assumption"
+    if not realizable(keep_only(spec, everything - dropped), ordering):
+        yield f"a repair does not repair: {dropped}"
+    for element in dropped:
+        if realizable(keep_only(spec, everything - (dropped - {element})), ordering):
+            yield f"a repair is not minimal: {dropped}"
+
+
+def _wrong_edit(spec: Spec, ordering: Ordering, repair: Repair) -> Iterator[str]:
+    if not realizable(edited(spec, repair), ordering):
+        yield f"an edit does not repair: {repair}"
+
+
+def edited(spec: Spec, repair: Repair) -> Spec:
+    """The specification with the changes of a repair made, texts read as the language says."""
+    dropped = set()
+    for change in repair.changes:
+        if change.text is None:
+            dropped.add(change.element)
+        elif change.element.kind == "plan-bound":
+            spec = replace(spec, max_plan_length=int(change.text.split()[1]))
+        else:
+            rule = rule_of(spec, change.element)
+            assert rule is not None
+            spec = replace_rule(spec, change.element, replace(rule, formula=read_predicate(spec, change.text)))
+    return keep_only(spec, frozenset(elements_of(spec)) - dropped)
+
+
+def read_predicate(spec: Spec, text: str) -> Formula:
+    """What a predicate means among the names of a specification."""
+    variables = " ".join(f"state {each.name} can be {', '.join(each.values)}" for each in spec.variables)
+    actions = " ".join(f"action {each.name} preconditions: none nominal effects: none" for each in spec.actions)
+    read = parse(
+        f"BEGIN STATE VECTOR {variables} END STATE VECTOR BEGIN ACTIONS {actions} END ACTIONS "
+        f"BEGIN REACTION RULES rule: {text} END REACTION RULES"
+    )
+    return read.reaction_rules[0].formula
+
+
+def _wrong_part(explanation: Explanation) -> Iterator[str]:
+    spec, ordering = explanation.spec, explanation.ordering
+    greatest = greatest_part(spec, ordering)
+    part = explanation.part
+    if part is None:
+        if greatest and realizable(confined(spec, greatest), ordering):
+            yield "there is a realizable part"
+        return
+    assumed = replace(spec, assumptions=(*spec.assumptions, Rule(read_predicate(spec, part.text), part.text, NOWHERE)))
+    states = {state for state in all_states(spec) if is_valid(assumed, state)}
+    valid = {state for state in all_states(spec) if is_valid(spec, state)}
+    if (len(states), len(valid) - len(states)) != (part.states, part.given_up):
+        yield "the part is counted wrongly"
+    if not realizable(assumed, ordering):
+        yield "the part is not realizable"
+    if part.unique and states != greatest:
+        yield "the part is not the greatest one"
+    if not part.unique and (not states <= greatest or realizable(confined(spec, greatest), ordering)):
+        yield "the part should be the greatest one"
+    for state in sorted(greatest - states)[:SAMPLED]:
+        if realizable(confined(spec, states | {state}), ordering):
+            yield "the part is not maximal"
+
+
+def greatest_part(spec: Spec, ordering: Ordering) -> set[State]:
+    """The greatest set of valid states in which none fails."""
+    states = {state for state in all_states(spec) if is_valid(spec, state)}
+    while states:
+        verdict = decide_failing(confined(spec, states), ordering)
+        if not verdict:
+            return states
+        states -= verdict
+    return states
+
+
+def decide_failing(spec: Spec, ordering: Ordering) -> set[State]:
+    """The states that fail, by either kind."""
+    world = World(spec, ordering)
+    return {state for state in world.valid if not any(map(world.has_plan, world.options[state]))}
+
+
+def confined(spec: Spec, states: set[State]) -> Spec:
+    """The specification with a set of states as one more assumption."""
+    cubes: list[Formula] = [And((*(Is(*pair) for pair in enumerate(state)), Is(0, state[0]))) for state in states]
+    return replace(spec, assumptions=(*spec.assumptions, Rule(Or((*cubes, cubes[0])), "", NOWHERE)))

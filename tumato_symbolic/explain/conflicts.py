@@ -1,0 +1,45 @@
+"""Why no policy serves some states together although each of them has a plan."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from tumato_symbolic.explain.conditions import Conditions
+from tumato_symbolic.explain.elements import Elements
+from tumato_symbolic.explain.minimize import minimal
+from tumato_symbolic.explain.plans import distances, pose_kept
+from tumato_symbolic.semantics import State
+from tumato_symbolic.symbolic import Bdd, preferred, regions
+from tumato_symbolic.synthesis.problem import Problem, served
+from tumato_symbolic.synthesis.repair import Impossible, Repair
+from tumato_symbolic.synthesis.routing import shortest_decisions
+
+
+def conflict_core(conditions: Conditions, states: Sequence[State], among: Elements) -> Elements:
+    """A minimal set of elements, out of some that suffice, because of which nothing serves the states together.
+
+    Where dropping assumptions makes more states valid, a run may end in those without an allowed set, but not go on.
+    Raises `RoundsExhaustedError`.
+    """
+    wanted = conditions.manager.union(map(conditions.encoding.state_cube, states))
+    items = [each for each in conditions.elements if each in among]
+    return minimal(items, lambda kept: not served_together(conditions, wanted, kept))
+
+
+def served_together(conditions: Conditions, wanted: Bdd, kept: Elements) -> bool:
+    """Whether one policy serves these states when only some elements are kept. Raises `RoundsExhaustedError`."""
+    valid = conditions.steps(kept).valid
+    problem = pose_kept(conditions, kept, regions(conditions.encoding, valid))
+    problem = replace(problem, steps=replace(problem.steps, valid=wanted))
+    ranks = distances(problem)
+    if (wanted & ~served(problem, ranks, problem.steps.allowed)) != conditions.false:
+        return False
+    policy = shortest_decisions(problem, ranks, problem.steps.safe, problem.steps.allowed)
+    return not isinstance(Repair(problem, _completed(problem, policy), ranks).run(), Impossible)
+
+
+def _completed(problem: Problem, policy: Bdd) -> Bdd:
+    """Some decision for every other safe state that has one."""
+    steps = problem.steps
+    return policy | preferred(problem.encoding, steps.allowed & steps.safe & ~steps.states_of(policy))

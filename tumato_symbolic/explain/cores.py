@@ -1,0 +1,150 @@
+"""Why states fail: minimal sets of elements that suffice for it, and all states that fail for the same ones."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from tumato_symbolic.explain.conditions import Conditions
+from tumato_symbolic.explain.cubes import disjoint_cubes, set_of
+from tumato_symbolic.explain.elements import Element, Elements
+from tumato_symbolic.explain.minimize import minimal
+from tumato_symbolic.explain.plans import failing
+from tumato_symbolic.semantics import State
+from tumato_symbolic.symbolic import Bdd
+
+FailingKind: TypeAlias = Literal["no-allowed-set", "no-plan"]
+
+
+@dataclass(frozen=True)
+class Cause:
+    """States that fail in one way and have one core in common. `example` is one of them."""
+
+    kind: FailingKind
+    states: Bdd
+    core: Elements
+    example: State
+
+
+@dataclass(frozen=True)
+class Failing:
+    """The valid states that fail, by kind."""
+
+    no_allowed_set: Bdd
+    no_plan: Bdd
+
+
+def failing_states(conditions: Conditions) -> Failing:
+    """All states that fail (`docs/semantics.md`, section 7)."""
+    stuck = conditions.stuck(conditions.everything)
+    return Failing(stuck, failing(conditions, conditions.everything, conditions.valid & ~stuck))
+
+
+def causes(conditions: Conditions, states: Failing) -> Iterator[Cause]:
+    """The failing states by kind and core, in no order.
+
+    A typical state gives a core, and the core gives all states that have it: as many rounds as there are cores.
+    """
+    yield from _no_allowed_set(conditions, states.no_allowed_set)
+    yield from _no_plan(conditions, states.no_plan)
+
+
+def _no_allowed_set(conditions: Conditions, left: Bdd) -> Iterator[Cause]:
+    while left != conditions.false:
+        example = typical_state(conditions, left)
+        core = core_without_set(conditions, example, conditions.everything)
+        alike = _having(core, left, lambda kept, states: states & conditions.stuck(kept))
+        yield Cause("no-allowed-set", alike, core, example)
+        left = left & ~alike
+
+
+def _no_plan(conditions: Conditions, left: Bdd) -> Iterator[Cause]:
+    hopeless = failing(conditions, frozenset(), left)
+    for region in conditions.regions.values():
+        here = region & hopeless
+        if here != conditions.false:
+            yield Cause("no-plan", here, frozenset(), typical_state(conditions, here))
+    left = left & ~hopeless
+    while left != conditions.false:
+        example = typical_state(conditions, left)
+        core = core_without_plan(conditions, example, conditions.everything)
+        alike = _having(core, left, lambda kept, states: failing(conditions, kept, states))
+        yield Cause("no-plan", alike, core, example)
+        left = left & ~alike
+
+
+def _having(core: Elements, left: Bdd, fail: Callable[[Elements, Bdd], Bdd]) -> Bdd:
+    """Those of some states for which `core` is sufficient and minimal."""
+    states = fail(core, left)
+    for element in core:
+        states = states & ~fail(core - {element}, states)
+    return states
+
+
+def core_without_set(conditions: Conditions, state: State, among: Elements) -> Elements:
+    """A minimal set of elements, out of some that suffice, that leaves a state without an allowed set."""
+    return _core(conditions, among, lambda kept: conditions.is_stuck(state, kept))
+
+
+def core_without_plan(conditions: Conditions, state: State, among: Elements) -> Elements:
+    """A minimal set of elements, out of some that suffice, that lets a state fail."""
+    here = conditions.encoding.state_cube(state)
+    return _core(conditions, among, lambda kept: failing(conditions, kept, here) != conditions.false)
+
+
+def _core(conditions: Conditions, among: Elements, fails: Callable[[Elements], bool]) -> Elements:
+    return minimal([each for each in conditions.elements if each in among], fails)
+
+
+def more_cores(
+    conditions: Conditions, first: Elements, wanted: int, find: Callable[[Elements], Elements | None]
+) -> tuple[Elements, ...]:
+    """Up to `wanted` cores, `first` among them: one element of a known core after another is dropped.
+
+    `find` gives a core among some elements, None where these do not suffice. All cores are found where there are fewer
+    (Reiter's hitting set tree).
+    """
+    found = [first]
+    waiting: list[Elements] = [frozenset()]
+    seen: set[Elements] = set()
+    while waiting and len(found) < wanted:
+        dropped = waiting.pop(0)
+        core = next((core for core in found if not core & dropped), None)
+        if core is None:
+            core = find(conditions.everything - dropped)
+            if core is None:
+                continue
+            found.append(core)
+        for element in sorted(core, key=conditions.elements.index):
+            following = dropped | {element}
+            if following not in seen:
+                seen.add(following)
+                waiting.append(following)
+    return tuple(found)
+
+
+def core_finder(conditions: Conditions, cause: Cause) -> Callable[[Elements], Elements | None]:
+    """A core of a cause's example among some elements, None where these do not suffice."""
+    here = conditions.encoding.state_cube(cause.example)
+    if cause.kind == "no-allowed-set":
+        return lambda among: (
+            core_without_set(conditions, cause.example, among) if conditions.is_stuck(cause.example, among) else None
+        )
+    return lambda among: (
+        core_without_plan(conditions, cause.example, among)
+        if failing(conditions, among, here) != conditions.false
+        else None
+    )
+
+
+def typical_state(conditions: Conditions, states: Bdd) -> State:
+    """A state of the largest cube of a set, preferably one like most others: the first one there."""
+    encoding = conditions.encoding
+    cover = disjoint_cubes(encoding, states, encoding.domain() & ~conditions.valid, 1)
+    return encoding.first_state(states & set_of(encoding, cover.cubes[0]))
+
+
+def element_list(conditions: Conditions, core: Elements) -> tuple[Element, ...]:
+    """A core in the order of the specification's elements."""
+    return tuple(each for each in conditions.elements if each in core)

@@ -1,0 +1,112 @@
+"""The largest part of the valid states for which there is a policy."""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from tumato_symbolic.diagnostics import Span
+from tumato_symbolic.explain.conditions import Conditions
+from tumato_symbolic.explain.plans import distances, restricted
+from tumato_symbolic.explain.predicates import predicate_text, shortest_formula
+from tumato_symbolic.semantics import State
+from tumato_symbolic.spec import Formula, Rule, Spec
+from tumato_symbolic.symbolic import Bdd, targets
+from tumato_symbolic.synthesis import Realizable, Unrealizable, synthesize
+from tumato_symbolic.synthesis.problem import Problem, served
+
+CHOICES = 200
+"""So many ways out of conflicts are tried at most."""
+
+
+@dataclass(frozen=True)
+class Part:
+    """States which, taken as an assumption, make the specification realizable.
+
+    `unique`: it is the greatest such set, and every other one is a part of it. Where goals conflict there may be
+    several maximal ones; `largest` then says that none has more states. `formula` is the assumption to add.
+    """
+
+    states: Bdd
+    count: int
+    formula: Formula
+    unique: bool
+    largest: bool
+
+
+def largest_part(conditions: Conditions) -> Part | None:
+    """The largest realizable part, None where nothing remains.
+
+    Every realizable part lies in the greatest set in which no state fails. Where goals conflict there, every one leaves
+    out a state of the conflict: the larger sets are tried first, so the first realizable one is the largest.
+    """
+    count = conditions.encoding.count_states
+    whole = _without_failing(conditions, conditions.valid)
+    waiting: list[tuple[int, int, Bdd]] = [(-count(whole), 0, whole)]
+    seen, tried, largest = {whole}, 0, True
+    while waiting:
+        states = heapq.heappop(waiting)[2]
+        if states == conditions.false:
+            return None
+        tried += 1
+        formula = assumption(conditions, states)
+        blamed = _conflict(conditions, formula)
+        if blamed is None:
+            return Part(states, count(states), formula, states == whole, largest)
+        if tried >= CHOICES:
+            waiting, largest = [], False
+        for state in blamed:
+            smaller = _without_failing(conditions, states & ~conditions.encoding.state_cube(state))
+            if smaller not in seen:
+                seen.add(smaller)
+                heapq.heappush(waiting, (-count(smaller), len(seen), smaller))
+    return None
+
+
+def _without_failing(conditions: Conditions, states: Bdd) -> Bdd:
+    """`ν X. {s ∈ states ∩ X : s does not fail when outcomes have to stay in X}`."""
+    while states != conditions.false:
+        problem = _within(conditions, states)
+        kept = states & served(problem, distances(problem), problem.steps.allowed)
+        if kept == states:
+            break
+        states = kept
+    return states
+
+
+def _within(conditions: Conditions, states: Bdd) -> Problem:
+    """The problem with these states as an assumption."""
+    steps = conditions.steps_within(states)
+    regions = restricted(conditions.regions, states, conditions.false)
+    spec = replace(conditions.encoding.spec, max_plan_length=conditions.spec.max_plan_length)
+    return Problem(spec, steps, regions, tuple(targets(steps, regions)))
+
+
+def _conflict(conditions: Conditions, formula: Formula) -> tuple[State, ...] | None:
+    """States that no policy serves together under an assumption; None where it makes the specification realizable.
+
+    Where synthesis gives up, any state may be to blame, and the first few are.
+    """
+    spec = assuming(conditions.spec, formula)
+    outcome = synthesize(spec, conditions.ordering, backend=conditions.manager.backend)
+    if isinstance(outcome, Realizable):
+        return None
+    if isinstance(outcome, Unrealizable):
+        return outcome.failures[0].states
+    return tuple(_first(conditions.encoding.states_in(conditions.formula(formula)), 3))
+
+
+def _first(states: Iterator[State], count: int) -> Iterator[State]:
+    yield from (state for _, state in zip(range(count), states, strict=False))
+
+
+def assumption(conditions: Conditions, states: Bdd) -> Formula:
+    """What to assume beside the assumptions so that exactly these states are valid."""
+    return shortest_formula(conditions.encoding, states, conditions.encoding.domain() & ~conditions.valid)
+
+
+def assuming(spec: Spec, formula: Formula) -> Spec:
+    """The specification with one more assumption."""
+    rule = Rule(formula, predicate_text(spec, formula), Span(1, 1, 1, 1))
+    return replace(spec, assumptions=(*spec.assumptions, rule))

@@ -1,0 +1,42 @@
+"""Which states have a plan when only some elements are kept, each state taken alone."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from tumato_symbolic.explain.conditions import Conditions
+from tumato_symbolic.explain.elements import Element, Elements
+from tumato_symbolic.symbolic import Bdd, Regions, targets
+from tumato_symbolic.synthesis.problem import Layers, Problem, attractor, by_any_step, served
+
+
+def pose_kept(conditions: Conditions, kept: Elements, regions: Regions) -> Problem:
+    """The synthesis problem when only these elements are kept, for the states of `regions`."""
+    steps = conditions.steps(kept)
+    bound = conditions.spec.max_plan_length if Element("plan-bound") in kept else None
+    spec = replace(conditions.encoding.spec, max_plan_length=bound)
+    return Problem(spec, steps, regions, tuple(targets(steps, regions)))
+
+
+def distances(problem: Problem) -> tuple[Layers, ...]:
+    """How far every state is from each target when any allowed steps may be taken."""
+    step = by_any_step(problem, problem.steps.allowed)
+    within, limit = problem.steps.safe, problem.last_layer
+    return tuple(attractor(problem, target.states, step, within, limit) for target in problem.targets)
+
+
+def failing(conditions: Conditions, kept: Elements, states: Bdd) -> Bdd:
+    """Those of some valid states that fail, either way, when only these elements are kept."""
+    problem = pose_kept(conditions, kept, restricted(conditions.regions, states, conditions.false))
+    return states & ~served(problem, distances(problem), problem.steps.allowed)
+
+
+def restricted(regions: Regions, states: Bdd, false: Bdd) -> Regions:
+    """The regions with only these states in them."""
+    return {active: part for active, region in regions.items() if (part := region & states) != false}
+
+
+def shortest(layers: Mapping[int, Bdd]) -> int | None:
+    """The number of the first layer that is not empty."""
+    return next(iter(layers), None)

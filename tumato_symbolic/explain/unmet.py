@@ -1,0 +1,49 @@
+"""Which parts of a goal can never come true, whatever is dropped."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from tumato_symbolic.explain.conditions import Conditions
+from tumato_symbolic.explain.explanation import OwnGoal
+from tumato_symbolic.explain.plans import distances
+from tumato_symbolic.semantics import State, active_goals
+from tumato_symbolic.spec import And, Formula, Not, Or, Rule
+from tumato_symbolic.symbolic import targets
+from tumato_symbolic.synthesis.problem import Problem, served
+
+
+def own_goals(conditions: Conditions, state: State) -> tuple[OwnGoal, ...]:
+    """The active goals of a state, each with the parts that no run of nominal effects makes true."""
+    bodies = sorted(active_goals(conditions.spec, state))
+    return tuple(OwnGoal(body, tuple(_never(conditions, state, body))) for body in bodies)
+
+
+def _never(conditions: Conditions, state: State, body: int) -> Iterator[Formula]:
+    rule = conditions.spec.bodies[body]
+    return (part for part in _conjuncts(rule.formula) if not _can_be_met(conditions, state, rule, part))
+
+
+def _conjuncts(formula: Formula) -> Iterator[Formula]:
+    """The parts that all have to hold."""
+    match formula:
+        case And(operands):
+            for part in operands:
+                yield from _conjuncts(part)
+        case Not(Or(operands)):
+            for part in operands:
+                yield from _conjuncts(Not(part))
+        case Not(Not(operand)):
+            yield from _conjuncts(operand)
+        case _:
+            yield formula
+
+
+def _can_be_met(conditions: Conditions, state: State, rule: Rule, part: Formula) -> bool:
+    """Whether some run from a state meets one part of a goal, with every element dropped."""
+    spec = replace(conditions.encoding.spec, bodies=(replace(rule, formula=part),), max_plan_length=None)
+    steps = replace(conditions.steps(frozenset()), encoding=replace(conditions.encoding, spec=spec))
+    region = {frozenset((0,)): conditions.encoding.state_cube(state)}
+    problem = Problem(spec, steps, region, tuple(targets(steps, region)))
+    return served(problem, distances(problem), steps.allowed) != conditions.false

@@ -1,0 +1,114 @@
+"""Changing a rule a little instead of dropping it: exceptions, wider preconditions, the smallest sufficient bound."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from tumato_symbolic.explain.conditions import Conditions
+from tumato_symbolic.explain.cubes import StateCube
+from tumato_symbolic.explain.elements import Element, Elements, rule_of, without
+from tumato_symbolic.explain.plans import failing
+from tumato_symbolic.explain.predicates import cube_formula, predicate_text
+from tumato_symbolic.spec import And, Or, Rule, Spec
+from tumato_symbolic.synthesis import Outcome, Realizable, synthesize
+
+TRIES = 400
+"""So many exceptions are looked at for one repair at most."""
+
+
+@dataclass(frozen=True)
+class Edit:
+    """An element with the text that takes its place."""
+
+    element: Element
+    text: str
+
+
+@dataclass(frozen=True)
+class Weakening:
+    """Edits that make the specification realizable, and what is dropped beside them; both are needed."""
+
+    edits: tuple[Edit, ...]
+    dropped: Elements
+    spec: Spec
+
+
+def weakening(conditions: Conditions, repair: Elements) -> Weakening | None:
+    """A repair in which as much as possible is changed rather than dropped; None where nothing can be.
+
+    A rule or a precondition gets the exception `OR c` for one cube `c`, which is as small as can be: with one value of
+    one variable less it would not do. The plan bound is raised as little as possible. Verified by synthesis.
+    """
+    edits: list[Edit] = []
+    dropped = repair
+    for element in [each for each in conditions.elements if each in repair]:
+        others = dropped - {element}
+        weaken = _raised if element.kind == "plan-bound" else _excepted
+        found = weaken(conditions, element, others)
+        if found is not None:
+            conditions, edit = found
+            edits.append(edit)
+            dropped = others
+    if not edits:
+        return None
+    final = without(conditions.spec, dropped)
+    return Weakening(tuple(edits), dropped, final) if _solves(conditions, final) else None
+
+
+def _raised(conditions: Conditions, bound: Element, others: Elements) -> tuple[Conditions, Edit] | None:
+    """The smallest bound that suffices: realizability is monotone in it."""
+    base = without(conditions.spec, others)
+    outcome = _outcome(conditions, without(conditions.spec, others | {bound}))
+    if not isinstance(outcome, Realizable) or base.max_plan_length is None:
+        return None
+    too_small, enough = base.max_plan_length, outcome.statistics.longest_run or 1
+    while enough - too_small > 1:
+        middle = (too_small + enough) // 2
+        if _solves(conditions, replace(base, max_plan_length=middle)):
+            enough = middle
+        else:
+            too_small = middle
+    return conditions.bounded(enough), Edit(bound, f"max_plan_length: {enough}")
+
+
+def _excepted(conditions: Conditions, element: Element, others: Elements) -> tuple[Conditions, Edit] | None:
+    """The rule with the smallest exception that this search finds; None where it must be dropped whole."""
+    spec, rule = conditions.spec, rule_of(conditions.spec, element)
+    if rule is None:
+        return None
+    everything: StateCube = tuple(tuple(range(len(variable.values))) for variable in spec.variables)
+    cube, tries = everything, 0
+    for variable, values in enumerate(everything):
+        for value in values if len(values) > 1 else ():
+            smaller = tuple(kept for kept in cube[variable] if kept != value)
+            candidate = (*cube[:variable], smaller, *cube[variable + 1 :])
+            tries += 1
+            if tries > TRIES:
+                return None
+            if smaller and _no_state_fails(conditions.changed(element, _with_exception(spec, rule, candidate)), others):
+                cube = candidate
+    if cube == everything:
+        return None
+    wider = _with_exception(spec, rule, cube)
+    return conditions.changed(element, wider), Edit(element, wider.text)
+
+
+def _no_state_fails(conditions: Conditions, dropped: Elements) -> bool:
+    kept = conditions.everything - dropped
+    stuck = conditions.stuck(kept)
+    return stuck == conditions.false and failing(conditions, kept, conditions.valid) == conditions.false
+
+
+def _with_exception(spec: Spec, rule: Rule, cube: StateCube) -> Rule:
+    exception = cube_formula(spec, cube)
+    text = predicate_text(spec, exception)
+    text = f"({text})" if isinstance(exception, And | Or) else text
+    return Rule(Or((rule.formula, exception)), f"({' '.join(rule.text.split())}) OR {text}", rule.span)
+
+
+def _solves(conditions: Conditions, spec: Spec) -> bool:
+    return isinstance(_outcome(conditions, spec), Realizable)
+
+
+def _outcome(conditions: Conditions, spec: Spec) -> Outcome:
+    return synthesize(spec, conditions.ordering, backend=conditions.manager.backend)
