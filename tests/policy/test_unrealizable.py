@@ -1,0 +1,233 @@
+"""The certificate for the answer no: its text, its schema, its numbers."""
+
+import json
+from functools import cache
+from pathlib import Path
+
+import jsonschema
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.policy.mutations import mutations
+from tests.policy.strategies import NAMES, QUICK, spec_of, vocabularies
+from tests.policy.test_bind import shuffled
+from tumato_symbolic.diagnostics import UserError
+from tumato_symbolic.policy import DiagramBuilder, Policy, RankedGoal, Vocabulary, rebuild
+from tumato_symbolic.policy.files import load as load_policy
+from tumato_symbolic.policy.unrealizable import (
+    Choice,
+    Conflict,
+    Cube,
+    Cut,
+    Layers,
+    NoAllowedSet,
+    NoPlan,
+    Unrealizability,
+    Violation,
+)
+from tumato_symbolic.policy.unrealizable_file import bind, dumps, load, load_claim, loads, save
+
+SCHEMA = json.loads(Path(__file__).parents[2].joinpath("tumato_symbolic/policy/unrealizable.schema.json").read_text())
+
+
+@st.composite
+def cubes(draw, vocabulary):
+    """A cube with any violation that the format can hold."""
+    numbers = range(len(vocabulary.actions))
+    sets = st.frozensets(st.sampled_from(numbers)) if numbers else st.just(frozenset())
+    kinds = ["reaction-rule", "idle", "nominal-unsafe"]
+    kinds += ["precondition", "unsafe"] if numbers else []
+    kinds += ["resource", "nominal-conflict"] if len(numbers) > 1 else []
+    kind = draw(st.sampled_from(kinds))
+    violation = Violation(kind)
+    if kind in ("precondition", "resource", "nominal-conflict"):
+        size = 1 if kind == "precondition" else 2
+        actions = draw(st.lists(st.sampled_from(numbers), min_size=size, max_size=size, unique=True))
+        violation = Violation(kind, tuple(actions))
+    elif kind == "reaction-rule":
+        violation = Violation(kind, rule=draw(NAMES))
+    elif kind == "unsafe":
+        effect = st.lists(pairs(vocabulary), max_size=3, unique_by=lambda pair: pair[0])
+        strikes = st.tuples(st.sampled_from(numbers), effect.map(lambda found: tuple(sorted(found))))
+        violation = Violation(kind, outcome=tuple(draw(st.lists(strikes, max_size=3))))
+    return Cube(draw(sets), draw(sets), violation)
+
+
+def pairs(vocabulary):
+    """A variable and one of its values."""
+    found = [(variable, value) for variable, size in enumerate(vocabulary.sizes) for value in range(size)]
+    return st.sampled_from(found)
+
+
+def states(vocabulary):
+    """Any state."""
+    return st.tuples(*(st.integers(0, size - 1) for size in vocabulary.sizes))
+
+
+@st.composite
+def layers(draw, vocabulary):
+    """No plan from a state, with any sets as layers."""
+    builder = DiagramBuilder(draw(st.permutations(range(len(vocabulary.sizes)))), (False, True))
+    goals = []
+    for _ in range(draw(st.integers(0, 3))):
+        sets = draw(st.lists(st.frozensets(states(vocabulary), max_size=5), min_size=1, max_size=3))
+        roots = [builder.from_table(vocabulary.sizes, dict.fromkeys(found, True), False) for found in sets]
+        goals.append((tuple(draw(st.lists(NAMES, max_size=2, unique=True))), names(draw, vocabulary), roots))
+    diagram, kept = rebuild(builder.finish(), [root for *_, roots in goals for root in roots])
+    left = iter(kept)
+    found = tuple(Layers(bodies, executed, tuple(next(left) for _ in roots)) for bodies, executed, roots in goals)
+    return NoPlan(draw(states(vocabulary)), diagram, found)
+
+
+def names(draw, vocabulary):
+    """Some actions, by name."""
+    some = st.lists(st.sampled_from(vocabulary.actions), unique=True) if vocabulary.actions else st.just([])
+    return tuple(draw(some))
+
+
+@st.composite
+def conflicts(draw, vocabulary):
+    """Any choices, cuts and distances."""
+    builder = DiagramBuilder(draw(st.permutations(range(len(vocabulary.sizes)))), (None, 0, 1))
+    tables = st.dictionaries(states(vocabulary), st.sampled_from([None, 0, 1]), max_size=6)
+    drawn = [builder.from_table(vocabulary.sizes, draw(tables), None) for _ in range(draw(st.integers(1, 3)))]
+    diagram, roots = rebuild(builder.finish(), drawn)
+    goals = tuple(RankedGoal((f"S is v{root}",), names(draw, vocabulary), root) for root in roots)
+    goal = st.integers(0, len(goals) - 1)
+    options = st.lists(st.tuples(states(vocabulary), goal), max_size=3).map(tuple)
+    choices = draw(st.lists(st.builds(Choice, states(vocabulary), options), min_size=1, max_size=4).map(tuple))
+    number = st.integers(0, len(choices) - 1)
+    some = st.lists(number, min_size=1, max_size=3).map(tuple)
+    paths = st.builds(Cut, st.just("path"), goal, some, states(vocabulary))
+    loops = st.builds(Cut, st.just("loop"), goal, some, st.none())
+    cuts = draw(st.lists(paths | loops, max_size=3).map(tuple))
+    return Conflict(draw(some), choices, cuts, diagram, goals)
+
+
+@st.composite
+def certificates(draw):
+    """A certificate of any kind, whatever it is worth."""
+    vocabulary = draw(vocabularies())
+    none = st.builds(NoAllowedSet, states(vocabulary), st.none() | st.lists(cubes(vocabulary), max_size=4).map(tuple))
+    reason = draw(none | layers(vocabulary) | conflicts(vocabulary))
+    return Unrealizability(vocabulary, draw(st.sampled_from(["any", "first"])), draw(NAMES), reason)
+
+
+@cache
+def example(kind):
+    """A small certificate of one kind, the same every time."""
+    vocabulary = Vocabulary((("S_Place", ("dock", "hall")), ("S_Load", ("free", "full"))), ("go", "load"))
+    builder = DiagramBuilder((1, 0), (False, True) if kind == "no-plan" else (None, 0, 1))
+    if kind == "no-allowed-set":
+        cubes = (
+            Cube(frozenset((0, 1)), frozenset(), Violation("resource", (0, 1))),
+            Cube(frozenset((0,)), frozenset((1,)), Violation("unsafe", outcome=((0, ((0, 1),)),))),
+            Cube(frozenset((1,)), frozenset((0,)), Violation("reaction-rule", rule="executing go")),
+            Cube(frozenset(), frozenset((0, 1)), Violation("idle")),
+        )
+        reason = NoAllowedSet((0, 1), cubes)
+    elif kind == "no-plan":
+        roots = [
+            builder.from_table((2, 2), dict.fromkeys(found, True), False) for found in ([(0, 1)], [(1, 1), (0, 0)])
+        ]
+        reason = NoPlan((0, 0), builder.finish(), (Layers(("S_Load is full",), ("go",), tuple(roots)),))
+    else:
+        root = builder.from_table((2, 2), {(0, 0): 0, (1, 0): 1}, None)
+        choices = (Choice((0, 0), (((1, 0), 0),)), Choice((1, 0), ()))
+        cuts = (Cut("path", 0, (0, 1), (1, 1)), Cut("loop", 0, (0,), None))
+        goals = (RankedGoal(("S_Load is full",), (), root),)
+        reason = Conflict((0,), choices, cuts, builder.finish(), goals)
+    return loads(dumps(Unrealizability(vocabulary, "any", "0123abcd", reason)))
+
+
+KINDS = pytest.mark.parametrize("kind", ["no-allowed-set", "no-plan", "conflict"])
+
+
+@QUICK
+@given(certificates())
+def test_a_certificate_survives_its_text(certificate):
+    """`loads(dumps(c)) == c` for every certificate, and the schema accepts the text."""
+    text = dumps(certificate)
+    assert loads(text) == certificate
+    jsonschema.Draft202012Validator(SCHEMA).validate(json.loads(text))
+
+
+def test_the_schema_is_a_schema():
+    """`unrealizable.schema.json` is valid JSON Schema 2020-12."""
+    jsonschema.Draft202012Validator.check_schema(SCHEMA)
+
+
+@QUICK
+@given(certificates(), st.randoms(use_true_random=False))
+def test_order_of_declaration_never_matters(certificate, random):
+    """Bound to another order of the same names and back, a certificate says the same, by names and in its diagrams."""
+    target = shuffled(certificate.vocabulary, random)
+    bound = bind(certificate, spec_of(target))
+    assert bound.vocabulary == target
+    assert dumps(bind(bound, spec_of(certificate.vocabulary))) == dumps(certificate)
+    match certificate.reason:
+        case NoAllowedSet(state) | NoPlan(state):
+            assert named(target, bound.reason.state) == named(certificate.vocabulary, state)
+        case Conflict(choices=choices):
+            theirs = [named(target, choice.state) for choice in bound.reason.choices]
+            assert theirs == [named(certificate.vocabulary, choice.state) for choice in choices]
+
+
+def named(vocabulary, state):
+    """Value by variable."""
+    return {name: values[value] for (name, values), value in zip(vocabulary.variables, state, strict=True)}
+
+
+@KINDS
+def test_a_file_holds_the_certificate(kind, tmp_path):
+    """`save` and `load` are inverse; `load_claim` tells certificates from policies."""
+    path = tmp_path / "c.unrealizable.json"
+    save(example(kind), path)
+    assert load(str(path)) == load_claim(str(path)) == example(kind)
+    assert list(tmp_path.iterdir()) == [path]
+    proof = Path(__file__).parents[2] / "proofs" / "amr.policy.json"
+    assert isinstance(load_claim(str(proof)), Policy)
+
+
+def test_a_certificate_is_no_policy(tmp_path):
+    """Whoever asks a certificate what to do is told what it is."""
+    path = tmp_path / "c.json"
+    save(example("no-plan"), path)
+    with pytest.raises(UserError, match="TUM502: this is a certificate") as error:
+        load_policy(str(path))
+    assert "tumato-sym verify" in error.value.diagnostics[0].help
+
+
+@pytest.mark.parametrize(
+    ("change", "code"),
+    [
+        (lambda spec: spec_of(Vocabulary(spec.variables[:1], spec.actions)), "TUM503"),
+        (lambda spec: spec_of(Vocabulary((spec.variables[0], ("S_Load", ("free",))), spec.actions)), "TUM504"),
+        (lambda spec: spec_of(Vocabulary(spec.variables, ("go",))), "TUM505"),
+    ],
+)
+def test_names_that_do_not_fit_are_refused(change, code):
+    """A certificate about other variables, values or actions cannot be bound."""
+    certificate = example("conflict")
+    with pytest.raises(UserError, match=f"{code}: the certificate"):
+        bind(certificate, change(certificate.vocabulary))
+
+
+@KINDS
+@pytest.mark.parametrize("block", range(5))
+def test_mutants_end_in_a_certificate_or_a_coded_error(kind, block, tmp_path):
+    """200 mutants of each kind: read, written and bound, or refused with TUM501 to TUM508."""
+    path = tmp_path / "c.json"
+    text = dumps(example(kind))
+    for seed in range(block * 40, block * 40 + 40):
+        path.write_bytes(mutations(text, seed))
+        try:
+            found = load(str(path))
+            assert loads(dumps(found)) == found
+            assert dumps(bind(found, spec_of(found.vocabulary))) == dumps(found)
+        except UserError as error:
+            for diagnostic in error.diagnostics:
+                assert diagnostic.code.name in {f"TUM50{number}" for number in (1, 2, 3, 4, 5, 8)}
+                assert len(diagnostic.message) < 1000
+                assert diagnostic.message.isprintable()
