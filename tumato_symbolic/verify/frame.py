@@ -37,6 +37,7 @@ class Frame:
     def __init__(self, spec: Spec, decisions: DecisionDiagram, budget: float | None) -> None:
         self.spec = spec
         self._budget = budget
+        self.latest = math.inf
         self.solver = Solver()
         self._solvers = [self.solver]
         self._definitions: list[Term] = []
@@ -106,8 +107,8 @@ class Frame:
         return frozenset(number for number, term in enumerate(self.executed) if is_true(model, term))
 
     def deadline(self) -> float:
-        """When the time for an obligation that is begun now is over, on the monotonic clock."""
-        return math.inf if self._budget is None else time.monotonic() + self._budget
+        """When the time for an obligation that is begun now is over, on the monotonic clock; never after `latest`."""
+        return self.latest if self._budget is None else min(self.latest, time.monotonic() + self._budget)
 
     def first_model(self, claim: str, *terms: Term, deadline: float | None = None) -> Any:  # noqa: ANN401
         """A model of `terms` whose state comes first in the order of declaration, so that witnesses are repeatable.

@@ -8,31 +8,22 @@ from dataclasses import replace
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.policy.bind import bind
-from tumato_symbolic.policy.convert import as_diagram
-from tumato_symbolic.policy.diagram import count_true
-from tumato_symbolic.policy.model import Policy, Table
-from tumato_symbolic.semantics import is_valid
+from tumato_symbolic.policy.model import Policy
 from tumato_symbolic.spec import Ordering, Spec
-from tumato_symbolic.verify.certificate import RankSource
-from tumato_symbolic.verify.frame import Frame
-from tumato_symbolic.verify.goals_property import prove_goals
-from tumato_symbolic.verify.minimal_property import prove_minimal
+from tumato_symbolic.verify.provers import make_prover
 from tumato_symbolic.verify.result import (
     PROPERTIES,
-    CertificateUse,
     OrderingSource,
     PropertyName,
     PropertyResult,
+    ProverName,
     Refutation,
     Verdict,
     Verification,
 )
-from tumato_symbolic.verify.solver import UndecidedError
-from tumato_symbolic.verify.step_property import prove_safe, prove_total
-from tumato_symbolic.verify.terms import conjunction, negation
 
 OBLIGATION_BUDGET = 30.0
-"""How many seconds Z3 may think about one obligation."""
+"""How many seconds Z3 may think about one obligation, and the walk about one property."""
 
 
 def verify(
@@ -41,43 +32,38 @@ def verify(
     *,
     ordering: Ordering | None = None,
     properties: Sequence[str] = PROPERTIES,
+    prover: ProverName = "auto",
     timeout: float | None = OBLIGATION_BUDGET,
     progress: Callable[[str], None] | None = None,
 ) -> Verification:
     """Prove `policy` for all valid states of `spec`, or refute it with a witness.
 
     `ordering` overrules what policy and specification say of the order of effects. `properties` are some of `total`,
-    `safe`, `goals` and `minimal`. `timeout` limits the time, in seconds, of each obligation (None: no limit); what is
-    not proved in time is undecided. `progress` is told what is being proved.
+    `safe`, `goals` and `minimal`. `prover` is `z3`; `walk`, which does without Z3; `both`, which must agree; or `auto`:
+    Z3 for what it answers soon, the walk for the rest. `timeout` limits the time, in seconds, of each obligation of Z3
+    and of each property of the walk (None: no limit); what is not proved in time is undecided. `progress` is told
+    what is being proved.
 
     Raises `UserError` when the names of the policy do not fit the specification, or no state is valid.
     """
     asked = _asked(properties)
     bound = bind(policy, spec)
     judged, source = _ordering(bound, spec, ordering)
-    frame = Frame(spec, as_diagram(bound), timeout)
-    _require_a_valid_state(frame)
+    chosen = make_prover(prover, spec, bound, judged, timeout)
+    if not chosen.has_valid_state():
+        message = "no state satisfies all assumptions, so there is nothing to decide"
+        raise UserError((Diagnostic(Code.TUM312, message, help="drop or weaken an assumption"),))
     results: list[PropertyResult] = []
     if source == "policy" and judged == "first" and spec.effect_ordering == "any":
         results.append(PropertyResult("ordering", "refuted", refutation=Refutation("ordering")))
-    ranks: RankSource | None = None
     for name in asked:
         if progress is not None:
             progress(f"proving {name}")
         started = time.perf_counter()
-        if name in ("goals", "minimal") and ranks is None:
-            safe = any(result.name == "safe" and result.verdict == "proved" for result in results)
-            ranks = RankSource(frame, bound, judged, safe)
-        result = _prove(name, frame, ranks, judged)
+        result = chosen.prove(name)
         results.append(replace(result, seconds=time.perf_counter() - started))
-    return Verification(
-        _overall([result.verdict for result in results]),
-        tuple(results),
-        judged,
-        source,
-        ranks.use if ranks is not None else CertificateUse("unneeded"),
-        _count_valid(frame, bound, results),
-    )
+    verdict = _overall([result.verdict for result in results])
+    return Verification(verdict, tuple(results), judged, source, chosen.use, chosen.valid_states())
 
 
 def _asked(properties: Sequence[str]) -> list[PropertyName]:
@@ -97,36 +83,7 @@ def _ordering(policy: Policy, spec: Spec, argument: Ordering | None) -> tuple[Or
     return "any", "default"
 
 
-def _require_a_valid_state(frame: Frame) -> None:
-    if frame.solver.ask(frame.valid) == "unsat":
-        message = "no state satisfies all assumptions, so there is nothing to decide"
-        raise UserError((Diagnostic(Code.TUM312, message, help="drop or weaken an assumption"),))
-
-
-def _prove(name: PropertyName, frame: Frame, ranks: RankSource | None, ordering: Ordering) -> PropertyResult:
-    try:
-        if name == "total":
-            return prove_total(frame)
-        if name == "safe" or ranks is None:
-            return prove_safe(frame, ordering)
-        return prove_goals(frame, ranks) if name == "goals" else prove_minimal(frame, ranks, ordering)
-    except UndecidedError as undecided:
-        return PropertyResult(name, "undecided", reason=str(undecided))
-
-
 def _overall(verdicts: list[Verdict]) -> Verdict:
     if "refuted" in verdicts:
         return "refuted"
     return "undecided" if "undecided" in verdicts else "proved"
-
-
-def _count_valid(frame: Frame, policy: Policy, results: list[PropertyResult]) -> int | None:
-    """How many states are valid: known where each of them is decided, and the others can be told apart."""
-    if not any(result.name == "total" and result.verdict == "proved" for result in results):
-        return None
-    decisions = policy.decisions
-    if isinstance(decisions, Table):
-        return sum(is_valid(frame.spec, state) for state in decisions.rows)
-    if frame.solver.ask(conjunction((frame.defined, negation(frame.valid)))) != "unsat":
-        return None
-    return count_true(decisions.diagram, decisions.defined, policy.vocabulary.sizes)

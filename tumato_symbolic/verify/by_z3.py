@@ -1,0 +1,79 @@
+"""The properties of a policy, proved by Z3 (`docs/certificate.md`, tier 1)."""
+
+from __future__ import annotations
+
+import math
+import time
+from functools import cached_property
+
+from tumato_symbolic.policy.convert import as_diagram
+from tumato_symbolic.policy.diagram import count_true
+from tumato_symbolic.policy.model import Policy, Table
+from tumato_symbolic.semantics import is_valid
+from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.verify.certificate import RankSource
+from tumato_symbolic.verify.frame import Frame
+from tumato_symbolic.verify.goals_property import prove_goals
+from tumato_symbolic.verify.minimal_property import prove_minimal
+from tumato_symbolic.verify.result import CertificateUse, PropertyName, PropertyResult
+from tumato_symbolic.verify.solver import UndecidedError
+from tumato_symbolic.verify.step_property import prove_safe, prove_total
+from tumato_symbolic.verify.terms import conjunction, negation
+
+
+class Z3Prover:
+    """Proves or refutes the properties of one policy; `timeout` limits each obligation.
+
+    `policy_is_safe` is whether `safe` is known to be proved.
+    """
+
+    def __init__(self, spec: Spec, policy: Policy, ordering: Ordering, timeout: float | None) -> None:
+        self._spec = spec
+        self._policy = policy
+        self._ordering = ordering
+        self._frame = Frame(spec, as_diagram(policy), timeout)
+        self.policy_is_safe = False
+        self._total = False
+
+    @property
+    def use(self) -> CertificateUse:
+        """What became of the certificate."""
+        return self._ranks.use if "_ranks" in self.__dict__ else CertificateUse("unneeded")
+
+    @cached_property
+    def _ranks(self) -> RankSource:
+        return RankSource(self._frame, self._policy, self._ordering, self.policy_is_safe)
+
+    def has_valid_state(self) -> bool:
+        """Whether some state satisfies all assumptions, as far as Z3 can tell."""
+        return self._frame.solver.ask(self._frame.valid) != "unsat"
+
+    def prove(self, name: PropertyName, within: float = math.inf) -> PropertyResult:
+        """The verdict on one property; undecided where an obligation, or all in `within` seconds, take too long."""
+        self._frame.latest = time.monotonic() + within
+        try:
+            match name:
+                case "total":
+                    result = prove_total(self._frame)
+                case "safe":
+                    result = prove_safe(self._frame, self._ordering)
+                case "goals":
+                    result = prove_goals(self._frame, self._ranks)
+                case _:
+                    result = prove_minimal(self._frame, self._ranks, self._ordering)
+        except UndecidedError as undecided:
+            return PropertyResult(name, "undecided", reason=str(undecided))
+        self._total |= name == "total" and result.verdict == "proved"
+        self.policy_is_safe |= name == "safe" and result.verdict == "proved"
+        return result
+
+    def valid_states(self) -> int | None:
+        """How many states are valid: known where each of them is decided, and the others can be told apart."""
+        if not self._total:
+            return None
+        decisions = self._policy.decisions
+        if isinstance(decisions, Table):
+            return sum(is_valid(self._spec, state) for state in decisions.rows)
+        if self._frame.solver.ask(conjunction((self._frame.defined, negation(self._frame.valid)))) != "unsat":
+            return None
+        return count_true(decisions.diagram, decisions.defined, self._policy.vocabulary.sizes)

@@ -1,0 +1,72 @@
+"""The certificate of a policy as it was given: nothing in it is believed (`docs/certificate.md`)."""
+
+from __future__ import annotations
+
+from tumato_symbolic.policy.diagram import Reference
+from tumato_symbolic.policy.model import Certificate, Policy
+from tumato_symbolic.semantics import Residual, action_names
+from tumato_symbolic.spec import Spec, canonical_text, digest
+from tumato_symbolic.verify.result import CertificateUse
+
+UNNEEDED = CertificateUse("unneeded")
+
+
+class GivenRanks:
+    """The ranks that came with a policy, by residual goal; `use` tells what became of them.
+
+    `roots` is empty where there are none, or they were set aside.
+    """
+
+    def __init__(self, spec: Spec, policy: Policy, policy_is_safe: bool) -> None:
+        self._spec = spec
+        self._policy_is_safe = policy_is_safe
+        self.roots: dict[Residual, Reference] = {}
+        self.use = self._first_look(policy)
+        if self.use == UNNEEDED and policy.certificate is not None:
+            self._read(policy.certificate)
+
+    def _first_look(self, policy: Policy) -> CertificateUse:
+        if policy.certificate is None and policy.certificate_problem is None:
+            return CertificateUse("absent")
+        if policy.digest != digest(self._spec):
+            made_for = "no specification in particular" if policy.digest is None else "another specification"
+            return CertificateUse("stale", f"it was made for {made_for}")
+        if policy.certificate_problem is not None:
+            return CertificateUse("wrong", policy.certificate_problem)
+        return UNNEEDED
+
+    def _read(self, certificate: Certificate) -> None:
+        """Know the goals of the certificate by the numbers of the specification."""
+        spec = self._spec
+        bodies = {canonical_text(spec, rule.formula): number for number, rule in enumerate(spec.bodies)}
+        actions = {action.name: number for number, action in enumerate(spec.actions)}
+        unknown = [text for goal in certificate.goals for text in goal.bodies if text not in bodies]
+        if unknown:
+            self.reject(f"it ranks '{unknown[0]}', which is no goal of the specification")
+        elif any(leaf is not None and leaf < 0 for leaf in certificate.ranks.leaves):
+            self.reject("it has a negative rank")
+        else:
+            for goal in certificate.goals:
+                executed = frozenset(actions[name] for name in goal.executed)
+                self.roots[Residual(frozenset(bodies[text] for text in goal.bodies), executed)] = goal.root
+
+    def reject(self, reason: str) -> None:
+        """Set the certificate aside: it is wrong, unless that may be the fault of an unsafe policy."""
+        self.roots = {}
+        self.use = CertificateUse("wrong" if self._policy_is_safe else "set aside", reason)
+
+    def serve(self) -> None:
+        """The ranks carried a proof."""
+        if self.use == UNNEEDED:
+            self.use = CertificateUse("used")
+
+    def fall_short(self, reason: str) -> None:
+        """Some ranks had to be recomputed."""
+        if self.use.status in ("used", "unneeded"):
+            self.use = CertificateUse("incomplete", reason)
+
+    def described(self, goal: Residual) -> str:
+        """A residual goal in the user's words."""
+        text = " AND ".join(f"({self._spec.bodies[body].text})" for body in sorted(goal.bodies)) or "'no goal'"
+        executed = ", ".join(action_names(self._spec, goal.executed))
+        return f"{text} while executing {executed}" if executed else text

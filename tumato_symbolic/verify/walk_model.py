@@ -1,0 +1,367 @@
+"""A specification and a policy as functions that the walk can compare (`docs/semantics.md`, sections 3 to 5).
+
+A function speaks of a state `s`, and of a set of actions `A` by one variable for every *group*, actions of which at
+most one can be in an allowed set: 0 when none is, otherwise the place of the action in its group. So `Ok(s, A)` is one
+function; the policy, an effect and a successor are what is substituted for its variables.
+"""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+from itertools import combinations
+
+from tumato_symbolic.policy.model import DecisionDiagram
+from tumato_symbolic.semantics import ActionSet, Residual, State, nominal_agrees
+from tumato_symbolic.spec import (
+    And,
+    Assignment,
+    ConditionalGoal,
+    Constant,
+    Executing,
+    Formula,
+    Goal,
+    Iff,
+    Is,
+    Not,
+    Or,
+    Ordering,
+    SimpleGoal,
+    Spec,
+    executing_atoms,
+)
+from tumato_symbolic.verify.walk import FALSE, TRUE, Function, Walk
+
+MOST_CASES = 300
+"""Where the policy nominally writes at most so many different things, each is looked at apart."""
+
+
+class Model:
+    """`valid`, `decided` and `acting` are as in `docs/certificate.md`.
+
+    `policy[a]` is `a ∈ π(s)`, `chosen[a]` is `a ∈ A`.
+    """
+
+    def __init__(
+        self, spec: Spec, decisions: DecisionDiagram, ordering: Ordering, deadline: float | None = None
+    ) -> None:
+        self.spec = spec
+        self._ordering = ordering
+        self.groups = exclusive_groups(spec)
+        sizes = [*(len(variable.values) for variable in spec.variables), *(len(group) + 1 for group in self.groups)]
+        self.walk = walk = Walk(_order(spec, decisions.diagram.order, self.groups), sizes)
+        walk.deadline = deadline
+        taken = walk.taken(decisions.diagram, int)
+        self.policy = [taken[root] for root in decisions.roots]
+        self._place = {
+            action: (group, place)
+            for group, actions in enumerate(self.groups)
+            for place, action in enumerate(actions, 1)
+        }
+        self.chosen = [
+            self._is(self.group_variable(action), self._place[action][1]) for action in range(len(spec.actions))
+        ]
+        self.valid = walk.all_of(self.formula(rule.formula) for rule in spec.assumptions)
+        self.safe = walk.all_of((self.valid, *(self.formula(rule.formula) for rule in spec.state_rules)))
+        self.decided = walk.all_of((self.valid, taken[decisions.defined]))
+
+    def group_variable(self, action: int) -> int:
+        """The variable that tells which action of its group is chosen."""
+        return len(self.spec.variables) + self._place[action][0]
+
+    def _is(self, variable: int, value: int) -> Function:
+        size = self.walk.sizes[self.walk.level_of[variable]]
+        return self.walk.by_value(variable, [int(each == value) for each in range(size)])
+
+    def formula(self, formula: Formula, executed: Sequence[Function] = ()) -> Function:
+        """Where a formula holds; `executed[a]` is the truth of `executing a`."""
+        walk = self.walk
+        match formula:
+            case Constant(value):
+                return int(value)
+            case Is(variable, number):
+                return self._is(variable, number)
+            case Executing(action):
+                return executed[action]
+            case Not(operand):
+                return walk.negation(self.formula(operand, executed))
+            case And(operands):
+                return walk.all_of(self.formula(part, executed) for part in operands)
+            case Or(operands):
+                return walk.any_of(self.formula(part, executed) for part in operands)
+            case Iff(left, right):
+                one, other = self.formula(left, executed), self.formula(right, executed)
+                return walk.select(one, (walk.negation(other), other))
+
+    # Conditions 1 to 4
+
+    def preconditions(self, action: int) -> Function:
+        """Where an action may be executed, as far as it alone is concerned."""
+        return self.walk.all_of(self.formula(rule.formula) for rule in self.spec.actions[action].preconditions)
+
+    def together(self, pairs: Sequence[tuple[int, int]], executed: Sequence[Function]) -> Function:
+        """Two actions of one of these pairs are both executed."""
+        walk = self.walk
+        return walk.any_of(walk.all_of((executed[one], executed[other])) for one, other in pairs)
+
+    @cached_property
+    def acting(self) -> Function:
+        """`s` is decided, and the nominal effects of `π(s)` agree."""
+        return self.walk.without(self.decided, self.together(disagreeing(self.spec), self.policy))
+
+    # Conditions 5 and 6
+
+    def after(self, action: int, function: Function) -> Function:
+        """`function` after every effect of `action`, which is then no longer to come."""
+        idle, constant = {self.group_variable(action): FALSE}, self.walk.constant
+        effects = (
+            {variable: constant(value) for variable, value in effect} | idle
+            for effect in self.spec.actions[action].effects
+        )
+        return self.walk.all_of(self.walk.substitute(function, effect) for effect in effects)
+
+    @cached_property
+    def safe_from_here(self) -> Function:
+        """`s` is safe, and stays so whatever effects of `A` are still to come, in any order.
+
+        The one solution of `f(s, A) ⇔ s ∈ S and f(e(s), A \\ a)` for every effect `e` of every `a ∈ A`.
+        """
+        walk, before = self.walk, FALSE
+        exclusive = walk.negation(self.together(conflicting(self.spec), self.chosen))
+        found = walk.all_of((self.safe, exclusive))
+        while found != before:
+            before = found
+            for action, chosen in enumerate(self.chosen):
+                found = walk.all_of((found, walk.select(chosen, (TRUE, self.after(action, found)))))
+        return found
+
+    @cached_property
+    def outcomes_safe(self) -> Function:
+        """Condition 5: every outcome of `A` in `s` is safe. Speaks of sets without conflicts only."""
+        walk = self.walk
+        then = self.safe_from_here if self._ordering == "any" else self.safe
+        effects = (walk.select(chosen, (TRUE, self.after(action, then))) for action, chosen in enumerate(self.chosen))
+        return walk.all_of((walk.any_of((*self.chosen, self.safe)), *effects))
+
+    def successor(self, executed: Sequence[Function]) -> dict[int, Function]:
+        """`δ`: the next value of every variable that may change, where the nominal effects agree."""
+        walk, found = self.walk, dict[int, Function]()
+        for number, action in enumerate(self.spec.actions):
+            for variable, value in action.nominal:
+                stays = found.get(variable, walk.variable(variable))
+                found[variable] = walk.select(executed[number], (stays, walk.constant(value)))
+        return found
+
+    @cached_property
+    def _steps(self) -> list[tuple[Function, dict[int, Function]]] | None:
+        """The acting states by what the policy nominally writes there; None where that is too many cases."""
+        walk = self.walk
+        parts: dict[Assignment, Function] = {(): self.acting}
+        for number, action in enumerate(self.spec.actions):
+            split: dict[Assignment, Function] = {}
+            for writes, part in parts.items():
+                both = tuple(sorted({*writes, *action.nominal}))
+                executed = walk.all_of((part, self.policy[number]))
+                for key, case in ((both, executed), (writes, walk.without(part, self.policy[number]))):
+                    if case != FALSE:
+                        split[key] = walk.any_of((split.get(key, FALSE), case))
+            parts = split
+            if len(parts) > MOST_CASES:
+                return None
+        return [
+            (part, {variable: walk.constant(value) for variable, value in writes}) for writes, part in parts.items()
+        ]
+
+    def next(self, function: Function) -> Function:
+        """`function` in `δ(s, π(s))`, where the policy acts."""
+        if self._steps is None:
+            return self.walk.substitute(function, self.successor(self.policy))
+        found = FALSE
+        for part, writes in self._steps:
+            found = self.walk.select(part, (found, self.walk.substitute(function, writes)))
+        return found
+
+    def obligations(self) -> Iterator[tuple[str, Function]]:
+        """What makes a decision allowed: claims, each with the decided states that violate it."""
+        spec, walk, policy = self.spec, self.walk, self.policy
+        for number, action in enumerate(spec.actions):
+            if action.preconditions:
+                executed = walk.all_of((self.decided, policy[number]))
+                yield f"the preconditions of {action.name} hold", walk.without(executed, self.preconditions(number))
+        conflict = walk.all_of((self.decided, self.together(conflicting(spec), policy)))
+        yield "resources are controlled once, and nominal effects agree", conflict
+        for rule in spec.reaction_rules:
+            yield (
+                f"the reaction rule '{rule.text}' holds",
+                walk.without(self.decided, self.formula(rule.formula, policy)),
+            )
+        apart = walk.without(self.decided, conflict)
+        as_decided = {}
+        for group, actions in enumerate(self.groups):
+            number = FALSE
+            for place, member in enumerate(actions, 1):
+                number = walk.select(policy[member], (number, walk.constant(place)))
+            as_decided[len(spec.variables) + group] = number
+        yield "every outcome is safe", walk.without(apart, walk.substitute(self.outcomes_safe, as_decided))
+        if self._ordering == "first":
+            yield "δ is safe", walk.without(apart, self.next(self.safe))
+
+    @cached_property
+    def allowed(self) -> Function:
+        """`Ok(s, A)`."""
+        spec, walk = self.spec, self.walk
+        parts = [walk.select(chosen, (TRUE, self.preconditions(action))) for action, chosen in enumerate(self.chosen)]
+        parts.append(walk.negation(self.together(conflicting(spec), self.chosen)))
+        parts += [self.formula(rule.formula, self.chosen) for rule in spec.reaction_rules]
+        if self._ordering == "first":
+            parts.append(walk.substitute(self.safe, self.successor(self.chosen)))
+        return walk.all_of((*parts, self.outcomes_safe))
+
+    # Durations
+
+    def duration(self, executed: Sequence[Function]) -> Function:
+        """The sum of the durations of the executed actions."""
+        walk, total = self.walk, FALSE
+        for number, action in enumerate(self.spec.actions):
+            amount = walk.select(executed[number], (FALSE, walk.constant(action.duration)))
+            total = walk.combine(operator.add, total, amount)
+        return total
+
+    def size(self, executed: Sequence[Function]) -> Function:
+        """The number of executed actions."""
+        total = FALSE
+        for each in executed:
+            total = self.walk.combine(operator.add, total, each)
+        return total
+
+    def least(self, where: Function, measure: Function) -> Function:
+        """That part of `where`, which is not empty, in which `measure` is smallest."""
+        walk = self.walk
+        elsewhere = walk.constant(walk.values_of(measure)[-1] + 1)
+        smallest = walk.values_of(walk.select(where, (elsewhere, measure)))[0]
+        return walk.all_of((where, walk.combine(operator.eq, measure, walk.constant(smallest))))
+
+    # States
+
+    def first_state(self, where: Function) -> State:
+        """The first state, as declared, for which `where` holds, possibly for one set only; there is one."""
+        found: list[int] = []
+        for variable, declared in enumerate(self.spec.variables):
+            for value in range(len(declared.values)):
+                rest = self.walk.substitute(where, {variable: self.walk.constant(value)})
+                if rest != FALSE:
+                    found.append(value)
+                    where = rest
+                    break
+        return tuple(found)
+
+    def holds(self, function: Function, state: State, chosen: ActionSet) -> bool:
+        """Whether a predicate is true of one state and one set without conflicts."""
+        places = dict.fromkeys(range(len(state), len(state) + len(self.groups)), 0)
+        places |= {self.group_variable(action): self._place[action][1] for action in chosen}
+        values = {variable: self.walk.constant(value) for variable, value in (*enumerate(state), *places.items())}
+        return self.walk.substitute(function, values) != FALSE
+
+    # Goals
+
+    @cached_property
+    def active(self) -> dict[int, Function]:
+        """Where every goal body is active; those not listed never are."""
+        return {} if self.spec.goals is None else self._entered(self.spec.goals)[1]
+
+    def _entered(self, goal: Goal) -> tuple[Function, dict[int, Function]]:
+        """Where `goal` is entered, and where it makes which body active."""
+        walk = self.walk
+        if isinstance(goal, SimpleGoal):
+            return TRUE, {goal.body: TRUE}
+        if isinstance(goal, ConditionalGoal):
+            entered = self.formula(goal.condition.formula)
+            inner = self._entered(goal.goal)[1]
+            return entered, {body: walk.all_of((entered, where)) for body, where in inner.items()}
+        found, tried = dict[int, Function](), TRUE
+        for member in goal.members:
+            entered, inner = self._entered(member)
+            for body, where in inner.items():
+                found[body] = walk.any_of((found.get(body, FALSE), walk.all_of((tried, where))))
+            if goal.kind == "priority":
+                tried = walk.without(tried, entered)
+        return TRUE, found
+
+    def residuals(self, region: Function, executed: Sequence[Function]) -> list[tuple[Residual, Function]]:
+        """`region` by the residual goal that its states have when `executed` is the first set."""
+        walk, parts = self.walk, [(frozenset[int](), region)]
+        for body, where in self.active.items():
+            parts = [(bodies | {body}, walk.all_of((part, where))) for bodies, part in parts] + [
+                (bodies, walk.without(part, where)) for bodies, part in parts
+            ]
+            parts = [(bodies, part) for bodies, part in parts if part != FALSE]
+        found = []
+        for bodies, part in parts:
+            spoken = frozenset[int]().union(*(executing_atoms(self.spec.bodies[body].formula) for body in bodies))
+            cases = [(frozenset[int](), part)]
+            for action in sorted(spoken):
+                cases = [(those | {action}, walk.all_of((case, executed[action]))) for those, case in cases] + [
+                    (those, walk.without(case, executed[action])) for those, case in cases
+                ]
+                cases = [(those, case) for those, case in cases if case != FALSE]
+            found += [(Residual(bodies, those), case) for those, case in cases if case != FALSE]
+        return found
+
+    def reached(self, goal: Residual) -> Function:
+        """Where a residual goal holds."""
+        executed = [int(action in goal.executed) for action in range(len(self.spec.actions))]
+        return self.walk.all_of(self.formula(self.spec.bodies[body].formula, executed) for body in sorted(goal.bodies))
+
+    def within(self, goal: Residual) -> Function:
+        """From where the run of the policy satisfies `goal` in at most `L - 1` steps, none included: layer by layer."""
+        walk, bound = self.walk, self.spec.max_plan_length
+        found = reached = self.reached(goal)
+        left = bound - 1 if bound is not None else -1
+        while left:
+            more = walk.any_of((reached, walk.all_of((self.acting, self.next(found)))))
+            if more == found:
+                break
+            found, left = more, left - 1
+        return found
+
+
+def conflicting(spec: Spec) -> list[tuple[int, int]]:
+    """Pairs of actions that are never in one allowed set: a common resource, or nominal effects that disagree."""
+    apart = set(disagreeing(spec))
+    return [
+        pair
+        for pair in combinations(range(len(spec.actions)), 2)
+        if pair in apart or spec.actions[pair[0]].resources & spec.actions[pair[1]].resources
+    ]
+
+
+def disagreeing(spec: Spec) -> list[tuple[int, int]]:
+    """Pairs of actions whose nominal effects disagree."""
+    pairs = combinations(range(len(spec.actions)), 2)
+    return [pair for pair in pairs if not nominal_agrees(spec, frozenset(pair))]
+
+
+def exclusive_groups(spec: Spec) -> list[list[int]]:
+    """All actions, in groups of which no two are ever in one allowed set."""
+    apart = {frozenset(pair) for pair in conflicting(spec)}
+    groups: list[list[int]] = []
+    for action in range(len(spec.actions)):
+        fitting = (group for group in groups if all(frozenset((action, other)) in apart for other in group))
+        group = next(fitting, None)
+        if group is None:
+            groups.append([action])
+        else:
+            group.append(action)
+    return groups
+
+
+def _order(spec: Spec, tested: Sequence[int], groups: Sequence[Sequence[int]]) -> list[int]:
+    """The variables as the policy tests them, every group just above the first one that it writes."""
+    states = [*tested, *(variable for variable in range(len(spec.variables)) if variable not in tested)]
+    above: Mapping[int, list[int]] = {variable: [] for variable in states}
+    for number, group in enumerate(groups):
+        written = {variable for action in group for effect in spec.actions[action].effects for variable, _ in effect}
+        first = next((variable for variable in states if variable in written), states[0])
+        above[first].append(len(spec.variables) + number)
+    return [each for variable in states for each in (*above[variable], variable)]
