@@ -61,19 +61,25 @@ def give_back(problem: Problem, before: Bdd, after: Bdd) -> Bdd:
 
     Both policies are defined in every safe state, and none fails under `after`.
     """
-    encoding, steps = problem.encoding, problem.steps
-    pending = [list(encoding.states_in(steps.states_of(after & ~before)))]
+    pending = [problem.steps.states_of(after & ~before)]
     suspects = list(range(len(problem.targets)))
     tries = 0
     while pending and tries < TRIES_TO_GIVE_BACK:
-        part = pending.pop()
-        if not part:
-            continue
-        states = encoding.manager.union(map(encoding.state_cube, part))
+        states = pending.pop()
         candidate = (after & ~states) | (before & states)
         tries += 1
         if serves_all(problem, candidate, suspects):
             after = candidate
-        elif len(part) > 1:
-            pending += [part[len(part) // 2 :], part[: len(part) // 2]]
+        else:
+            pending += reversed(_halves(problem, states))
     return after
+
+
+def _halves(problem: Problem, states: Bdd) -> list[Bdd]:
+    """A set in two by the first bit in which its states differ; nothing for a single state."""
+    manager = problem.encoding.manager
+    for bit in problem.encoding.all_state_bits:
+        low = states & ~manager.cube({bit: True})
+        if problem.false not in {low, states & ~low}:
+            return [low, states & ~low]
+    return []
