@@ -33,7 +33,7 @@ from tumato_symbolic.spec import (
 )
 from tumato_symbolic.verify.walk import FALSE, TRUE, Function, Walk
 
-MOST_CASES = 300
+MOST_CASES = 128
 """Where the policy nominally writes at most so many different things, each is looked at apart."""
 
 

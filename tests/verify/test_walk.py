@@ -1,0 +1,281 @@
+"""The walk: its operations against plain evaluation, and its verdicts against the judge and Z3."""
+
+import operator
+from importlib import import_module
+from itertools import product
+from random import Random
+
+import pytest
+
+from tests.generate import random_spec
+from tests.profiles import PROFILES
+from tests.semantics.build import Build, chosen, constraint
+from tests.verify.policies import certified, dressed, exact_ranks, near_policies, wrong_ranks
+from tumato_symbolic.policy import policy_from_rows
+from tumato_symbolic.semantics import ActionSet, State, all_states, better_sets, duration, judge
+from tumato_symbolic.spec import Not, Or, Ordering, Spec
+from tumato_symbolic.verify import PropertyResult, Refutation, Verification, verify
+from tumato_symbolic.verify.by_walk import WalkProver
+from tumato_symbolic.verify.walk import FALSE, TRUE, BudgetError, Walk
+
+Rows = dict[State, ActionSet]
+SIZES = (2, 3, 1, 4)
+POINTS = list(product(*map(range, SIZES)))
+
+
+def _function(walk: Walk, random: Random, most: int) -> tuple[int, dict[State, int]]:
+    """A function drawn at random, and its table."""
+    table = {point: random.randint(0, most) for point in POINTS}
+
+    def build(point: State) -> int:
+        if len(point) == len(SIZES):
+            return walk.constant(table[point])
+        return walk.by_value(len(point), [build((*point, value)) for value in range(SIZES[len(point)])])
+
+    return build(()), table
+
+
+def _table(walk: Walk, function: int) -> dict[State, int]:
+    constants = {point: [walk.constant(value) for value in point] for point in POINTS}
+    values = {point: walk.substitute(function, dict(enumerate(constants[point]))) for point in POINTS}
+    (most,) = {max(walk.values_of(value)[0] for value in values.values())}
+    return {point: next(n for n in range(most + 1) if walk.constant(n) == value) for point, value in values.items()}
+
+
+@pytest.mark.parametrize("order", [(0, 1, 2, 3), (3, 1, 0, 2)])
+def test_operations_do_what_they_say(order: tuple[int, ...]) -> None:
+    """`select`, `combine`, `substitute` and the predicates agree with evaluation at every point, in any order."""
+    random = Random(0)
+    for _ in range(20):
+        walk = Walk(order, SIZES)
+        number, numbers = _function(walk, random, 2)
+        cases = [_function(walk, random, 3) for _ in range(3)]
+        one, other = _function(walk, random, 1), _function(walk, random, 1)
+        assert _table(walk, walk.select(number, [case for case, _ in cases])) == {
+            point: cases[numbers[point]][1][point] for point in POINTS
+        }
+        added = walk.combine(operator.add, number, cases[0][0])
+        assert _table(walk, added) == {point: numbers[point] + cases[0][1][point] for point in POINTS}
+        assert walk.values_of(added) == sorted({numbers[point] + cases[0][1][point] for point in POINTS})
+        moved = walk.substitute(cases[0][0], {0: one[0], 1: number, 3: walk.constant(2)})
+        assert _table(walk, moved) == {
+            point: cases[0][1][one[1][point], numbers[point], point[2], 2] for point in POINTS
+        }
+        both, either = walk.all_of((one[0], other[0])), walk.any_of((one[0], other[0]))
+        assert _table(walk, both) == {point: one[1][point] & other[1][point] for point in POINTS}
+        assert _table(walk, either) == {point: one[1][point] | other[1][point] for point in POINTS}
+        assert walk.without(one[0], other[0]) == walk.all_of((one[0], walk.negation(other[0])))
+        assert walk.count(both) == sum(one[1][point] & other[1][point] for point in POINTS)
+
+
+def test_equal_functions_are_one() -> None:
+    """However it was made, a function has one number; an impossible one is `FALSE`."""
+    walk = Walk((1, 0), (3, 2))
+    x, y = walk.by_value(0, (TRUE, FALSE, FALSE)), walk.variable(1)
+    assert walk.negation(walk.any_of((x, y))) == walk.all_of((walk.negation(y), walk.negation(x)))
+    assert walk.all_of((x, walk.without(y, x))) == FALSE
+    assert walk.any_of((x, y, walk.negation(x))) == TRUE
+
+
+def test_the_budget_ends_the_walk() -> None:
+    """A walk that remembers more than it may is given up, and stays so."""
+    walk = Walk(range(12), [2] * 12, most_steps=20)
+    for _ in range(2):
+        with pytest.raises(BudgetError, match="too large"):
+            walk.all_of(walk.combine(operator.eq, walk.variable(n), walk.variable(11 - n)) for n in range(6))
+
+
+def _walked(spec: Spec, rows: Rows, ordering: Ordering, random: Random) -> Verification:
+    answer = verify(dressed(spec, rows, random), spec, ordering=ordering, prover="walk")
+    assert {result.proved_by for result in answer.properties if result.verdict == "proved"} <= {"walk"}
+    return answer
+
+
+def _verdicts(answer: Verification) -> dict[str, str]:
+    return {result.name: result.verdict for result in answer.properties}
+
+
+def _assert_first_witness(spec: Spec, rows: Rows, ordering: Ordering, refutation: Refutation) -> None:
+    judged, state = judge(spec, rows, ordering), refutation.state
+    assert state is not None
+    assert refutation.decision == rows.get(state)
+    match refutation.kind:
+        case "missing":
+            assert state == judged.missing[0]
+        case "not-allowed":
+            first = judged.not_allowed[0]
+            assert state == first[0]
+            assert refutation.objection is not None
+            assert refutation.objection.kind == first[1].kind
+        case "goal-missed":
+            assert (state, refutation.run) == judged.goal_missed[0]
+        case "not-minimal":
+            better = better_sets(spec, rows, state, ordering)
+            assert state == judged.not_minimal[0][0]
+            assert refutation.cheaper == min(better, key=lambda each: (duration(spec, each), len(each), sorted(each)))
+
+
+@pytest.mark.parametrize("cases", [0, 128], ids=["by-variable", "by-case"])
+@pytest.mark.parametrize("profile", PROFILES)
+@pytest.mark.parametrize("ordering", ["any", "first"])
+def test_the_walk_judges_as_the_explicit_meaning_does(
+    cases: int, profile: str, ordering: Ordering, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Every verdict is the judge's; the witness is the first state that fails, and the best set."""
+    monkeypatch.setattr(import_module("tumato_symbolic.verify.walk_model"), "MOST_CASES", cases)
+    met = set()
+    for seed in range(300, 308):
+        spec, random = random_spec(seed, PROFILES[profile]), Random(seed)
+        for rows in near_policies(spec, ordering, random):
+            judged, answer = judge(spec, rows, ordering), _walked(spec, rows, ordering, random)
+            wrong = (judged.missing, judged.not_allowed, judged.goal_missed, judged.not_minimal)
+            assert list(_verdicts(answer).values()) == ["refuted" if each else "proved" for each in wrong]
+            for result in answer.properties:
+                met.add((result.name, result.verdict))
+                if result.refutation is not None:
+                    _assert_first_witness(spec, rows, ordering, result.refutation)
+    assert len(met) >= 7
+
+
+def test_both_provers_agree_also_on_certificates() -> None:
+    """`both` raises where Z3 and the walk differ: right and false ranks, right and wrong policies, both orderings."""
+    met = set()
+    for seed in range(20):
+        spec, random = random_spec(seed, PROFILES[("restoring", "interacting")[seed % 2]]), Random(seed)
+        ordering: Ordering = ("any", "first")[seed // 2 % 2]
+        for rows in near_policies(spec, ordering, random, count=1):
+            ranks = exact_ranks(spec, rows, ordering)
+            policies = [certified(spec, rows, ranks)]
+            policies += [certified(spec, rows, wrong_ranks(ranks, random))] if ranks else []
+            for policy in policies:
+                both = verify(policy, spec, ordering=ordering, prover="both")
+                walked = verify(policy, spec, ordering=ordering, prover="walk")
+                assert _verdicts(both) == _verdicts(walked)
+                if both.verdict == "proved":
+                    assert {result.proved_by for result in both.properties} == {"z3+walk"}
+                    met.add(walked.certificate.status)
+    assert met >= {"used", "incomplete"}
+
+
+# One wrong policy for every obligation
+
+
+def _only(spec: Spec, rows: Rows, name: str, ordering: Ordering = "any") -> PropertyResult:
+    """The walk's verdict on one property; where `rows` says nothing, nothing is done."""
+    everywhere = {state: rows.get(state, frozenset()) for state in all_states(spec)}
+    return verify(
+        policy_from_rows(spec, everywhere), spec, ordering=ordering, properties=[name], prover="walk"
+    ).properties[0]
+
+
+def _objection(result: PropertyResult) -> str:
+    assert result.refutation is not None
+    assert result.refutation.objection is not None
+    return result.refutation.objection.kind
+
+
+def test_a_precondition_that_fails() -> None:
+    """Condition 1."""
+    build = Build({"x": "ab"})
+    action = build.action("x=b", when=[build.atom("x=b")])
+    assert _objection(_only(build.spec(), {(0,): chosen(action)}, "safe")) == "precondition"
+
+
+def test_a_resource_that_two_actions_control() -> None:
+    """Condition 2."""
+    build = Build({"x": "ab"}, resources=["r"])
+    actions = build.action("x=b", needs=["r"]), build.action("x=b", needs=["r"])
+    assert _objection(_only(build.spec(), {(0,): chosen(*actions)}, "safe")) == "resource"
+
+
+def test_nominal_effects_that_disagree() -> None:
+    """Condition 3; and the run ends there."""
+    build = Build({"x": "abc"})
+    actions = build.action("x=b"), build.action("x=c")
+    assert _objection(_only(build.spec(), {(0,): chosen(*actions)}, "safe")) == "nominal-conflict"
+
+
+def test_a_reaction_rule_that_is_broken() -> None:
+    """Condition 4."""
+    build = Build({"x": "ab"})
+    one, other = build.action("x=b"), build.action()
+    spec = build.spec(reaction_rules=[Or((Not(one), other))])
+    assert _only(spec, {(0,): chosen(one, other)}, "safe").verdict == "proved"
+    assert _objection(_only(spec, {(0,): chosen(one)}, "safe")) == "reaction-rule"
+
+
+def test_effects_that_come_in_an_unsafe_order() -> None:
+    """Condition 5 under `any`: the alternative strikes after the other action; under `first` it cannot."""
+    build = Build({"x": "abc", "y": "ab"})
+    one, two = build.action("x=b", alternatives=["x=c"]), build.action("x=b y=b")
+    back = build.action("x=a y=a")
+    spec = build.spec(state_rules=[Or((Not(build.atom("x=c")), Not(build.atom("y=b"))))])
+    rows = {build.state("aa"): chosen(one, two), build.state("cb"): chosen(back)}
+    assert _only(spec, rows, "safe", "first").verdict == "proved"
+    refutation = _only(spec, rows, "safe").refutation
+    assert refutation is not None
+    assert refutation.objection is not None
+    assert [step.action for step in refutation.objection.outcome] == [two.action, one.action]
+
+
+def test_an_action_strikes_once() -> None:
+    """Condition 5: two alternatives of one action never both happen."""
+    build = Build({"x": "ab", "y": "ab"})
+    action, back = build.action("", alternatives=["x=b", "y=b"]), build.action("x=a y=a")
+    spec = build.spec(state_rules=[Or((Not(build.atom("x=b")), Not(build.atom("y=b"))))])
+    assert _only(spec, {(0, 0): chosen(action), (1, 1): chosen(back)}, "safe").verdict == "proved"
+
+
+@pytest.mark.parametrize("ordering", ["any", "first"])
+def test_nothing_is_done_in_an_unsafe_state(ordering: Ordering) -> None:
+    """Condition 5 for the empty set."""
+    build = Build({"x": "ab"})
+    result = _only(build.spec(state_rules=[Not(build.atom("x=b"))]), {}, "safe", ordering)
+    assert result.refutation is not None
+    assert (result.refutation.state, _objection(result)) == ((1,), "unsafe")
+
+
+def test_all_nominal_effects_together_under_first() -> None:
+    """Condition 6."""
+    build = Build({"x": "ab", "y": "ab"})
+    one, two, back = build.action("x=b"), build.action("y=b"), build.action("x=a")
+    spec = build.spec(state_rules=[Or((Not(build.atom("x=b")), Not(build.atom("y=b"))))])
+    rows = {(0, 0): chosen(one, two), (1, 1): chosen(back)}
+    assert _objection(_only(spec, rows, "safe", "first")) == "nominal-unsafe"
+
+
+@pytest.mark.parametrize(("bound", "end"), [(None, "goal"), (3, "goal"), (2, "bound")])
+def test_the_bound_is_exact(bound: int | None, end: str) -> None:
+    """A run of `L` steps is short enough, one of `L + 1` is not."""
+    build = Build({"x": "abcd"})
+    steps = [build.action(f"x={after}", when=[build.atom(f"x={here}")]) for here, after in ("ab", "bc", "cd")]
+    spec = build.spec(goals=constraint(build.goal(build.atom("x=d"))), bound=bound)
+    result = _only(spec, {(number,): chosen(step) for number, step in enumerate(steps)}, "goals")
+    assert result.verdict == ("proved" if end == "goal" else "refuted")
+    assert result.refutation is None or (result.refutation.run is not None and result.refutation.run.end == end)
+
+
+def test_a_cheaper_set_is_found_among_many() -> None:
+    """The best set is the cheapest, then the smallest, then the first."""
+    build = Build({"x": "ab"})
+    dear, *cheap = (build.action("x=a", duration=amount) for amount in (5, 2, 2, 0))
+    spec = build.spec(state_rules=[Not(build.atom("x=b"))])
+    refutation = _only(spec, {(1,): chosen(dear)}, "minimal").refutation
+    assert refutation is not None
+    assert (refutation.state, refutation.cheaper) == ((1,), chosen(cheap[2]))
+    assert _only(spec, {(1,): chosen(cheap[2])}, "minimal").verdict == "proved"
+
+
+def test_a_long_way_into_an_unsafe_state_is_not_listed() -> None:
+    """Sixteen actions at once have 2^16 outcomes; the unsafe one is walked to, and is as short as it can be."""
+    build = Build({**{f"x{number}": "ab" for number in range(16)}})
+    actions = [build.action(f"x{number}=b") for number in range(16)]
+    both = [Not(build.atom("x3=b")), Not(build.atom("x11=b"))]
+    spec = build.spec(state_rules=[Or(tuple(both))])
+    start = (0,) * 16
+    policy = policy_from_rows(spec, {start: chosen(*actions)})
+    prover = WalkProver(spec, policy, "any")
+    refutation = prover.prove("safe").refutation
+    assert refutation is not None
+    assert refutation.objection is not None
+    assert {step.action for step in refutation.objection.outcome} == {3, 11}
