@@ -11,8 +11,8 @@ from tests.semantics.build import Build, chosen, constraint, priority, when
 from tumato_symbolic.diagnostics import Code, UserError
 from tumato_symbolic.policy import Policy, Table, as_table, dumps
 from tumato_symbolic.semantics import ActionSet, State, judge
-from tumato_symbolic.spec import FALSE, And, Not, Or, Spec
-from tumato_symbolic.symbolic import available_backend
+from tumato_symbolic.spec import FALSE, And, Iff, Is, Not, Or, Spec
+from tumato_symbolic.symbolic import Backend, Limits, available_backend
 from tumato_symbolic.synthesis import Outcome, Realizable, Undecided, Unrealizable, synthesize
 
 pipeline = import_module("tumato_symbolic.synthesis.synthesize")
@@ -247,3 +247,24 @@ def test_tables_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(UserError) as error:
         synthesize(spec, policy_format="table")
     assert error.value.diagnostics[0].code is Code.TUM508
+
+
+@pytest.mark.parametrize("backend", sorted({"autoref", available_backend()}))
+def test_a_time_limit_ends_in_undecided(backend: Backend) -> None:
+    """Time that is up ends the work at once, with what is known by then: nothing yet."""
+    _, spec = line()
+    outcome = synthesize(spec, backend=backend, limits=Limits(seconds=0.0))
+    assert isinstance(outcome, Undecided)
+    assert "time limit of 0 s" in outcome.limit
+    assert outcome.statistics is None
+
+
+@pytest.mark.skipif(available_backend() == "autoref", reason="only CUDD bounds its memory")
+def test_a_memory_limit_ends_in_undecided() -> None:
+    """A rule whose diagram grows with the order of its variables runs into the limit, not into the ground."""
+    pairs = 20
+    build = Build({f"v{number}": "ab" for number in range(2 * pairs)})
+    same = [Iff(Is(number, 0), Is(number + pairs, 0)) for number in range(pairs)]
+    outcome = synthesize(build.spec(state_rules=same), limits=Limits(megabytes=8))
+    assert isinstance(outcome, Undecided)
+    assert "memory limit of 8 MB" in outcome.limit

@@ -29,6 +29,7 @@ from tumato_symbolic.explain.explanation import (
 )
 from tumato_symbolic.explain.near import near_misses
 from tumato_symbolic.explain.part import largest_part
+from tumato_symbolic.explain.plans import shortest_plan
 from tumato_symbolic.explain.predicates import predicate_text
 from tumato_symbolic.explain.repairs import repairs
 from tumato_symbolic.explain.unmet import own_goals
@@ -73,7 +74,7 @@ def explain(
         if isinstance(outcome, Realizable):
             return NothingToExplain(outcome.statistics)
         if isinstance(outcome, Undecided):
-            return Unexplained(outcome.limit, outcome.statistics)
+            return Unexplained(outcome.limit, _statistics(conditions))
         tell("explaining the conflict")
         found: tuple[Reason, ...] = (_conflict(conditions, outcome, max_cubes, cores),)
         omitted = 0
@@ -141,6 +142,7 @@ def _reason(conditions: Conditions, cause: Cause, cover: Cover, cores: int) -> R
     spec, example = conditions.spec, cause.example
     shown = more_cores(conditions, cause.core, cores, core_finder(conditions, cause))
     stuck = cause.kind == "no-allowed-set"
+    bounded = Element("plan-bound") in cause.core
     return Reason(
         cause.kind,
         count(cause.states),
@@ -150,6 +152,7 @@ def _reason(conditions: Conditions, cause: Cause, cover: Cover, cores: int) -> R
         tuple(element_list(conditions, core) for core in shown),
         () if stuck else own_goals(conditions, example),
         near_misses(spec, example, conditions.ordering, NEAR_MISSES) if stuck else (),
+        shortest_plan=shortest_plan(conditions, conditions.encoding.state_cube(example)) if bounded else None,
     )
 
 

@@ -13,7 +13,7 @@ from functools import cached_property
 
 from tumato_symbolic.semantics import ActionSet, State, nominal_agrees
 from tumato_symbolic.spec import And, Assignment, Constant, Executing, Formula, Iff, Is, Not, Or, Spec
-from tumato_symbolic.symbolic.manager import Backend, Bdd, Manager
+from tumato_symbolic.symbolic.manager import NO_LIMITS, Backend, Bdd, Limits, Manager
 
 
 @dataclass(frozen=True, slots=True)
@@ -204,7 +204,7 @@ def exclusive_groups(spec: Spec) -> list[tuple[int, ...]]:
     return [tuple(group) for group in groups]
 
 
-def encode(spec: Spec, backend: Backend) -> Encoding:
+def encode(spec: Spec, backend: Backend, limits: Limits = NO_LIMITS) -> Encoding:
     """The encoding of a specification in a new manager."""
     groups = [
         Group(actions, tuple(f"g{number}.{bit}" for bit in range(len(actions).bit_length())))
@@ -228,4 +228,4 @@ def encode(spec: Spec, backend: Backend) -> Encoding:
         for number, group in enumerate(groups)
         for choice, action in enumerate(group.actions, start=1)
     }
-    return Encoding(spec, Manager(bits, backend), state_bits, tuple(groups), order, choice_of)
+    return Encoding(spec, Manager(bits, backend, limits), state_bits, tuple(groups), order, choice_of)

@@ -7,7 +7,10 @@ enumerates, so that both backends give the same results.
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterable, Mapping, Sequence
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
 from importlib import import_module
 from types import ModuleType
 from typing import Any, Literal, Protocol, TypeAlias
@@ -62,19 +65,60 @@ def available_backend() -> Backend:
     return "cudd"
 
 
-class Manager:
-    """Bits in a fixed order and the operations on sets of bit vectors."""
+class LimitReachedError(Exception):
+    """A limit was met before there was an answer; the message says which."""
 
-    def __init__(self, bits: Sequence[str], backend: Backend) -> None:
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """How much an answer may cost: seconds from now on, and megabytes of diagrams (CUDD only). None: no limit."""
+
+    seconds: float | None = None
+    megabytes: int | None = None
+
+
+NO_LIMITS = Limits()
+
+
+class Manager:
+    """Bits in a fixed order and the operations on sets of bit vectors.
+
+    Operations raise `LimitReachedError` when time is up; `within_memory` says so when memory is.
+    """
+
+    def __init__(self, bits: Sequence[str], backend: Backend, limits: Limits = NO_LIMITS) -> None:
         self.backend = backend
+        self._limits = limits
+        self._deadline = None if limits.seconds is None else time.monotonic() + limits.seconds
         self._module: Any = _import_dd(backend)
         self._bdd: Any = self._module.BDD()
         self._bdd.configure(reordering=False)
+        if limits.megabytes is not None and backend == "cudd":
+            self._bdd.configure(max_memory=limits.megabytes * 2**20)
         self._bdd.declare(*bits)
         self.bits = tuple(bits)
         self._level = {bit: level for level, bit in enumerate(bits)}
         self.true: Bdd = self._bdd.true
         self.false: Bdd = self._bdd.false
+
+    def seconds_left(self) -> float | None:
+        """How much time is left; None without a limit. Raises `LimitReachedError` when there is none."""
+        if self._deadline is None:
+            return None
+        left = self._deadline - time.monotonic()
+        if left <= 0:
+            raise LimitReachedError(f"the time limit of {self._limits.seconds:g} s was met")
+        return left
+
+    @contextmanager
+    def within_memory(self) -> Iterator[None]:
+        """Raise `LimitReachedError` where CUDD refuses an operation because it would need too much memory."""
+        try:
+            yield
+        except ValueError as error:
+            if "NULL" in str(error):
+                raise LimitReachedError(f"the memory limit of {self._limits.megabytes} MB was met") from error
+            raise
 
     def level(self, bit: str) -> int:
         """The position of a bit in the order."""
@@ -96,16 +140,19 @@ class Manager:
         """`u` with functions substituted for bits, all at once."""
         if not functions:
             return u
+        self.seconds_left()
         result: Bdd = self._bdd.let(dict(functions), u)
         return result
 
     def exists(self, bits: Iterable[str], u: Bdd) -> Bdd:
         """`∃ bits. u`."""
+        self.seconds_left()
         result: Bdd = self._bdd.exist(list(bits), u)
         return result
 
     def and_exists(self, bits: Iterable[str], u: Bdd, v: Bdd) -> Bdd:
         """`∃ bits. u ∧ v`, in one pass where the backend can."""
+        self.seconds_left()
         if self.backend == "cudd":
             result: Bdd = self._module.and_exists(u, v, list(bits))
             return result

@@ -74,10 +74,10 @@ class Unrealizable:
 
 @dataclass(frozen=True, slots=True)
 class Undecided:
-    """A limit was met before there was an answer."""
+    """A limit was met before there was an answer. `statistics` is what was known by then, if anything."""
 
     limit: str
-    statistics: Statistics
+    statistics: Statistics | None
     warnings: tuple[Diagnostic, ...] = ()
 
 

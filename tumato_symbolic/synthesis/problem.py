@@ -8,9 +8,11 @@ from typing import TypeAlias
 
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.symbolic import (
+    NO_LIMITS,
     Backend,
     Bdd,
     Encoding,
+    Limits,
     Regions,
     Steps,
     Target,
@@ -50,11 +52,13 @@ class Problem:
         return None if self.spec.max_plan_length is None else self.spec.max_plan_length - 1
 
 
-def pose(spec: Spec, ordering: Ordering, backend: Backend) -> Problem:
+def pose(spec: Spec, ordering: Ordering, backend: Backend, limits: Limits = NO_LIMITS) -> Problem:
     """Encode a specification and compute its steps, regions and targets."""
-    steps = build_steps(encode(spec, backend), ordering)
-    active = regions(steps.encoding, steps.valid)
-    return Problem(spec, steps, active, tuple(targets(steps, active)))
+    encoding = encode(spec, backend, limits)
+    with encoding.manager.within_memory():
+        steps = build_steps(encoding, ordering)
+        active = regions(encoding, steps.valid)
+        return Problem(spec, steps, active, tuple(targets(steps, active)))
 
 
 Layers = list[Bdd]

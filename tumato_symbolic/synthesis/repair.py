@@ -68,7 +68,7 @@ class Repair:
         self._problem = problem
         self._policy = policy
         self._distances = distances
-        self._choices = Choices()
+        self._choices = Choices(problem.encoding.manager)
         self._numbers: dict[State, int] = {}
         self._options: list[tuple[Option, ...]] = []
         self._states: list[State] = []

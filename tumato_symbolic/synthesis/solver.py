@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 
 import z3
 
-from tumato_symbolic.symbolic import Bdd, Encoding
+from tumato_symbolic.symbolic import Bdd, Encoding, LimitReachedError, Manager
 
 Term: TypeAlias = Any
 """A Z3 expression; z3 has no types."""
@@ -43,7 +43,7 @@ class CheapestSet:
         """The smallest duration in what is left of the relation: Z3 found none below. None where nothing is left."""
         best: int | None = None
         self._solver.push()
-        while _satisfiable(self._solver):
+        while _satisfiable(self._solver, seconds=self._encoding.manager.seconds_left()):
             model = self._solver.model()
             best = sum(d for term, d in self._terms if z3.is_true(model.eval(term, model_completion=True)))
             if best == 0:
@@ -76,7 +76,8 @@ class Pick:
 class Choices:
     """One option for every choice, under clauses that hold for some guards; option 0 is what was chosen before."""
 
-    def __init__(self) -> None:
+    def __init__(self, manager: Manager) -> None:
+        self._manager = manager
         self._solver = z3.SolverFor("QF_FD")
         self._options: list[list[Term]] = []
         self._guards: dict[int, Term] = {}
@@ -109,7 +110,7 @@ class Choices:
         """
         wanted = self._guards if guards is None else guards
         assumed = [self._guards[guard] for guard in wanted if guard in self._guards]
-        while not _satisfiable(self._solver, *assumed, *self._kept.values()):
+        while not _satisfiable(self._solver, *assumed, *self._kept.values(), seconds=self._manager.seconds_left()):
             named = [self._names[literal.get_id()] for literal in self._solver.unsat_core()]
             freed = [number for number, is_guard in named if not is_guard]
             if not freed:
@@ -161,15 +162,21 @@ def _any(literals: Sequence[Term]) -> Term:
     return z3.BoolRef(z3.Z3_mk_or(context.ref(), len(literals), parts), context)
 
 
-def _satisfiable(solver: Term, *assumptions: Term) -> bool:
+def _satisfiable(solver: Term, *assumptions: Term, seconds: float | None = None) -> bool:
     """Z3's answer, which must not be `unknown`: that is neither a minimum nor a proof of conflict.
+
+    Raises `LimitReachedError` where it takes more than so many seconds.
 
     Z3 takes Ctrl-C for itself and stops with `unknown`; it is handed on as the `KeyboardInterrupt` that it was.
     """
+    if seconds is not None:
+        solver.set("timeout", max(1, int(1000 * seconds)))
     answer = solver.check(*assumptions)
     if answer == z3.unknown:
         if "interrupted" in solver.reason_unknown():
             raise KeyboardInterrupt
+        if seconds is not None:
+            raise LimitReachedError("the time limit was met while Z3 was at work")
         raise RuntimeError(f"Z3 gave no answer: {solver.reason_unknown()}")
     return bool(answer == z3.sat)
 

@@ -10,7 +10,7 @@ from tumato_symbolic.diagnostics import Code, Diagnostic, Note, UserError
 from tumato_symbolic.policy import Policy, as_table
 from tumato_symbolic.semantics import count_states
 from tumato_symbolic.spec import Ordering, Spec
-from tumato_symbolic.symbolic import Backend, Bdd, available_backend
+from tumato_symbolic.symbolic import NO_LIMITS, Backend, Bdd, LimitReachedError, Limits, available_backend
 from tumato_symbolic.synthesis.certificate import policy_diagram
 from tumato_symbolic.synthesis.disproof import certified, conflict, no_allowed_set, no_plan
 from tumato_symbolic.synthesis.lint import suspicions
@@ -54,6 +54,7 @@ def synthesize(
     *,
     policy_format: PolicyFormat = "auto",
     backend: Backend | None = None,
+    limits: Limits = NO_LIMITS,
     progress: Callable[[str], None] | None = None,
 ) -> Outcome:
     """Synthesize a policy for `spec`, or find out why there is none.
@@ -62,19 +63,33 @@ def synthesize(
     the name of each stage. Raises `UserError` where no state is valid.
     """
     tell = progress or (lambda _: None)
-    tell("encoding states and steps")
-    problem = pose(spec, ordering or spec.effect_ordering or "any", backend or available_backend())
+    known: list[Statistics] = []
+    try:
+        tell("encoding states and steps")
+        problem = pose(spec, ordering or spec.effect_ordering or "any", backend or available_backend(), limits)
+        with problem.encoding.manager.within_memory():
+            return _solve(problem, policy_format, known, tell)
+    except LimitReachedError as limit:
+        return Undecided(str(limit), known[-1] if known else None)
+
+
+def _solve(
+    problem: Problem, policy_format: PolicyFormat, known: list[Statistics], tell: Callable[[str], None]
+) -> Outcome:
+    """The pipeline behind the encoding; `known` gets what is known on the way."""
     statistics = _statistics(problem)
     if not statistics.valid:
-        raise UserError((_no_valid_state(spec),))
+        raise UserError((_no_valid_state(problem.spec),))
     if policy_format == "table" and statistics.valid > TABLE_MAXIMUM:
         message = f"a table of {statistics.valid:,} states is more than the {TABLE_MAXIMUM:,} that can be written"
         raise UserError((Diagnostic(Code.TUM508, message, None, "use `--policy-format diagram`"),))
+    known.append(statistics)
     warnings = suspicions(problem)
     stuck = problem.steps.valid & ~problem.steps.states_of(problem.steps.allowed)
     tell("solving each goal in its own region")
     policy = own_region_policy(problem)
     statistics = replace(statistics, own_region=_count_decided(problem, policy))
+    known.append(statistics)
     undecided = problem.steps.safe & ~problem.steps.states_of(policy)
     evaluation = evaluate(problem, policy) if undecided == problem.false else None
     if stuck != problem.false or evaluation is None or evaluation.failing != problem.false:
