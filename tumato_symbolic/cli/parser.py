@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 if TYPE_CHECKING:
@@ -26,6 +27,8 @@ class Options:
     policy_format: Literal["auto", "table", "diagram"] = "auto"
     prove: bool = True
     properties: tuple[str, ...] = PROPERTIES
+    strict: bool = False
+    spec_folders: tuple[str, ...] = ()
     assignments: tuple[str, ...] = ()
     stdin: bool = False
     output_format: OutputFormat = "text"
@@ -75,12 +78,16 @@ Prove a policy, whoever made it, against a specification.
 For all valid states at once: total (there is a decision), safe (every outcome keeps the rules, in any order of
 effects), goals (the nominal run reaches the active goals), minimal (no cheaper set of actions would restore safety as
 well). A property that does not hold is refuted by a state and the story of what goes wrong there.
+
+Given a folder, every NAME.policy.json in it is verified against NAME.tum, which is looked for in the folders given with
+--specs, beside it, and in ../examples. The exit code is that of the worst file: 2, then 1, then 3, then 0.
 """
 
 _VERIFY_EXAMPLE = """\
 examples:
   tumato-sym verify policy.json amr.tum
   tumato-sym verify policy.json amr.tum --properties total,safe,goals
+  tumato-sym verify proofs/ --specs robots/ --strict             # all policies of a repository, in its CI
 
 """
 
@@ -121,10 +128,22 @@ def parse(arguments: Sequence[str] | None) -> Options:
         _parser().error(f"decide: give the state as VAR=VALUE …, {what} (see tumato-sym decide --help)")
     if found["command"] == "synth" and not found["output"]:
         _parser().error("synth: -o needs a file name (or - for the standard output)")
+    if found["command"] == "verify":
+        _check_verify(found)
     settings: dict[str, Any] = {
         name: tuple(value) if isinstance(value, list) else value for name, value in found.items()
     }
     return Options(**settings)
+
+
+def _check_verify(found: dict[str, Any]) -> None:
+    """A policy needs one specification, a folder looks for its own; a certificate is judged beside a safe policy."""
+    if len(found["specs"]) > 1 or not (found["specs"] or Path(found["policy"]).is_dir()):
+        _parser().error("verify: give a policy and its specification, or a folder of policies")
+    if found["specs"] and found["spec_folders"]:
+        _parser().error("verify: give either the specification, or --specs DIR for a folder of policies")
+    if found["strict"] and not {"safe", "goals"} <= set(found["properties"]):
+        _parser().error("verify: --strict judges the certificate, and needs safe and goals among the properties")
 
 
 class _Version(argparse.Action):
@@ -183,8 +202,21 @@ def _parser() -> argparse.ArgumentParser:
     _format(synth)
 
     verify = _add(commands, "verify", "prove a policy, whoever made it", _VERIFY, _VERIFY_EXAMPLE)
-    verify.add_argument("policy", metavar="POLICY", help="the policy, a .json file")
-    verify.add_argument("specs", metavar="SPEC", nargs=1, help="the specification, a .tum file")
+    verify.add_argument("policy", metavar="POLICY", help="the policy, a .json file, or a folder of them")
+    verify.add_argument("specs", metavar="SPEC", nargs="*", help="the specification, a .tum file; none for a folder")
+    verify.add_argument(
+        "--specs",
+        dest="spec_folders",
+        metavar="DIR",
+        action="append",
+        default=[],
+        help="where the specifications of a folder of policies are looked for first; may be given several times",
+    )
+    verify.add_argument(
+        "--strict",
+        action="store_true",
+        help="fail as well (exit 1) where the certificate is wrong, or stale: made for another specification",
+    )
     _ordering(verify, "the one that the policy records, else the specification's, else any")
     verify.add_argument(
         "--properties",

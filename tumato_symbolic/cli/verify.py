@@ -1,31 +1,33 @@
-"""`tumato-sym verify`: prove a policy or refute it."""
+"""`tumato-sym verify`: prove a policy, or a certificate that there is none, or refute it."""
 
 from __future__ import annotations
 
 import sys
 import time
 
+from tumato_symbolic.cli.certificate import run_certificate
 from tumato_symbolic.cli.console import Progress, wants_colour, write
 from tumato_symbolic.cli.exits import NO, UNDECIDED, YES
 from tumato_symbolic.cli.inputs import errors_in, read_spec, show_warnings
 from tumato_symbolic.cli.parser import Options
 from tumato_symbolic.policy import Policy
+from tumato_symbolic.policy.unrealizable import Unrealizability
+from tumato_symbolic.policy.unrealizable_file import load_claim
 from tumato_symbolic.report.layout import dump
 from tumato_symbolic.report.verified import Verified, as_github, as_json, as_text
 from tumato_symbolic.verify import verify
 
 
 def run(options: Options) -> int:
-    """Exit with 0 only when everything that was asked is proved."""
-    source, spec, warnings = read_spec(options.specs[0])
-    policy = Policy.load(options.policy)
-    started = time.perf_counter()
-    with errors_in(source), Progress() as progress:
-        verification = verify(
-            policy, spec, ordering=options.effect_ordering, properties=options.properties, progress=progress
-        )
-    done = Verified(source, spec, options.policy, verification, warnings, time.perf_counter() - started)
-    show_warnings(warnings, source, options)
+    """Exit with 0 only when everything that was asked is proved, and the certificate passes `--strict`."""
+    if not options.specs:
+        from tumato_symbolic.cli.folder import run_folder
+
+        return run_folder(options)
+    claim = load_claim(options.policy)
+    if isinstance(claim, Unrealizability):
+        return run_certificate(claim, options)
+    done = judge(claim, options.policy, options.specs[0], options)
     match options.output_format:
         case "json":
             write(dump(as_json(done)))
@@ -33,4 +35,27 @@ def run(options: Options) -> int:
             write(as_github(done))
         case _:
             write(as_text(done, wants_colour(sys.stdout)))
-    return {"proved": YES, "refuted": NO, "undecided": UNDECIDED}[verification.verdict]
+    return exit_code(done)
+
+
+def judge(policy: Policy, path: str, spec_path: str, options: Options) -> Verified:
+    """The policy read from `path` against the specification at `spec_path`, whose warnings are shown.
+
+    Raises `UserError` where the specification cannot be used, or the policy does not fit it.
+    """
+    source, spec, warnings = read_spec(spec_path)
+    started = time.perf_counter()
+    with errors_in(source), Progress() as progress:
+        verification = verify(
+            policy, spec, ordering=options.effect_ordering, properties=options.properties, progress=progress
+        )
+    took = time.perf_counter() - started
+    show_warnings(warnings, source, options)
+    return Verified(source, spec, path, verification, warnings, took, options.strict)
+
+
+def exit_code(done: Verified) -> int:
+    """What a script may conclude."""
+    if done.certificate_fails:
+        return NO
+    return {"proved": YES, "refuted": NO, "undecided": UNDECIDED}[done.verification.verdict]

@@ -26,7 +26,10 @@ _CERTIFICATES = {
 
 @dataclass(frozen=True, slots=True)
 class Verified:
-    """A verification with everything that its report needs; `took` is in seconds."""
+    """A verification with everything that its report needs; `took` is in seconds.
+
+    `strict`: a certificate that is wrong or stale fails, whatever the policy is.
+    """
 
     source: Source
     spec: Spec
@@ -34,6 +37,12 @@ class Verified:
     verification: Verification
     warnings: tuple[Diagnostic, ...]
     took: float
+    strict: bool = False
+
+    @property
+    def certificate_fails(self) -> bool:
+        """Whether the certificate alone is a reason to fail."""
+        return self.strict and self.verification.certificate.status in ("stale", "wrong")
 
     @property
     def place(self) -> Place:
@@ -57,6 +66,8 @@ def as_text(done: Verified, colour: bool) -> str:
     left = [name for name in PROPERTIES if name not in {result.name for result in found.properties}]
     if left:
         lines.append(f"Not asked: {enumeration(left)}.")
+    if done.certificate_fails:
+        lines += ["", f"{paint.bad('Not accepted')}: the certificate is {found.certificate.status}, and --strict asks."]
     if found.verdict == "refuted":
         lines += ["", f"Next: mend the policy, or let `tumato-sym synth {shlex.quote(done.source.name)}` make one."]
     return "\n".join(lines)
@@ -88,6 +99,8 @@ def as_json(done: Verified) -> dict[str, object]:
         "effect_ordering_from": done.verification.ordering_source,
         "policy": done.policy,
         "specification": done.source.name,
+        "strict": done.strict,
+        "accepted": done.verification.verdict == "proved" and not done.certificate_fails,
         "seconds": round(done.took, 3),
         "warnings": [finding_json(warning, done.source.name) for warning in done.warnings],
     }
@@ -106,6 +119,9 @@ def as_github(done: Verified) -> str:
             if result.refutation.objection is not None and result.refutation.objection.rule is not None:
                 span, file = result.refutation.objection.rule.span, done.source.name
         commands.append(github_command("error", message, file, span, f"{result.name} {result.verdict}"))
-    if not open_results:
+    if done.certificate_fails:
+        use = done.verification.certificate
+        commands.append(github_command("error", f"certificate: {_certificate(use)}", done.policy, None, use.status))
+    elif not open_results:
         commands.append(github_command("notice", f"proved against {done.source.name}", done.policy))
     return "\n".join(commands)

@@ -1,0 +1,139 @@
+"""What `verify` found in a folder of policies and certificates, for a person, a program and GitHub."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+from typing import Literal
+
+from tumato_symbolic.diagnostics import UserError, render
+from tumato_symbolic.report import unrealizable, verified
+from tumato_symbolic.report.findings import finding_json, github_command, github_commands
+from tumato_symbolic.report.layout import Paint, count, seconds
+from tumato_symbolic.report.unrealizable import Disproved
+from tumato_symbolic.report.verified import Verified
+
+Outcome = Literal["error", "refuted", "not accepted", "undecided", "proved"]
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One file: its verification, or the error for which there is none."""
+
+    path: str
+    done: Verified | Disproved | None = None
+    error: UserError | None = None
+
+    @property
+    def outcome(self) -> Outcome:
+        """The verdict; *not accepted* is what is not refuted, with a certificate that fails."""
+        match self.done:
+            case None:
+                return "error"
+            case Verified():
+                verdict, fails = self.done.verification.verdict, self.done.certificate_fails
+            case Disproved():
+                verdict, fails = self.done.found.verdict, self.done.not_accepted
+        return "not accepted" if fails and verdict != "refuted" else verdict
+
+
+@dataclass(frozen=True, slots=True)
+class Folder:
+    """All files of a folder; `took` is in seconds."""
+
+    path: str
+    entries: tuple[Entry, ...]
+    strict: bool
+    took: float
+
+    @property
+    def counts(self) -> list[tuple[Outcome, int]]:
+        """How many files have which outcome, the worst outcome first."""
+        found = Counter(entry.outcome for entry in self.entries)
+        order: tuple[Outcome, ...] = ("error", "refuted", "not accepted", "undecided", "proved")
+        return [(outcome, found[outcome]) for outcome in order if found[outcome]]
+
+
+def as_text(folder: Folder, colour: bool) -> str:
+    """A line for every file, a summary, and the whole report of every file that is not proved."""
+    paint = Paint(colour)
+    width = max(len(entry.path) for entry in folder.entries)
+    across = max(len(entry.outcome) for entry in folder.entries)
+    lines = [f"{entry.path:<{width}}  {_words(entry, across, paint)}" for entry in folder.entries]
+    lines.append(_summary(folder))
+    for entry in folder.entries:
+        if entry.error is not None:
+            lines += ["", f"{entry.path}:", render(entry.error.diagnostics, entry.error.source, color=colour).rstrip()]
+        elif entry.done is not None and entry.outcome != "proved":
+            lines += ["", _text(entry.done, colour)]
+    return "\n".join(lines)
+
+
+def _text(done: Verified | Disproved, colour: bool) -> str:
+    return unrealizable.as_text(done, colour) if isinstance(done, Disproved) else verified.as_text(done, colour)
+
+
+def _words(entry: Entry, width: int, paint: Paint) -> str:
+    outcome = f"{entry.outcome:<{width}}"
+    painted = paint.good(outcome) if entry.outcome == "proved" else paint.bad(outcome)
+    match entry.done:
+        case None:
+            return painted.rstrip()
+        case Disproved():
+            stale = ", certificate stale" if entry.done.found.stale else ""
+            return f"{painted}  {entry.done.source.name}, unrealizable: {entry.done.found.kind}{stale}"
+        case Verified():
+            found = entry.done.verification
+            states = "" if found.valid_states is None else f", {count(found.valid_states, 'valid state')}"
+            return f"{painted}  {entry.done.source.name}{states}, certificate {found.certificate.status}"
+
+
+def _summary(folder: Folder) -> str:
+    outcomes = ", ".join(
+        count(number, "error") if outcome == "error" else f"{number} {outcome}"
+        for outcome, number in reversed(folder.counts)
+    )
+    return f"{count(len(folder.entries), 'file')}: {outcomes}. In {seconds(folder.took)}."
+
+
+def as_json(folder: Folder) -> dict[str, object]:
+    """One object: the worst outcome, and for every file what `verify` says of it."""
+    worst = folder.counts[0][0]
+    return {
+        "verdict": "refuted" if worst == "not accepted" else worst,
+        "folder": folder.path,
+        "strict": folder.strict,
+        "counts": {outcome.replace(" ", "_"): number for outcome, number in folder.counts},
+        "files": [_json(entry) for entry in folder.entries],
+        "seconds": round(folder.took, 3),
+    }
+
+
+def _json(entry: Entry) -> dict[str, object]:
+    match entry.done:
+        case Verified():
+            return {"file": entry.path, **verified.as_json(entry.done)}
+        case Disproved():
+            return {"file": entry.path, **unrealizable.as_json(entry.done)}
+    found = entry.error.diagnostics if entry.error is not None else ()
+    findings = [finding_json(diagnostic, _blamed(entry)) for diagnostic in found]
+    return {"file": entry.path, "verdict": "error", "accepted": False, "diagnostics": findings}
+
+
+def _blamed(entry: Entry) -> str:
+    """The file in which an error is."""
+    return entry.error.source.name if entry.error is not None and entry.error.source is not None else entry.path
+
+
+def as_github(folder: Folder) -> str:
+    """The workflow commands of every file, and a notice with the summary."""
+    commands = []
+    for entry in folder.entries:
+        match entry.done:
+            case Verified():
+                commands.append(verified.as_github(entry.done))
+            case Disproved():
+                commands.append(unrealizable.as_github(entry.done))
+            case None if entry.error is not None:
+                commands.append(github_commands(entry.error.diagnostics, _blamed(entry)))
+    return "\n".join([*commands, github_command("notice", _summary(folder))])

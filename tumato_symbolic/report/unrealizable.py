@@ -1,0 +1,128 @@
+"""What was found about a certificate for the answer no, for a person, a program and GitHub."""
+
+from __future__ import annotations
+
+import shlex
+from dataclasses import dataclass
+from typing import Final
+
+from tumato_symbolic.diagnostics import Diagnostic, Source
+from tumato_symbolic.report.findings import finding_json, github_command, github_commands
+from tumato_symbolic.report.layout import Paint, count, seconds
+from tumato_symbolic.report.proof import ORDERINGS
+from tumato_symbolic.semantics import action_names, named
+from tumato_symbolic.spec import Spec
+from tumato_symbolic.verify.result import UnrealizabilityKind, UnrealizabilityVerdict
+
+_REASONS: Final[dict[UnrealizabilityKind, str]] = {
+    "no-allowed-set": "there is a state in which no set of actions is allowed",
+    "no-plan": "there is a state from which no run reaches the goal",
+    "conflict": "there are states that no policy serves together",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Disproved:
+    """A verdict on a certificate with everything that its report needs; `took` is in seconds.
+
+    `strict`: a certificate that was made for another specification fails, whatever it proves.
+    """
+
+    source: Source
+    spec: Spec
+    certificate: str
+    found: UnrealizabilityVerdict
+    warnings: tuple[Diagnostic, ...]
+    took: float
+    strict: bool = False
+
+    @property
+    def not_accepted(self) -> bool:
+        """Whether its being stale is a reason to fail."""
+        return self.strict and self.found.stale
+
+
+def as_text(done: Disproved, colour: bool) -> str:
+    """The report for a person."""
+    paint, found = Paint(colour), done.found
+    fits = "another specification; judged against this one all the same" if found.stale else "this specification"
+    head = [
+        f"{_verdict(done, paint)} In {seconds(done.took)}.",
+        f"  effects: {ORDERINGS[found.ordering]}, from the {found.ordering_source}",
+        f"  certificate: made for {fits}",
+    ]
+    if found.verdict == "proved":
+        head.append(f"  {proof_line(found)}")
+        if done.not_accepted:
+            head += ["", f"{paint.bad('Not accepted')}: the certificate is stale, and --strict asks."]
+        return "\n".join(head)
+    head += ["", f"  {found.reason}."]
+    synth = f"tumato-sym synth {shlex.quote(done.source.name)}"
+    if found.verdict == "refuted":
+        head += ["", f"The certificate proves nothing; whether there is a policy, `{synth}` finds out."]
+    return "\n".join(head)
+
+
+def proof_line(found: UnrealizabilityVerdict) -> str:
+    """What a certificate that holds proves."""
+    by = "by Z3" if found.by_solver else "by the explicit meaning"
+    return f"{_REASONS[found.kind]} ({found.kind}): {count(found.obligations, 'obligation')} proved {by}"
+
+
+def _verdict(done: Disproved, paint: Paint) -> str:
+    spec = done.source.name
+    match done.found.verdict:
+        case "proved":
+            return f"{spec} is {paint.good('proved unrealizable')} by {done.certificate}."
+        case "refuted":
+            return f"{done.certificate} is {paint.bad('refuted')} against {spec}."
+        case "undecided":
+            return f"{done.certificate} is {paint.doubt('undecided')} against {spec}."
+
+
+def verdict_json(spec: Spec, found: UnrealizabilityVerdict) -> dict[str, object]:
+    """The verdict for a program."""
+    witness = None
+    if found.state is not None:
+        witness = {"state": named(spec, found.state), "actions": list(action_names(spec, found.chosen or frozenset()))}
+    return {
+        "verdict": found.verdict,
+        "kind": found.kind,
+        "obligations": found.obligations,
+        "proved_by": ("z3" if found.by_solver else "meaning") if found.verdict == "proved" else None,
+        "reason": found.reason,
+        "witness": witness,
+    }
+
+
+def as_json(done: Disproved) -> dict[str, object]:
+    """The report for a program."""
+    found = done.found
+    return {
+        **verdict_json(done.spec, found),
+        "stale": found.stale,
+        "effect_ordering": found.ordering,
+        "effect_ordering_from": found.ordering_source,
+        "certificate": done.certificate,
+        "specification": done.source.name,
+        "strict": done.strict,
+        "accepted": found.verdict == "proved" and not done.not_accepted,
+        "seconds": round(done.took, 3),
+        "warnings": [finding_json(warning, done.source.name) for warning in done.warnings],
+    }
+
+
+def as_github(done: Disproved) -> str:
+    """Warnings at their lines, and one notice or error with the verdict."""
+    commands = [github_commands(done.warnings, done.source.name)] if done.warnings else []
+    found = done.found
+    if done.not_accepted and found.verdict == "proved":
+        message = f"proves that {done.source.name} has no policy, but was made for another specification"
+        commands.append(github_command("error", message, done.certificate, title="certificate stale"))
+    elif found.verdict == "proved":
+        message = f"{done.source.name} is proved unrealizable: {proof_line(found)}"
+        commands.append(github_command("notice", message, done.certificate))
+    else:
+        message = f"{found.verdict} against {done.source.name}: {found.reason}"
+        commands.append(github_command("error", message, done.certificate, title=f"certificate {found.verdict}"))
+    return "\n".join(commands)
