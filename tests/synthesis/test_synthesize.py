@@ -251,12 +251,13 @@ def test_tables_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize("backend", sorted({"autoref", available_backend()}))
 def test_a_time_limit_ends_in_undecided(backend: Backend) -> None:
-    """Time that is up ends the work at once, with what is known by then: nothing yet."""
+    """Time that is up ends the work at once, with what is known by then: how many states there are."""
     _, spec = line()
     outcome = synthesize(spec, backend=backend, limits=Limits(seconds=0.0))
     assert isinstance(outcome, Undecided)
     assert "time limit of 0 s" in outcome.limit
-    assert outcome.statistics is None
+    assert outcome.statistics is not None
+    assert outcome.statistics.valid == 4
 
 
 @pytest.mark.skipif(available_backend() == "autoref", reason="only CUDD bounds its memory")
