@@ -39,6 +39,13 @@ CASES = (
     Case("verify-unsafe", "tumato-sym verify unsafe.json amr.tum"),
     Case("verify-unsafe-github", "tumato-sym verify unsafe.json amr.tum --output-format github"),
     Case("verify-lazy", "tumato-sym verify lazy.json amr.tum --properties total,safe,goals"),
+    Case(
+        "verify-unrealizable",
+        "tumato-sym synth conflict.tum -o c.json > report.txt || tumato-sym verify c.unrealizable.json conflict.tum",
+    ),
+    Case("verify-holed", "tumato-sym verify holed.unrealizable.json two_robots.tum"),
+    Case("verify-holed-json", "tumato-sym verify holed.unrealizable.json two_robots.tum --output-format json"),
+    Case("verify-holed-github", "tumato-sym verify holed.unrealizable.json two_robots.tum --output-format github"),
     Case("check", "tumato-sym check amr.tum typo.tum warned.tum"),
     Case("check-json", "tumato-sym check amr.tum typo.tum --output-format json"),
     Case("check-github", "tumato-sym check typo.tum warned.tum --output-format github"),

@@ -11,6 +11,7 @@ from tests.repo.documents import ROOT
 AMR = ROOT / "examples" / "amr.tum"
 TWO_ROBOTS = ROOT / "examples" / "two_robots.tum"
 AMR_POLICY = ROOT / "proofs" / "amr.policy.json"
+TWO_ROBOTS_CERTIFICATE = ROOT / "proofs" / "two_robots.unrealizable.json"
 
 TYPO = """\
 BEGIN STATE VECTOR
@@ -93,6 +94,13 @@ def changed_policy(where: dict[str, str], actions: list[str]) -> dict[str, Any]:
     return {name: policy[name] for name in kept}
 
 
+def holed_certificate() -> dict[str, Any]:
+    """The proof that two robots have no policy, without its last cube."""
+    certificate: dict[str, Any] = json.loads(TWO_ROBOTS_CERTIFICATE.read_text())
+    certificate["Reason"]["Cubes"].pop()
+    return certificate
+
+
 def state(place: str, battery: str, load: str, conveyor: str) -> dict[str, str]:
     """A state of the AMR."""
     return {"S_Location": place, "S_Battery": battery, "S_Load": load, "S_Conveyor": conveyor}
@@ -103,6 +111,7 @@ def write_inputs(folder: Path) -> None:
     (folder / "amr.tum").write_text(AMR.read_text())
     (folder / "two_robots.tum").write_text(TWO_ROBOTS.read_text())
     (folder / "amr.json").write_text(AMR_POLICY.read_text())
+    (folder / "holed.unrealizable.json").write_text(json.dumps(holed_certificate()))
     for name, text in (("typo", TYPO), ("warned", WARNED), ("no_plan", NO_PLAN), ("conflict", CONFLICT)):
         (folder / f"{name}.tum").write_text(text)
     for name, where, actions in (

@@ -24,7 +24,9 @@ def test_no_policy(cli: Cli) -> None:
     ran = cli("synth", "two_robots.tum", "--output-format", "json")
     report = json.loads(ran.out)
     assert (ran.code, report["verdict"], report["failing_states"]) == (1, "unrealizable", 112)
-    assert (report["longest_run"], report["policy"], report["proof"]) == (None, None, None)
+    assert (report["longest_run"], report["policy"]) == (None, None)
+    assert report["certificate"] == "policy.unrealizable.json"
+    assert (report["proof"]["verdict"], report["proof"]["kind"]) == ("proved", "no-allowed-set")
     (failure,) = report["failures"]
     assert (failure["kind"], failure["count"]) == ("no-allowed-set", 112)
     assert set(failure["example"]) == {f"S_{name}{robot}" for name in ("Loc", "Bat", "Load", "Conv") for robot in "01"}

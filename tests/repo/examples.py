@@ -7,7 +7,7 @@ from pathlib import Path
 
 from tests.repo.documents import ROOT
 from tumato_symbolic import Realizable, Unrealizable, parse, synthesize
-from tumato_symbolic.policy import dumps
+from tumato_symbolic.policy import dumps, unrealizable_file
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.synthesis.outcome import Outcome
 
@@ -32,6 +32,17 @@ def proof_text(example: Path) -> str | None:
     """The policy of an example as it should be committed; None where there is none."""
     _, outcome = solved(example)
     return dumps(outcome.policy) if isinstance(outcome, Realizable) else None
+
+
+def certificate_path(example: Path) -> Path:
+    """Where the committed certificate is that an example has no policy."""
+    return ROOT / "proofs" / f"{example.stem}.unrealizable.json"
+
+
+def certificate_text(example: Path) -> str | None:
+    """The certificate that an example has no policy, as it should be committed; None where there is one."""
+    _, outcome = solved(example)
+    return unrealizable_file.dumps(outcome.certificate) if isinstance(outcome, Unrealizable) else None
 
 
 def table() -> str:

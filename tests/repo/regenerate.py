@@ -11,18 +11,29 @@ from pathlib import Path
 
 from tests.cli.golden import CASES, golden_path, produce
 from tests.repo.documents import renewed
-from tests.repo.examples import EXAMPLES, README, proof_path, proof_text, with_table
+from tests.repo.examples import (
+    EXAMPLES,
+    README,
+    certificate_path,
+    certificate_text,
+    proof_path,
+    proof_text,
+    with_table,
+)
 from tests.repo.test_documents import DOCUMENTS
 
 
 def main() -> None:
     """Regenerate all of it."""
     for example in EXAMPLES:
-        text = proof_text(example)
-        if text is None:
-            proof_path(example).unlink(missing_ok=True)
-        else:
-            proof_path(example).write_text(text)
+        for path, text in (
+            (proof_path(example), proof_text(example)),
+            (certificate_path(example), certificate_text(example)),
+        ):
+            if text is None:
+                path.unlink(missing_ok=True)
+            else:
+                path.write_text(text)
     README.write_text(with_table(README.read_text()))
     for case in CASES:
         golden_path(case).write_text(produce(case))

@@ -5,10 +5,21 @@ from pathlib import Path
 import pytest
 
 from tests.repo.documents import ROOT
-from tests.repo.examples import EXAMPLES, README, proof_path, proof_text, solved, with_table
+from tests.repo.examples import (
+    EXAMPLES,
+    README,
+    certificate_path,
+    certificate_text,
+    proof_path,
+    proof_text,
+    solved,
+    with_table,
+)
 from tumato_symbolic import Policy, Realizable, verify
 from tumato_symbolic.diagnostics import Source
+from tumato_symbolic.policy.unrealizable_file import load as load_certificate
 from tumato_symbolic.spec import load
+from tumato_symbolic.verify import verify_unrealizable
 
 _names = pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
 
@@ -21,25 +32,31 @@ def test_an_example_has_no_findings(example: Path) -> None:
 
 @_names
 def test_the_committed_policy_is_regenerated_identically(example: Path) -> None:
-    """`synth` gives the policy in proofs/, byte for byte; an unrealizable example has none there."""
-    committed = proof_path(example)
-    assert (committed.read_text() if committed.exists() else None) == proof_text(example)
+    """`synth` gives the policy in proofs/, byte for byte, or the certificate there that there is none."""
+    for committed, text in (
+        (proof_path(example), proof_text(example)),
+        (certificate_path(example), certificate_text(example)),
+    ):
+        assert (committed.read_text() if committed.exists() else None) == text
 
 
 @_names
 def test_the_committed_policy_is_proved(example: Path) -> None:
-    """`verify` proves every property of the policy in proofs/."""
+    """`verify` proves every property of the policy in proofs/, or by the certificate there that there is none."""
     spec, outcome = solved(example)
     if isinstance(outcome, Realizable):
         verification = verify(Policy.load(proof_path(example)), spec)
         assert verification.verdict == "proved"
         assert verification.certificate.status == "used"
+    else:
+        verdict = verify_unrealizable(load_certificate(str(certificate_path(example))), spec)
+        assert (verdict.verdict, verdict.stale) == ("proved", False)
 
 
 def test_no_proof_without_an_example() -> None:
     """Everything in proofs/ belongs to an example."""
     kept = {path.name for path in (ROOT / "proofs").glob("*.json")}
-    assert kept <= {proof_path(example).name for example in EXAMPLES}
+    assert kept <= {path(example).name for example in EXAMPLES for path in (proof_path, certificate_path)}
 
 
 def test_the_table_of_examples_is_current() -> None:

@@ -12,14 +12,16 @@ from tumato_symbolic.cli.exits import NO, UNDECIDED, YES
 from tumato_symbolic.cli.inputs import errors_in, read_spec, show_warnings
 from tumato_symbolic.cli.output import check_writable
 from tumato_symbolic.cli.parser import Options
+from tumato_symbolic.diagnostics import Code, UserError
 from tumato_symbolic.policy import dumps, save
+from tumato_symbolic.policy.unrealizable_file import save as save_certificate
 from tumato_symbolic.report.layout import dump
 from tumato_symbolic.report.synthesized import Synthesized, as_github, as_json, as_text
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.synthesis import Realizable, Unrealizable, synthesize
 
 if TYPE_CHECKING:
-    from tumato_symbolic.verify import Verification
+    from tumato_symbolic.verify import UnrealizabilityVerdict, Verification
 
 TO_STANDARD_OUTPUT = "-"
 
@@ -28,20 +30,26 @@ def run(options: Options) -> int:
     """Exit with 0 only when there is a policy, it is proved (unless that was declined), and it is written."""
     check_writable(options.output)
     source, spec, warnings = read_spec(options.specs[0])
-    proof = None
+    proof = disproof = certificate = None
     started = time.perf_counter()
     with errors_in(source), Progress() as progress:
         outcome = synthesize(spec, options.effect_ordering, policy_format=options.policy_format, progress=progress)
         solved = time.perf_counter()
         if isinstance(outcome, Realizable) and options.prove:
             proof = _prove(outcome, spec, outcome.statistics.ordering, progress)
+        if isinstance(outcome, Unrealizable) and options.prove:
+            disproof = _disprove(outcome, spec, progress)
     proved = time.perf_counter()
     written = isinstance(outcome, Realizable) and (proof is None or proof.verdict == "proved")
+    if isinstance(outcome, Unrealizable):
+        certificate = _write_certificate(outcome, options.output)
     done = Synthesized(
         source=source,
         spec=spec,
         outcome=outcome,
         proof=proof,
+        disproof=disproof,
+        certificate=certificate,
         warnings=(*warnings, *outcome.warnings),
         output=options.output,
         written=written,
@@ -65,6 +73,38 @@ def _prove(outcome: Realizable, spec: Spec, ordering: Ordering, progress: Progre
     if proof.verdict == "refuted":
         raise AssertionError(f"the synthesized policy is refuted: {proof}")
     return proof
+
+
+def _disprove(outcome: Unrealizable, spec: Spec, progress: Progress) -> UnrealizabilityVerdict:
+    """The verdict on our own certificate. A refutation would be a bug of this program."""
+    from tumato_symbolic.verify import verify_unrealizable
+
+    found = verify_unrealizable(outcome.certificate, spec, ordering=outcome.statistics.ordering, progress=progress)
+    if found.verdict == "refuted":
+        raise AssertionError(f"the certificate that there is no policy is refuted: {found}")
+    return found
+
+
+def certificate_path(output: str) -> Path | None:
+    """Where the certificate belongs that there is no policy to write to `output`; None where there is no file."""
+    target = Path(output)
+    if output == TO_STANDARD_OUTPUT or (target.exists() and not target.is_file()):
+        return None
+    return target.with_name(f"{target.name.removesuffix('.json')}.unrealizable.json")
+
+
+def _write_certificate(outcome: Unrealizable, output: str) -> str | None:
+    """Where the certificate was written; None where there is no place for it, or it is too large."""
+    path = certificate_path(output)
+    if path is None:
+        return None
+    try:
+        save_certificate(outcome.certificate, path)
+    except UserError as error:
+        if error.diagnostics[0].code is not Code.TUM508:
+            raise
+        return None
+    return str(path)
 
 
 def _write_policy(outcome: Realizable, output: str) -> None:

@@ -13,9 +13,10 @@ from tumato_symbolic.report.layout import Paint, count, seconds
 from tumato_symbolic.report.picture import picture
 from tumato_symbolic.report.proof import ORDERINGS, proof_json, proof_text
 from tumato_symbolic.report.reasons import Place
-from tumato_symbolic.spec import Spec
+from tumato_symbolic.report.unrealizable import proof_line, verdict_json
+from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.synthesis.outcome import Outcome, Realizable, Statistics, Undecided, Unrealizable
-from tumato_symbolic.verify.result import Verification
+from tumato_symbolic.verify.result import UnrealizabilityVerdict, Verification
 
 _PICTURED_STATES = 500
 _PICTURED_LINES = 30
@@ -26,7 +27,8 @@ class Synthesized:
     """An outcome with everything that its report needs. Times are in seconds.
 
     `proof` is None where there was nothing to prove, or where proving was declined; `written` tells whether the
-    policy is in `output` (`-` is the standard output).
+    policy is in `output` (`-` is the standard output). `disproof` and `certificate` are the same for the answer no: the
+    verdict on its certificate, and the file that it was written to.
     """
 
     source: Source
@@ -38,6 +40,8 @@ class Synthesized:
     written: bool
     solved_in: float
     proved_in: float
+    disproof: UnrealizabilityVerdict | None = None
+    certificate: str | None = None
 
     @property
     def place(self) -> Place:
@@ -56,7 +60,7 @@ def as_text(done: Synthesized, colour: bool) -> str:
         case Undecided(limit, statistics):
             parts = [
                 f"{done.source.name}: {paint.doubt('undecided')}: {limit}.",
-                _states(statistics),
+                *([_states(statistics)] if statistics else []),
                 "No policy was written.",
             ]
     return "\n\n".join(parts)
@@ -126,7 +130,26 @@ def _unrealizable(done: Synthesized, outcome: Unrealizable, paint: Paint) -> lis
     ordering = outcome.statistics.ordering
     shown = [failure_text(done.place, failure, ordering) for failure in outcome.failures]
     kept = "" if done.output == "-" else f" {done.output}, if it exists, is what it was."
-    return ["\n".join(head), *shown, f"No policy was written.{kept}"]
+    return ["\n".join(head), *shown, "\n".join((f"No policy was written.{kept}", *_certified(done, ordering, paint)))]
+
+
+def _certified(done: Synthesized, ordering: Ordering, paint: Paint) -> list[str]:
+    """What became of the certificate that there is no policy."""
+    lines = []
+    if done.disproof is not None:
+        proved = done.disproof.verdict == "proved"
+        lines.append(
+            f"{paint.good('Proved')}: {proof_line(done.disproof)}."
+            if proved
+            else f"{paint.doubt('The certificate could not be proved')}: {done.disproof.reason}."
+        )
+    if done.certificate is None:
+        return lines
+    if done.disproof is None:
+        lines.append(paint.doubt("Its certificate is not proved: --no-verify was given."))
+    overrule = f" --effect-ordering {ordering}" if (ordering, done.spec.effect_ordering) == ("any", "first") else ""
+    files = f"{shlex.quote(done.certificate)} {shlex.quote(done.source.name)}"
+    return [*lines, f"{done.certificate} is written. Next:", f"  tumato-sym verify {files}{overrule}"]
 
 
 def as_json(done: Synthesized) -> dict[str, object]:
@@ -136,23 +159,32 @@ def as_json(done: Synthesized) -> dict[str, object]:
     return {
         "verdict": _verdict(done),
         "specification": done.source.name,
-        "effect_ordering": statistics.ordering,
+        "effect_ordering": statistics.ordering if statistics else None,
         "states": {
             "total": statistics.total,
             "valid": statistics.valid,
             "safe": statistics.safe,
             "unsafe": statistics.unsafe,
-        },
-        "longest_run": statistics.longest_run,
+        }
+        if statistics
+        else None,
+        "longest_run": statistics.longest_run if statistics else None,
         "policy": done.output if done.written else None,
+        "certificate": done.certificate,
         "failing_states": sum(failure.count for failure in failures if failure.kind != "conflict"),
         "failures": [failure_json(done.spec, failure) for failure in failures],
         "limit": _limit(done),
-        "proof": proof_json(done.spec, done.proof) if done.proof else None,
+        "proof": _proof_json(done),
         "seconds": {"synthesis": round(done.solved_in, 3), "proof": round(done.proved_in, 3)},
-        "backend": statistics.backend,
+        "backend": statistics.backend if statistics else None,
         "warnings": [finding_json(warning, done.source.name) for warning in done.warnings],
     }
+
+
+def _proof_json(done: Synthesized) -> dict[str, object] | None:
+    if done.disproof is not None:
+        return verdict_json(done.spec, done.disproof)
+    return proof_json(done.spec, done.proof) if done.proof is not None else None
 
 
 def _verdict(done: Synthesized) -> str:
