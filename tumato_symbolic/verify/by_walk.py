@@ -15,6 +15,7 @@ from tumato_symbolic.semantics import (
     Effectuation,
     Objection,
     Outcome,
+    Residual,
     Run,
     State,
     apply,
@@ -154,21 +155,40 @@ class WalkProver:
         model, walk, ranks = self._model, self._model.walk, self._ranks
         owing = walk.without(model.decided, self._not_allowed)
         owed = [(goal, where) for goal, where in model.residuals(owing, model.policy) if goal.bodies]
-        proved = PropertyResult("goals", "proved", 1 + 2 * len(owed), "walk")
-        if ranks.check_given([goal for goal, _ in owed]):
-            missed = walk.any_of(self._missing(where, ranks.given_near(goal)) for goal, where in owed)
-            if missed == FALSE:
-                return proved
-            if (refuted := self._goal_missed(model.first_state(missed))) is not None:
-                return refuted
-            ranks.given.reject("its ranks exceed the bound where the runs do not")
+        result = self._by_certificate(owed) if ranks.check_given() else None
+        if result is not None:
+            return result
         missed = walk.any_of(self._missing(where, ranks.near(goal)) for goal, where in owed)
         if missed == FALSE:
-            return proved
+            return PropertyResult("goals", "proved", 1 + len(owed), "walk")
         refuted = self._goal_missed(model.first_state(missed))
         if refuted is None:
             raise RuntimeError("the run reaches its goal, against the walk")
         return refuted
+
+    def _by_certificate(self, owed: list[tuple[Residual, Function]]) -> PropertyResult | None:
+        """The proof with the ranks that came with the policy, or a failing run; None where they do not serve."""
+        model, walk, ranks = self._model, self._model.walk, self._ranks
+        whole = True
+        for goal, where in owed:
+            missed = self._missing(where, ranks.given_near(goal)) if goal in ranks.roots else where
+            if missed == FALSE:
+                continue
+            whole, state = False, model.first_state(missed)
+            if goal not in ranks.roots:
+                ranks.lacks(goal)
+            elif (refuted := self._goal_missed(state)) is not None:
+                ranks.serve()
+                return refuted
+            elif walk.all_of((where, model.next(ranks.given_far(goal)))) != FALSE:
+                ranks.reject(f"its ranks of {ranks.described(goal)} exceed the bound")
+                return None
+            else:
+                ranks.lacks(goal, state)
+        if not whole:
+            return None
+        ranks.serve()
+        return PropertyResult("goals", "proved", 1 + len(ranks.roots) + len(owed), "walk")
 
     def _missing(self, where: Function, near: Function) -> Function:
         """The states of `where` from which the first step does not lead near enough."""
@@ -198,7 +218,7 @@ class WalkProver:
             if serves != FALSE and near != self._ranks.near(goal):
                 at_least, serves = serves, walk.all_of((where, walk.substitute(self._ranks.near(goal), step)))
                 if serves != at_least:
-                    self._ranks.not_exact(goal)
+                    self._ranks.inexact(goal)
             better = walk.any_of((better, serves))
         if better == FALSE:
             return PropertyResult("minimal", "proved", 1 + len(owed), "walk")

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from tumato_symbolic.policy.diagram import Reference
 from tumato_symbolic.policy.model import Certificate, Policy
-from tumato_symbolic.semantics import Residual, action_names
-from tumato_symbolic.spec import Spec, canonical_text, digest
+from tumato_symbolic.semantics import Residual, State, action_names, named
+from tumato_symbolic.spec import Spec, canonical_text, digest, executing_atoms
 from tumato_symbolic.verify.result import CertificateUse
 
 UNNEEDED = CertificateUse("unneeded")
@@ -48,7 +48,16 @@ class GivenRanks:
         else:
             for goal in certificate.goals:
                 executed = frozenset(actions[name] for name in goal.executed)
-                self.roots[Residual(frozenset(bodies[text] for text in goal.bodies), executed)] = goal.root
+                key = Residual(frozenset(bodies[text] for text in goal.bodies), executed)
+                spoken = frozenset[int]().union(*(executing_atoms(spec.bodies[body].formula) for body in key.bodies))
+                if key in self.roots:
+                    self.reject(f"it ranks {self.described(key)} twice")
+                    return
+                if not executed <= spoken:
+                    unspoken = action_names(spec, executed - spoken)[0]
+                    self.reject(f"`Executed` has {unspoken}, of which its goal does not speak")
+                    return
+                self.roots[key] = goal.root
 
     def reject(self, reason: str) -> None:
         """Set the certificate aside: it is wrong, unless that may be the fault of an unsafe policy."""
@@ -65,8 +74,21 @@ class GivenRanks:
         if self.use.status in ("used", "unneeded"):
             self.use = CertificateUse("incomplete", reason)
 
+    def lacks(self, goal: Residual, state: State | None = None) -> None:
+        """A rank that is needed is missing: that of `goal` after `state`, or all of them."""
+        where = "" if state is None else f" after {_listed(self._spec, state)}"
+        self.fall_short(f"it has no {'ranks' if state is None else 'rank'} of {self.described(goal)}{where}")
+
+    def inexact(self, goal: Residual) -> None:
+        """The ranks of `goal` are no proof that a run is too long, or are larger than it is."""
+        self.fall_short(f"its ranks of {self.described(goal)} are not the lengths of the runs")
+
     def described(self, goal: Residual) -> str:
         """A residual goal in the user's words."""
         text = " AND ".join(f"({self._spec.bodies[body].text})" for body in sorted(goal.bodies)) or "'no goal'"
         executed = ", ".join(action_names(self._spec, goal.executed))
         return f"{text} while executing {executed}" if executed else text
+
+
+def _listed(spec: Spec, state: State) -> str:
+    return ", ".join(f"{name} is {value}" for name, value in named(spec, state).items())

@@ -52,11 +52,12 @@ def _by_certificate(frame: Frame, source: RankSource, goals: list[Residual]) -> 
         return None
     whole = True
     for goal in goals:
-        if goal not in source.given:
+        given = source.given(goal)
+        if given is None:
             source.lacks(goal)
             whole = False
             continue
-        proof = RankProof(frame, source.given[goal])
+        proof = RankProof(frame, given)
         state = proof.first_beyond(source.owes_a_run)
         if state is None:
             continue

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import operator
-from collections.abc import Sequence
 from functools import cached_property
 
 from tumato_symbolic.policy.model import Policy
 from tumato_symbolic.semantics import Residual
 from tumato_symbolic.verify.given import UNNEEDED, GivenRanks
-from tumato_symbolic.verify.result import CertificateUse
 from tumato_symbolic.verify.walk import FALSE, Function
 from tumato_symbolic.verify.walk_model import Model
 
@@ -19,23 +17,18 @@ def at_most_one_more(one: int, other: int) -> int:
     return int(one <= other + 1)
 
 
-class WalkRanks:
+class WalkRanks(GivenRanks):
     """What a step must lead to: states that the policy leads to a residual goal in at most `L - 1` steps.
 
     Given ranks speak of safe states; those computed here of all.
     """
 
     def __init__(self, model: Model, policy: Policy, policy_is_safe: bool) -> None:
+        super().__init__(model.spec, policy, policy_is_safe)
         self._model = model
         self._certificate = policy.certificate
         self._near: dict[Residual, Function] = {}
         self._lower_bounds: dict[Residual, bool] = {}
-        self.given = GivenRanks(model.spec, policy, policy_is_safe)
-
-    @property
-    def use(self) -> CertificateUse:
-        """What became of the certificate."""
-        return self.given.use
 
     def near(self, goal: Residual) -> Function:
         """Exactly these states, computed backwards from the goal."""
@@ -49,40 +42,35 @@ class WalkRanks:
         largest = self._never if bound is None else min(bound, self._never)
         return self._model.walk.combine(operator.lt, self._given(goal), self._model.walk.constant(largest))
 
-    def check_given(self, goals: Sequence[Residual]) -> bool:
-        """Whether the certificate ranks all of `goals`, and all its ranks decrease; otherwise it is set aside."""
-        given = self.given
-        if given.use != UNNEEDED:
+    def given_far(self, goal: Residual) -> Function:
+        """The states with a given rank that is a number, and too large."""
+        walk = self._model.walk
+        ranked = walk.combine(operator.lt, self._given(goal), walk.constant(self._never))
+        return walk.without(ranked, self.given_near(goal))
+
+    def check_given(self) -> bool:
+        """Whether there is a certificate all of whose ranks decrease; a false one is set aside."""
+        if self.use != UNNEEDED:
             return False
-        for goal in given.roots:
+        for goal in self.roots:
             if not self._decreases(goal):
-                given.reject(f"the ranks of {given.described(goal)} do not go down to it")
+                self.reject(f"the ranks of {self.described(goal)} do not go down to it")
                 return False
-        missing = next((goal for goal in goals if goal not in given.roots), None)
-        if missing is not None:
-            given.fall_short(f"it has no ranks of {given.described(missing)}")
-            return False
-        given.serve()
         return True
 
     def near_at_least(self, goal: Residual) -> Function:
         """These states and perhaps more, by given ranks that are nowhere too large, else exactly these."""
-        given = self.given
-        if goal not in given.roots:
-            if given.roots:
-                given.fall_short(f"it has no ranks of {given.described(goal)}")
+        if goal not in self.roots:
+            if self.roots:
+                self.lacks(goal)
             return self.near(goal)
         if goal not in self._lower_bounds:
             self._lower_bounds[goal] = self._is_lower_bound(goal)
         if not self._lower_bounds[goal]:
-            self.not_exact(goal)
+            self.inexact(goal)
             return self.near(goal)
-        given.serve()
+        self.serve()
         return self.given_near(goal)
-
-    def not_exact(self, goal: Residual) -> None:
-        """Given ranks did not serve, for they are too small or too large."""
-        self.given.fall_short(f"its ranks of {self.given.described(goal)} are not the lengths of the runs")
 
     # Given ranks `N`: a number for every state, `never` where there is none
 
@@ -100,7 +88,7 @@ class WalkRanks:
         return self._model.walk.taken(self._certificate.ranks, lambda rank: self._never if rank is None else rank)
 
     def _given(self, goal: Residual) -> Function:
-        return self._taken[self.given.roots[goal]]
+        return self._taken[self.roots[goal]]
 
     def _decreases(self, goal: Residual) -> bool:
         """`N = 0` only where the goal holds, and from `N = j > 0` a step to a safe state with a smaller rank."""
