@@ -30,6 +30,7 @@ from tumato_symbolic.spec import Assignment, Ordering, Spec
 from tumato_symbolic.verify.decisions import Decisions
 from tumato_symbolic.verify.result import CertificateUse, PropertyName, PropertyResult, Refutation
 from tumato_symbolic.verify.walk import FALSE, BudgetError, Function
+from tumato_symbolic.verify.walk_goals import WalkGoals
 from tumato_symbolic.verify.walk_model import Model
 from tumato_symbolic.verify.walk_ranks import WalkRanks
 
@@ -104,7 +105,11 @@ class WalkProver:
 
     @cached_property
     def _ranks(self) -> WalkRanks:
-        return WalkRanks(self._model, self._policy, policy_is_safe=self._not_allowed == FALSE)
+        return WalkRanks(self._model, self._residual_goals, self._policy, self._not_allowed == FALSE)
+
+    @cached_property
+    def _residual_goals(self) -> WalkGoals:
+        return WalkGoals(self._model)
 
     def _total(self) -> PropertyResult:
         missing = self._model.walk.without(self._model.valid, self._model.decided)
@@ -154,7 +159,7 @@ class WalkProver:
     def _goals(self) -> PropertyResult:
         model, walk, ranks = self._model, self._model.walk, self._ranks
         owing = walk.without(model.decided, self._not_allowed)
-        owed = [(goal, where) for goal, where in model.residuals(owing, model.policy) if goal.bodies]
+        owed = [(goal, where) for goal, where in self._residual_goals.residuals(owing, model.policy) if goal.bodies]
         result = self._by_certificate(owed) if ranks.check_given() else None
         if result is not None:
             return result
@@ -209,7 +214,7 @@ class WalkProver:
         cheaper = walk.all_of((unsafe, shorter))
         if cheaper != FALSE:
             cheaper = walk.all_of((cheaper, model.allowed))
-        owed = model.residuals(cheaper, model.chosen)
+        owed = self._residual_goals.residuals(cheaper, model.chosen)
         step = model.successor(model.chosen)
         better = FALSE
         for goal, where in owed:

@@ -8,30 +8,14 @@ function; the policy, an effect and a successor are what is substituted for its 
 from __future__ import annotations
 
 import operator
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from functools import cached_property
-from itertools import combinations
 
 from tumato_symbolic.policy.model import DecisionDiagram
-from tumato_symbolic.semantics import ActionSet, Residual, State, nominal_agrees
-from tumato_symbolic.spec import (
-    And,
-    Assignment,
-    ConditionalGoal,
-    Constant,
-    Executing,
-    Formula,
-    Goal,
-    Iff,
-    Is,
-    Not,
-    Or,
-    Ordering,
-    SimpleGoal,
-    Spec,
-    executing_atoms,
-)
+from tumato_symbolic.semantics import ActionSet, State
+from tumato_symbolic.spec import And, Assignment, Constant, Executing, Formula, Iff, Is, Not, Or, Ordering, Spec
 from tumato_symbolic.verify.walk import FALSE, TRUE, Function, Walk
+from tumato_symbolic.verify.walk_order import conflicting, disagreeing, exclusive_groups, walk_order
 
 MOST_CASES = 128
 """Where the policy nominally writes at most so many different things, each is looked at apart."""
@@ -50,7 +34,7 @@ class Model:
         self._ordering = ordering
         self.groups = exclusive_groups(spec)
         sizes = [*(len(variable.values) for variable in spec.variables), *(len(group) + 1 for group in self.groups)]
-        self.walk = walk = Walk(_order(spec, decisions.diagram.order, self.groups), sizes)
+        self.walk = walk = Walk(walk_order(spec, decisions.diagram.order, self.groups), sizes)
         walk.deadline = deadline
         taken = walk.taken(decisions.diagram, int)
         self.policy = [taken[root] for root in decisions.roots]
@@ -262,106 +246,3 @@ class Model:
         places |= {self.group_variable(action): self._place[action][1] for action in chosen}
         values = {variable: self.walk.constant(value) for variable, value in (*enumerate(state), *places.items())}
         return self.walk.substitute(function, values) != FALSE
-
-    # Goals
-
-    @cached_property
-    def active(self) -> dict[int, Function]:
-        """Where every goal body is active; those not listed never are."""
-        return {} if self.spec.goals is None else self._entered(self.spec.goals)[1]
-
-    def _entered(self, goal: Goal) -> tuple[Function, dict[int, Function]]:
-        """Where `goal` is entered, and where it makes which body active."""
-        walk = self.walk
-        if isinstance(goal, SimpleGoal):
-            return TRUE, {goal.body: TRUE}
-        if isinstance(goal, ConditionalGoal):
-            entered = self.formula(goal.condition.formula)
-            inner = self._entered(goal.goal)[1]
-            return entered, {body: walk.all_of((entered, where)) for body, where in inner.items()}
-        found, tried = dict[int, Function](), TRUE
-        for member in goal.members:
-            entered, inner = self._entered(member)
-            for body, where in inner.items():
-                found[body] = walk.any_of((found.get(body, FALSE), walk.all_of((tried, where))))
-            if goal.kind == "priority":
-                tried = walk.without(tried, entered)
-        return TRUE, found
-
-    def residuals(self, region: Function, executed: Sequence[Function]) -> list[tuple[Residual, Function]]:
-        """`region` by the residual goal that its states have when `executed` is the first set."""
-        walk, parts = self.walk, [(frozenset[int](), region)]
-        for body, where in self.active.items():
-            parts = [(bodies | {body}, walk.all_of((part, where))) for bodies, part in parts] + [
-                (bodies, walk.without(part, where)) for bodies, part in parts
-            ]
-            parts = [(bodies, part) for bodies, part in parts if part != FALSE]
-        found = []
-        for bodies, part in parts:
-            spoken = frozenset[int]().union(*(executing_atoms(self.spec.bodies[body].formula) for body in bodies))
-            cases = [(frozenset[int](), part)]
-            for action in sorted(spoken):
-                cases = [(those | {action}, walk.all_of((case, executed[action]))) for those, case in cases] + [
-                    (those, walk.without(case, executed[action])) for those, case in cases
-                ]
-                cases = [(those, case) for those, case in cases if case != FALSE]
-            found += [(Residual(bodies, those), case) for those, case in cases if case != FALSE]
-        return found
-
-    def reached(self, goal: Residual) -> Function:
-        """Where a residual goal holds."""
-        executed = [int(action in goal.executed) for action in range(len(self.spec.actions))]
-        return self.walk.all_of(self.formula(self.spec.bodies[body].formula, executed) for body in sorted(goal.bodies))
-
-    def within(self, goal: Residual) -> Function:
-        """From where the run of the policy satisfies `goal` in at most `L - 1` steps, none included: layer by layer."""
-        walk, bound = self.walk, self.spec.max_plan_length
-        found = reached = self.reached(goal)
-        left = bound - 1 if bound is not None else -1
-        while left:
-            more = walk.any_of((reached, walk.all_of((self.acting, self.next(found)))))
-            if more == found:
-                break
-            found, left = more, left - 1
-        return found
-
-
-def conflicting(spec: Spec) -> list[tuple[int, int]]:
-    """Pairs of actions that are never in one allowed set: a common resource, or nominal effects that disagree."""
-    apart = set(disagreeing(spec))
-    return [
-        pair
-        for pair in combinations(range(len(spec.actions)), 2)
-        if pair in apart or spec.actions[pair[0]].resources & spec.actions[pair[1]].resources
-    ]
-
-
-def disagreeing(spec: Spec) -> list[tuple[int, int]]:
-    """Pairs of actions whose nominal effects disagree."""
-    pairs = combinations(range(len(spec.actions)), 2)
-    return [pair for pair in pairs if not nominal_agrees(spec, frozenset(pair))]
-
-
-def exclusive_groups(spec: Spec) -> list[list[int]]:
-    """All actions, in groups of which no two are ever in one allowed set."""
-    apart = {frozenset(pair) for pair in conflicting(spec)}
-    groups: list[list[int]] = []
-    for action in range(len(spec.actions)):
-        fitting = (group for group in groups if all(frozenset((action, other)) in apart for other in group))
-        group = next(fitting, None)
-        if group is None:
-            groups.append([action])
-        else:
-            group.append(action)
-    return groups
-
-
-def _order(spec: Spec, tested: Sequence[int], groups: Sequence[Sequence[int]]) -> list[int]:
-    """The variables as the policy tests them, every group just above the first one that it writes."""
-    states = [*tested, *(variable for variable in range(len(spec.variables)) if variable not in tested)]
-    above: Mapping[int, list[int]] = {variable: [] for variable in states}
-    for number, group in enumerate(groups):
-        written = {variable for action in group for effect in spec.actions[action].effects for variable, _ in effect}
-        first = next((variable for variable in states if variable in written), states[0])
-        above[first].append(len(spec.variables) + number)
-    return [each for variable in states for each in (*above[variable], variable)]

@@ -9,6 +9,7 @@ from tumato_symbolic.policy.model import Policy
 from tumato_symbolic.semantics import Residual
 from tumato_symbolic.verify.given import UNNEEDED, GivenRanks
 from tumato_symbolic.verify.walk import FALSE, Function
+from tumato_symbolic.verify.walk_goals import WalkGoals
 from tumato_symbolic.verify.walk_model import Model
 
 
@@ -23,9 +24,10 @@ class WalkRanks(GivenRanks):
     Given ranks speak of safe states; those computed here of all.
     """
 
-    def __init__(self, model: Model, policy: Policy, policy_is_safe: bool) -> None:
+    def __init__(self, model: Model, goals: WalkGoals, policy: Policy, policy_is_safe: bool) -> None:
         super().__init__(model.spec, policy, policy_is_safe)
         self._model = model
+        self._goals = goals
         self._certificate = policy.certificate
         self._near: dict[Residual, Function] = {}
         self._lower_bounds: dict[Residual, bool] = {}
@@ -33,7 +35,7 @@ class WalkRanks(GivenRanks):
     def near(self, goal: Residual) -> Function:
         """Exactly these states, computed backwards from the goal."""
         if goal not in self._near:
-            self._near[goal] = self._model.within(goal)
+            self._near[goal] = self._goals.within(goal)
         return self._near[goal]
 
     def given_near(self, goal: Residual) -> Function:
@@ -98,7 +100,7 @@ class WalkRanks(GivenRanks):
         known = walk.combine(operator.lt, here, walk.constant(self._never))
         at_goal = walk.combine(operator.eq, here, walk.constant(0))
         goes_down = walk.all_of((model.acting, self._safe_after, walk.combine(operator.lt, after, here)))
-        right = walk.select(at_goal, (goes_down, model.reached(goal)))
+        right = walk.select(at_goal, (goes_down, self._goals.reached(goal)))
         return walk.without(walk.all_of((model.safe, known)), right) == FALSE
 
     def _is_lower_bound(self, goal: Residual) -> bool:
@@ -108,7 +110,7 @@ class WalkRanks(GivenRanks):
         after = model.next(here)
         follows = walk.all_of((self._safe_after, walk.combine(at_most_one_more, here, after)))
         at_goal = walk.combine(operator.eq, here, walk.constant(0))
-        wrong = walk.select(model.reached(goal), (walk.without(model.acting, follows), walk.negation(at_goal)))
+        wrong = walk.select(self._goals.reached(goal), (walk.without(model.acting, follows), walk.negation(at_goal)))
         return walk.all_of((model.safe, wrong)) == FALSE
 
     @cached_property

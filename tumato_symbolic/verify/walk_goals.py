@@ -1,0 +1,79 @@
+"""Residual goals as functions for the walk (`docs/semantics.md`, sections 4 and 5)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+
+from tumato_symbolic.semantics import Residual
+from tumato_symbolic.spec import ConditionalGoal, Goal, SimpleGoal, executing_atoms
+from tumato_symbolic.verify.walk import FALSE, TRUE, Function
+from tumato_symbolic.verify.walk_model import Model
+
+
+class WalkGoals:
+    """The goals of a model."""
+
+    def __init__(self, model: Model) -> None:
+        self._model = model
+        self._spec = model.spec
+        self._walk = model.walk
+
+    @cached_property
+    def active(self) -> dict[int, Function]:
+        """Where every goal body is active; those not listed never are."""
+        return {} if self._spec.goals is None else self._entered(self._spec.goals)[1]
+
+    def _entered(self, goal: Goal) -> tuple[Function, dict[int, Function]]:
+        """Where `goal` is entered, and where it makes which body active."""
+        walk = self._walk
+        if isinstance(goal, SimpleGoal):
+            return TRUE, {goal.body: TRUE}
+        if isinstance(goal, ConditionalGoal):
+            entered = self._model.formula(goal.condition.formula)
+            inner = self._entered(goal.goal)[1]
+            return entered, {body: walk.all_of((entered, where)) for body, where in inner.items()}
+        found, tried = dict[int, Function](), TRUE
+        for member in goal.members:
+            entered, inner = self._entered(member)
+            for body, where in inner.items():
+                found[body] = walk.any_of((found.get(body, FALSE), walk.all_of((tried, where))))
+            if goal.kind == "priority":
+                tried = walk.without(tried, entered)
+        return TRUE, found
+
+    def residuals(self, region: Function, executed: Sequence[Function]) -> list[tuple[Residual, Function]]:
+        """`region` by the residual goal that its states have when `executed` is the first set."""
+        found = []
+        for bodies, part in self._split(region, self.active):
+            spoken = frozenset[int]().union(*(executing_atoms(self._spec.bodies[body].formula) for body in bodies))
+            cases = self._split(part, {action: executed[action] for action in sorted(spoken)})
+            found += [(Residual(bodies, those), case) for those, case in cases]
+        return found
+
+    def _split(self, region: Function, predicates: Mapping[int, Function]) -> list[tuple[frozenset[int], Function]]:
+        """The parts of `region`, none empty, by which of the predicates hold."""
+        walk, parts = self._walk, [(frozenset[int](), region)] if region != FALSE else []
+        for number, predicate in predicates.items():
+            inside = [(held | {number}, walk.all_of((part, predicate))) for held, part in parts]
+            outside = [(held, walk.without(part, predicate)) for held, part in parts]
+            parts = [(held, part) for held, part in inside + outside if part != FALSE]
+        return parts
+
+    def reached(self, goal: Residual) -> Function:
+        """Where a residual goal holds."""
+        executed = [int(action in goal.executed) for action in range(len(self._spec.actions))]
+        bodies = [self._spec.bodies[body].formula for body in sorted(goal.bodies)]
+        return self._walk.all_of(self._model.formula(body, executed) for body in bodies)
+
+    def within(self, goal: Residual) -> Function:
+        """From where the run of the policy satisfies `goal` in at most `L - 1` steps, none included: layer by layer."""
+        walk, bound = self._walk, self._spec.max_plan_length
+        found = reached = self.reached(goal)
+        left = bound - 1 if bound is not None else -1
+        while left:
+            more = walk.any_of((reached, walk.all_of((self._model.acting, self._model.next(found)))))
+            if more == found:
+                break
+            found, left = more, left - 1
+        return found
