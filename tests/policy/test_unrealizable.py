@@ -1,6 +1,7 @@
 """The certificate for the answer no: its text, its schema, its numbers."""
 
 import json
+import re
 from functools import cache
 from pathlib import Path
 
@@ -156,6 +157,14 @@ def test_a_certificate_survives_its_text(certificate):
 def test_the_schema_is_a_schema():
     """`unrealizable.schema.json` is valid JSON Schema 2020-12."""
     jsonschema.Draft202012Validator.check_schema(SCHEMA)
+
+
+def test_the_example_in_the_document_is_one():
+    """The certificate shown in `docs/certificate.md` is read, and satisfies the schema."""
+    document = Path(__file__).parents[2].joinpath("docs/certificate.md").read_text(encoding="utf-8")
+    (text,) = re.findall(r"```json\n(.*?)```", document, re.DOTALL)
+    assert isinstance(loads(text).reason, NoAllowedSet)
+    jsonschema.Draft202012Validator(SCHEMA).validate(json.loads(text))
 
 
 @QUICK
