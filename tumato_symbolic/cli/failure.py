@@ -24,5 +24,10 @@ def show_user_error(error: UserError, options: Options) -> None:
                 write(text)
         case "github":
             write(github_commands(error.diagnostics, name))
+        case "sarif":
+            from tumato_symbolic import __version__
+            from tumato_symbolic.report.sarif import findings_sarif
+
+            write(dump(findings_sarif(error.diagnostics, name or options.specs[0], __version__)))
         case _:
             note(render(error.diagnostics, error.source, color=wants_colour(sys.stderr)))

@@ -71,8 +71,12 @@ def _command(options: Options) -> int:
             from tumato_symbolic.cli.synth import run
         case "verify":
             from tumato_symbolic.cli.verify import run
+        case "explain":
+            from tumato_symbolic.cli.explain import run
         case "decide":
             from tumato_symbolic.cli.decide import run
+        case "why":
+            from tumato_symbolic.cli.why import run
         case _:
             from tumato_symbolic.cli.check import run
     return run(options)

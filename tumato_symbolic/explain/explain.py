@@ -47,6 +47,10 @@ MAX_CUBES = 1_000
 """So many cubes are listed where nothing else is asked for."""
 
 NEAR_MISSES = 3
+"""So many sets that come near to being allowed are told of each reason."""
+
+MOST_WEAKENED = 3
+"""A repair of more elements is not one that anybody would make line by line."""
 
 
 def explain(
@@ -189,10 +193,11 @@ def _conflict_cores(
 
 
 def _with_weakenings(conditions: Conditions, found: tuple[Elements, ...]) -> Iterator[Repair]:
-    """Every repair as it is; single elements, and the first repair, also weakened rather than dropped."""
+    """Every repair as it is; single elements, and the first repair, if it is small, also weakened."""
     for number, dropped in enumerate(found):
         yield Repair(tuple(Change(element, None) for element in element_list(conditions, dropped)))
-        weaker = weakening(conditions, dropped) if number == 0 or len(dropped) == 1 else None
+        worth_it = len(dropped) <= (MOST_WEAKENED if number == 0 else 1)
+        weaker = weakening(conditions, dropped) if worth_it else None
         if weaker is not None:
             texts: dict[Element, str | None] = {edit.element: edit.text for edit in weaker.edits}
             yield Repair(tuple(Change(each, texts.get(each)) for each in element_list(conditions, dropped)))

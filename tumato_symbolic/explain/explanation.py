@@ -29,7 +29,8 @@ class Reason:
 
     `count` is the exact number of these states. `cubes` are disjoint and hold exactly these valid states, but for the
     `omitted` ones of which no cube is listed. `cores`: the core that all of them share, then more cores of `example`.
-    `goals` are those of the example where it has no plan. `together` are the states of a conflict.
+    `goals` are those of the example where it has no plan, `shortest_plan` the steps that it would need if only the plan
+    bound were gone. `together` are the states of a conflict.
     """
 
     kind: FailureKind
@@ -41,6 +42,7 @@ class Reason:
     goals: tuple[OwnGoal, ...] = ()
     near: tuple[NearMiss, ...] = ()
     together: tuple[State, ...] = ()
+    shortest_plan: int | None = None
 
     @property
     def core(self) -> tuple[Element, ...]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 
 from tumato_symbolic.explain.conditions import Conditions
@@ -37,6 +36,14 @@ def restricted(regions: Regions, states: Bdd, false: Bdd) -> Regions:
     return {active: part for active, region in regions.items() if (part := region & states) != false}
 
 
-def shortest(layers: Mapping[int, Bdd]) -> int | None:
-    """The number of the first layer that is not empty."""
-    return next(iter(layers), None)
+def shortest_plan(conditions: Conditions, state: Bdd) -> int | None:
+    """The fewest steps in which a state reaches its goal without a plan bound; None where it never does."""
+    kept = conditions.everything - {Element("plan-bound")}
+    problem = pose_kept(conditions, kept, restricted(conditions.regions, state, conditions.false))
+    found = [
+        rank + 1
+        for target, layers in zip(problem.targets, distances(problem), strict=True)
+        for rank, layer in enumerate(layers)
+        if (problem.steps.predecessor(target.owed, layer) & state) != conditions.false
+    ]
+    return min(found, default=None)

@@ -9,7 +9,7 @@ from typing import Literal, TypeAlias
 from tumato_symbolic.explain.conditions import Conditions
 from tumato_symbolic.explain.conflicts import conflict_core
 from tumato_symbolic.explain.cores import core_without_plan, core_without_set, typical_state
-from tumato_symbolic.explain.elements import Element, Elements, without
+from tumato_symbolic.explain.elements import Element, ElementKind, Elements, without
 from tumato_symbolic.explain.plans import failing
 from tumato_symbolic.synthesis import Realizable, Unrealizable, synthesize
 from tumato_symbolic.synthesis.repair import RoundsExhaustedError
@@ -17,6 +17,17 @@ from tumato_symbolic.synthesis.solver import HittingSets
 
 ROUNDS = 300
 """So many candidates are tried at most."""
+
+_PENALTIES: dict[ElementKind, int] = {
+    "plan-bound": 0,
+    "state-rule": 1,
+    "reaction-rule": 1,
+    "alternative": 1,
+    "precondition": 3,
+    "resource": 3,
+    "assumption": 0,
+}
+"""Of repairs of one size, those come first that do not pretend that the robot can do what it cannot."""
 
 Hopeless: TypeAlias = Literal["failing", "conflict"]
 
@@ -65,7 +76,7 @@ class _Search:
     def __init__(self, conditions: Conditions, cores: Iterable[Elements]) -> None:
         self._conditions = conditions
         self._numbers = {element: number for number, element in enumerate(_droppable(conditions.elements))}
-        self._hitting = HittingSets(len(self._numbers))
+        self._hitting = HittingSets([_PENALTIES[element.kind] for element in self._numbers])
         for core in cores:
             self._must_hit(core)
 

@@ -99,7 +99,8 @@ class Spec:
 
     Variables, resources and actions are known by their position. `bodies` holds the goal bodies, each structure
     once (aliases expanded), so that two goals are the same exactly when their body numbers are. `max_plan_length`
-    is None where plans are unbounded, `effect_ordering` is None where the text does not say. `bound_span` is where the plan bound is set.
+    is None where plans are unbounded, `effect_ordering` is None where the text does not say.
+    `bound_span` is where the plan bound is set.
     """
 
     variables: tuple[Variable, ...]

@@ -182,11 +182,15 @@ def _satisfiable(solver: Term, *assumptions: Term, seconds: float | None = None)
 
 
 class HittingSets:
-    """Smallest sets of numbers that have an element in common with each of some sets."""
+    """Smallest sets of numbers that have an element in common with each of some sets.
 
-    def __init__(self, size: int) -> None:
+    `penalties` has one for every number, from 0 on: among the smallest sets one with the least sum comes first.
+    """
+
+    def __init__(self, penalties: Sequence[int]) -> None:
         self._solver = z3.SolverFor("QF_FD")
-        self._literals = [z3.Bool(f"h{number}") for number in range(size)]
+        self._literals = [z3.Bool(f"h{number}") for number in range(len(penalties))]
+        self._penalties = penalties
         self._least = 0
 
     def require(self, numbers: Sequence[int]) -> None:
@@ -205,9 +209,19 @@ class HittingSets:
             self._solver.push()
             if self._literals:
                 self._solver.add(z3.AtMost(*self._literals, self._least))
-            found = _satisfiable(self._solver)
-            model = self._solver.model() if found else None
+            best: frozenset[int] | None = None
+            while (best is None or best) and _satisfiable(self._solver):
+                model = self._solver.model()
+                best = frozenset(n for n, literal in enumerate(self._literals) if _is_true(model, literal))
+                self._solver.add(self._below(sum(self._penalties[number] for number in best)))
             self._solver.pop()
-            if model is not None:
-                return frozenset(n for n, literal in enumerate(self._literals) if _is_true(model, literal))
+            if best is not None:
+                return best
             self._least += 1
+
+    def _below(self, total: int) -> Term:
+        """The penalties of what is chosen sum up to less."""
+        terms = [
+            (literal, penalty) for literal, penalty in zip(self._literals, self._penalties, strict=True) if penalty
+        ]
+        return z3.PbLe(terms, total - 1) if terms and total else z3.BoolVal(False)

@@ -1,0 +1,159 @@
+"""Why a policy decides as it does, for a person and a program."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from tumato_symbolic.explain.decision import Decision, GoalNote, Other
+from tumato_symbolic.report.layout import count, enumeration
+from tumato_symbolic.report.reasons import Place, objection_text
+from tumato_symbolic.semantics import Run, action_names, named
+from tumato_symbolic.spec import Spec
+
+_LISTED = 6
+
+
+@dataclass(frozen=True, slots=True)
+class Decided:
+    """A decision with everything that its report needs. `asked` is the set that `--not` names."""
+
+    place: Place
+    policy: str
+    decision: Decision
+    asked: Other | None
+
+
+def as_text(done: Decided) -> str:
+    """The report for a person."""
+    place, decision = done.place, done.decision
+    cost = f" (duration {decision.duration})" if decision.broken else ""
+    parts = [f"In {place.state(decision.state)}\n{done.policy} decides: {place.actions(decision.chosen)}{cost}."]
+    if decision.broken:
+        parts.append(f"The state is unsafe: it breaks {enumeration([place.rule(rule) for rule in decision.broken])}.")
+    parts.append("\n".join(_goals(place, decision)))
+    parts.append("\n".join(_run(place, decision.run)))
+    if done.asked is not None:
+        parts.append(f"Why not {place.actions(done.asked.chosen)}? {_sentence(place, decision, done.asked)}")
+    else:
+        parts += _others(place, decision)
+    return "\n\n".join(parts)
+
+
+def _goals(place: Place, decision: Decision) -> Iterator[str]:
+    if not any(note.active for note in decision.goals):
+        yield "No goal is active: any allowed step will do."
+    for note in decision.goals:
+        yield _goal(place, note)
+
+
+def _goal(place: Place, note: GoalNote) -> str:
+    *outer, last = (*(place.rule(rule) for rule in note.conditions), "")
+    if note.body is None:
+        return f"Passed over: the goal for {enumeration([*outer])}, which does not hold."
+    because = f", because {enumeration([*outer, *([last] if last else [])])} holds" if note.conditions else ""
+    return f"Active goal: {place.rule(note.body)}{because}."
+
+
+_ENDS = {
+    "goal": "The goal is reached",
+    "bound": "The plan bound is met before the goal",
+    "loop": "The run loops without meeting the goal",
+    "undefined": "The policy does not say how to go on",
+}
+
+
+def _run(place: Place, run: Run) -> Iterator[str]:
+    yield "The run, if every effect is the nominal one:"
+    for number, (chosen, before, after) in enumerate(zip(run.decisions, run.states, run.states[1:], strict=False), 1):
+        pairs = tuple((variable, value) for variable, value in enumerate(after) if value != before[variable])
+        yield f"  {number}. {place.actions(chosen)}: {place.assignment(pairs)}"
+    yield f"{_ENDS[run.end]} after {count(run.steps, 'step')}."
+
+
+def _others(place: Place, decision: Decision) -> Iterator[str]:
+    cheaper = [each for each in decision.others if each.duration < decision.duration]
+    forbidden = [each for each in decision.others if each.verdict == "forbidden"]
+    possible = [each for each in decision.others if each.verdict != "forbidden"]
+    if decision.broken and cheaper:
+        yield _list(place, decision, cheaper, "Cheaper, but")
+        forbidden = [each for each in forbidden if each not in cheaper]
+        possible = [each for each in possible if each not in cheaper]
+    if possible:
+        yield _list(place, decision, possible, "Allowed as well, but")
+    if forbidden:
+        yield _list(place, decision, forbidden, "Not allowed:")
+
+
+def _list(place: Place, decision: Decision, others: list[Other], title: str) -> str:
+    lines = [title]
+    for other in others[:_LISTED]:
+        lines.append(f"  {place.actions(other.chosen)}: {_sentence(place, decision, other)}")
+    if len(others) > _LISTED:
+        lines.append(f"  … and {len(others) - _LISTED} more")
+    return "\n".join(lines)
+
+
+def _sentence(place: Place, decision: Decision, other: Other) -> str:
+    """What speaks against a set."""
+    steps = other.run.steps if other.run else 0
+    match other.verdict:
+        case "forbidden" if other.objection is not None:
+            return objection_text(place, other.objection).replace("\n", "\n  ")
+        case "misses" if other.run is not None:
+            return f"its run does not meet the goal ({_ENDS[other.run.end].lower()})"
+        case "costlier":
+            return f"it takes longer to restore safety: {other.duration} rather than {decision.duration}"
+        case "longer":
+            return f"its run has {count(steps, 'step')} rather than {decision.run.steps}"
+        case "larger":
+            return f"it needs {count(len(other.chosen), 'action')} rather than {len(decision.chosen)}"
+        case "later":
+            return "it would do as well, but is declared later"
+        case "chosen":
+            return "it is what the policy decides"
+        case _:
+            return f"it would do here, in {count(steps, 'step')}; the decision is made for runs of other goals, too"
+
+
+def as_json(done: Decided) -> dict[str, object]:
+    """The report for a program."""
+    place, decision = done.place, done.decision
+    spec = place.spec
+    return {
+        "state": named(spec, decision.state),
+        "decision": list(action_names(spec, decision.chosen)),
+        "duration": decision.duration,
+        "safe": not decision.broken,
+        "broken": [{"text": rule.text, "line": rule.span.line} for rule in decision.broken],
+        "goals": [
+            {
+                "active": note.active,
+                "goal": note.body.text if note.body else None,
+                "line": note.body.span.line if note.body else note.conditions[-1].span.line,
+                "conditions": [rule.text for rule in note.conditions],
+            }
+            for note in decision.goals
+        ],
+        "run": _run_json(spec, decision.run),
+        "others": [_other_json(done, other) for other in ([done.asked] if done.asked else decision.others)],
+    }
+
+
+def _run_json(spec: Spec, run: Run) -> dict[str, object]:
+    return {
+        "end": run.end,
+        "steps": run.steps,
+        "decisions": [list(action_names(spec, chosen)) for chosen in run.decisions],
+        "states": [named(spec, state) for state in run.states],
+    }
+
+
+def _other_json(done: Decided, other: Other) -> dict[str, object]:
+    place = done.place
+    return {
+        "actions": list(action_names(place.spec, other.chosen)),
+        "verdict": other.verdict,
+        "duration": other.duration,
+        "reason": " ".join(_sentence(place, done.decision, other).split()),
+    }

@@ -1,0 +1,205 @@
+"""Why there is no policy, for programs: JSON, and the places that editors and GitHub mark."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from tumato_symbolic.diagnostics import Code, Span
+from tumato_symbolic.explain.cubes import StateCube
+from tumato_symbolic.explain.elements import Element, span_of, text_of
+from tumato_symbolic.explain.explanation import (
+    Explanation,
+    NothingToExplain,
+    RealizablePart,
+    Reason,
+    Repair,
+    Unexplained,
+)
+from tumato_symbolic.explain.predicates import predicate_text
+from tumato_symbolic.report.explained import Explained, cube_text, goal_sentences, headline, near_story
+from tumato_symbolic.report.failures import FAILURE_CODES
+from tumato_symbolic.report.findings import finding_json, github_command, github_commands
+from tumato_symbolic.report.roles import role
+from tumato_symbolic.semantics import action_names, active_goals, named
+from tumato_symbolic.spec import Rule, Spec
+
+
+def as_json(done: Explained) -> dict[str, object]:
+    """The report for a program."""
+    found, numbers = done.found, done.found.statistics
+    report: dict[str, object] = {
+        "verdict": _verdict(done),
+        "specification": done.source.name,
+        "effect_ordering": numbers.ordering,
+        "states": {"total": numbers.total, "valid": numbers.valid, "safe": numbers.safe, "unsafe": numbers.unsafe},
+        "failing_states": 0,
+        "failures": [],
+        "omitted": 0,
+        "repairs": [],
+        "repairs_complete": False,
+        "hopeless": None,
+        "realizable_part": None,
+        "limit": found.limit if isinstance(found, Unexplained) else None,
+        "written": done.written,
+        "warnings": [finding_json(warning, done.source.name) for warning in done.warnings],
+    }
+    if isinstance(found, Explanation):
+        report |= {
+            "failing_states": found.failing_states,
+            "failures": [_reason_json(done, reason) for reason in found.reasons],
+            "omitted": found.omitted,
+            "repairs": [_repair_json(done.spec, repair) for repair in found.repairs],
+            "repairs_complete": found.repairs_complete,
+            "hopeless": found.hopeless,
+            "realizable_part": _part_json(found.part),
+        }
+    return report
+
+
+def _verdict(done: Explained) -> str:
+    match done.found:
+        case NothingToExplain():
+            return "realizable"
+        case Unexplained():
+            return "undecided"
+        case _:
+            return "unrealizable"
+
+
+def _reason_json(done: Explained, reason: Reason) -> dict[str, object]:
+    place, spec = done.place, done.spec
+    return {
+        "kind": reason.kind,
+        "code": FAILURE_CODES[reason.kind].name,
+        "count": reason.count,
+        "cubes": [cube_json(spec, cube) for cube in reason.cubes],
+        "omitted": reason.omitted,
+        "example": named(spec, reason.example),
+        "core": [_in_core(done, element, reason.core, reason) for element in reason.core],
+        "more_cores": [[_in_core(done, element, core, reason) for element in core] for core in reason.cores[1:]],
+        "goals": [
+            _goal_json(spec, spec.bodies[goal.body], [predicate_text(spec, part) for part in goal.never])
+            for goal in reason.goals
+        ],
+        "near": [
+            {
+                "actions": list(action_names(spec, near.chosen)),
+                "story": " ".join(line.strip() for line in near_story(place, reason.example, near)),
+            }
+            for near in reason.near
+        ],
+        "states": [
+            named(spec, state) | {"goals": [spec.bodies[body].text for body in sorted(active_goals(spec, state))]}
+            for state in reason.together
+        ]
+        if reason.kind == "conflict"
+        else [],
+    }
+
+
+def cube_json(spec: Spec, cube: StateCube) -> dict[str, list[str]]:
+    """The values that each variable may have; a variable that is not there may have any."""
+    return {
+        variable.name: [variable.values[value] for value in values]
+        for variable, values in zip(spec.variables, cube, strict=True)
+        if len(values) < len(variable.values)
+    }
+
+
+def element_json(spec: Spec, element: Element) -> dict[str, object]:
+    """An element: what it is, whose, its text and its line."""
+    span = span_of(spec, element)
+    has_action = element.kind in ("precondition", "alternative", "resource")
+    return {
+        "kind": element.kind,
+        "action": spec.actions[element.number].name if has_action else None,
+        "text": text_of(spec, element),
+        "line": span.line if span else None,
+    }
+
+
+def _in_core(done: Explained, element: Element, core: tuple[Element, ...], reason: Reason) -> dict[str, object]:
+    return element_json(done.spec, element) | {
+        "file": done.source.name,
+        "role": role(done.place, element, core, reason),
+    }
+
+
+def _goal_json(spec: Spec, body: Rule, never: list[str]) -> dict[str, object]:
+    return {"text": " ".join(body.text.split()), "line": body.span.line, "never_true": never}
+
+
+def _repair_json(spec: Spec, repair: Repair) -> dict[str, object]:
+    dropped = [element_json(spec, change.element) for change in repair.changes if change.text is None]
+    edits = [
+        element_json(spec, change.element) | {"replacement": change.text}
+        for change in repair.changes
+        if change.text is not None
+    ]
+    report: dict[str, object] = {"drop": dropped} if dropped else {}
+    return report | ({"edit": edits} if edits else {}) | {"verified": True}
+
+
+def _part_json(part: RealizablePart | None) -> dict[str, object]:
+    if part is None:
+        return {"states": 0, "given_up": None, "assumption": None, "unique": True, "largest": True}
+    return {
+        "states": part.states,
+        "given_up": part.given_up,
+        "assumption": part.text,
+        "unique": part.unique,
+        "largest": part.largest,
+    }
+
+
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """A line to blame, with what to say about it and the other lines that belong to it."""
+
+    code: Code
+    message: str
+    span: Span | None
+    others: tuple[tuple[str, Span], ...] = ()
+
+
+def marks(done: Explained) -> Iterator[Mark]:
+    """Every line of the first core of each reason; the lines of the goals where a core is empty."""
+    if not isinstance(done.found, Explanation):
+        return
+    for reason in done.found.reasons:
+        code = FAILURE_CODES[reason.kind]
+        head = f"{headline(reason)}: {'; '.join(cube_text(done.spec, cube) for cube in reason.cubes[:1])}"
+        head += f" (and {len(reason.cubes) - 1} more)" if len(reason.cubes) > 1 else ""
+        told = list(_told(done, reason))
+        for number, (sentence, span) in enumerate(told):
+            others = tuple((text, other) for text, other in told[:number] + told[number + 1 :] if other is not None)
+            yield Mark(code, f"{head}\n{sentence}", span, others)
+
+
+def _told(done: Explained, reason: Reason) -> list[tuple[str, Span | None]]:
+    if reason.core:
+        return [(role(done.place, each, reason.core, reason), span_of(done.spec, each)) for each in reason.core]
+    if reason.kind == "conflict":
+        bodies = {body for state in reason.together for body in active_goals(done.spec, state)}
+        return [("this goal conflicts with others", done.spec.bodies[body].span) for body in sorted(bodies)]
+    spans = [done.spec.bodies[goal.body].span for goal in reason.goals]
+    found: list[tuple[str, Span | None]] = list(zip(goal_sentences(done.place, reason), spans, strict=True))
+    return found or [("nothing that is done makes it end well", None)]
+
+
+def as_github(done: Explained) -> str:
+    """One workflow command for every line to blame, and one with the verdict."""
+    file = done.source.name
+    commands = [github_commands(done.warnings, file)] if done.warnings else []
+    commands += [github_command("error", mark.message, file, mark.span, mark.code.name) for mark in marks(done)]
+    match done.found:
+        case NothingToExplain():
+            commands.append(github_command("notice", "realizable: there is nothing to explain", file))
+        case Unexplained(limit):
+            commands.append(github_command("error", f"undecided: {limit}", file))
+        case Explanation() as found:
+            if found.part is not None:
+                message = f"realizable for {found.part.states:,} of {found.statistics.valid:,} valid states, assuming: "
+                commands.append(github_command("notice", message + found.part.text, file))
+    return "\n".join(commands)
