@@ -12,11 +12,11 @@ from tests.oracle import OracleVerdict, Together, World, decide_world
 from tests.profiles import PROFILES
 from tests.reference_policy import reference_policy
 from tumato_symbolic.diagnostics import UserError
-from tumato_symbolic.policy import Policy, Table, as_table, dumps, loads, policy_from_rows
+from tumato_symbolic.policy import Policy, Table, as_table, dumps, loads, policy_from_rows, unrealizable_file
 from tumato_symbolic.semantics import ActionSet, Judgement, State, better_sets, count_states, duration, judge
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.synthesis import Outcome, Realizable, Undecided, Unrealizable, synthesize
-from tumato_symbolic.verify import Refutation, Verification, verify
+from tumato_symbolic.verify import Refutation, Verification, verify, verify_unrealizable
 
 Decisions = Mapping[State, ActionSet]
 
@@ -86,6 +86,7 @@ def _compare(world: World, verdict: OracleVerdict, outcome: Outcome, report: Rep
                 yield "unrealizable, but there is a policy"
             else:
                 yield from _compare_failures(world, verdict, outcome)
+            yield from _verify_certificate(world, outcome)
         case Realizable():
             if verdict.kind != "realizable":
                 yield f"realizable, but {verdict.kind}"
@@ -112,6 +113,14 @@ def _compare_failures(world: World, verdict: OracleVerdict, outcome: Unrealizabl
     truth = {"no-allowed-set": verdict.no_allowed_set, "no-plan": verdict.no_plan}
     if found != {kind: states for kind, states in truth.items() if states}:
         yield f"failing states differ: {found} instead of {truth}"
+
+
+def _verify_certificate(world: World, outcome: Unrealizable) -> Iterator[str]:
+    """Complaints about the verification of the answer no, through its file."""
+    certificate = unrealizable_file.loads(unrealizable_file.dumps(outcome.certificate))
+    answer = verify_unrealizable(certificate, world.spec, ordering=world.ordering)
+    if (answer.verdict, answer.stale) != ("proved", False):
+        yield f"the certificate that there is no policy is not proved: {answer}"
 
 
 def is_minimal_conflict(world: World, states: frozenset[State]) -> bool:

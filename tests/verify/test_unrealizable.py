@@ -7,6 +7,7 @@ import pytest
 
 from tests.generate import PROFILES, random_spec
 from tests.oracle import World, decide_world
+from tests.policy.mutations import mutations
 from tests.semantics.build import Build, priority, when
 from tests.unrealizability import (
     CONFLICTS,
@@ -18,7 +19,7 @@ from tests.unrealizability import (
 )
 from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.policy.unrealizable import Conflict, Cube, Cut, NoAllowedSet, NoPlan, Violation
-from tumato_symbolic.policy.unrealizable_file import dumps, loads
+from tumato_symbolic.policy.unrealizable_file import bind, dumps, loads
 from tumato_symbolic.semantics import allowed
 from tumato_symbolic.spec import FALSE, And, Not, Or, Spec
 from tumato_symbolic.verify import verify_unrealizable
@@ -343,3 +344,18 @@ def test_names_that_do_not_fit_are_an_error():
     """A certificate about another vocabulary is unreadable for this specification, not refuted."""
     with pytest.raises(UserError, match="TUM503"):
         verify_unrealizable(certified(line(1), "any"), stuck()[1])
+
+
+@pytest.mark.parametrize("spec", [stuck()[1], line(2), conflicting()])
+def test_broken_files_end_in_a_verdict_or_a_coded_error(spec):
+    """However a file is broken, it is refused, or judged: nothing false is proved, and nothing crashes."""
+    text = dumps(certified(spec, "any"))
+    world = World(spec, "any")
+    verdicts = set()
+    for seed in range(150):
+        try:
+            certificate = bind(loads(mutations(text, seed).decode(errors="replace")), spec)
+        except UserError:
+            continue
+        verdicts.add(assert_never_wrong(world, certificate))
+    assert "refuted" in verdicts
