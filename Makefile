@@ -3,13 +3,15 @@ PYTHON ?= python3
 VENV ?= .venv
 BIN := $(VENV)/bin
 
-.PHONY: help demo test check format regenerate clean
+.PHONY: help demo test check format regenerate bench bench-compare clean
 
 help:
 	@echo "make demo        install what is needed into $(VENV) and show the main job on a mobile robot"
 	@echo "make test        install the development tools too; lint, types, import walls, tests"
 	@echo "make format      put the sources into shape"
 	@echo "make regenerate  write proofs/ and the generated tables anew"
+	@echo "make bench       measure every family of benchmarks/ (minutes; ARGUMENTS=--quick: about one)"
+	@echo "make bench-compare  the last two full measurements, with what became worse"
 	@echo "make clean       remove $(VENV) and all caches"
 
 demo: $(VENV)/.runtime
@@ -28,6 +30,12 @@ format: $(VENV)/.development
 
 regenerate: $(VENV)/.development
 	$(BIN)/python -m tests.repo.regenerate
+
+bench: $(VENV)/.development
+	$(BIN)/python -m benchmarks.run $(ARGUMENTS)
+
+bench-compare: $(VENV)/.development
+	$(BIN)/python -m benchmarks.compare $(ARGUMENTS)
 
 clean:
 	rm -rf $(VENV) build dist .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis

@@ -1,0 +1,65 @@
+"""What is demanded of a machine-independent measure, and whether it is kept."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from benchmarks.table import peak
+
+
+@dataclass(frozen=True)
+class Bar:
+    """Units for `synth` with its proof and for `verify`; bytes of the policy; MB of memory."""
+
+    synth: float
+    verify: float
+    size: int | None = None
+    memory: int | None = None
+
+
+BARS = {
+    "amr": Bar(1.3, 1.0),
+    "factory": Bar(2, 2),
+    "uav": Bar(8, 6, size=50_000),
+    "loads 8": Bar(14, 6),
+    "robots 4": Bar(20, 14),
+    "samples 30": Bar(50, 30, memory=1000),
+    "plant 10": Bar(100, 60, memory=1000),
+}
+HELP = 0.35
+"""Units for `--help`."""
+
+
+def judged(result: Mapping[str, Any]) -> str:
+    """Every bar that this run can judge, one line each."""
+    unit = result["unit"]
+    lines = [_time("--help", "time", result["help"], unit, HELP)]
+    for case in result["cases"]:
+        if bar := BARS.get(case["case"]):
+            lines += _of(case, bar, unit)
+    return "\n".join(lines)
+
+
+def _of(case: Mapping[str, Any], bar: Bar, unit: Mapping[str, float]) -> Iterator[str]:
+    yield _time(case["case"], "synth", case.get("synth"), unit, bar.synth)
+    yield _time(case["case"], "verify", case.get("verify"), unit, bar.verify)
+    if bar.size is not None:
+        yield _line(case["case"], "bytes", case.get("bytes"), bar.size)
+    if bar.memory is not None:
+        yield _line(case["case"], "memory in MB", peak(case) if "states" in case else None, bar.memory)
+
+
+def _time(case: str, what: str, ran: Mapping[str, Any] | None, unit: Mapping[str, float], limit: float) -> str:
+    """A time on the clock is judged; beside it stands what was computed, which others on the machine disturb less."""
+    if ran is None or ran["exit"] != 0:
+        return _line(case, what, None, limit)
+    return f"{_line(case, what, ran['seconds'] / unit['seconds'], limit)} (computing: {ran['cpu'] / unit['cpu']:.2f})"
+
+
+def _line(case: str, what: str, found: float | None, limit: float) -> str:
+    if found is None:
+        return f"{case:<12}{what:<14}{'–':>10} of {limit:<8,g} MISSED (no answer)"
+    number = f"{found:,.0f}" if found >= 1000 else f"{found:.2f}"
+    return f"{case:<12}{what:<14}{number:>10} of {limit:<8,g} {'kept' if found <= limit else 'MISSED'}"

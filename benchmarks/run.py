@@ -1,0 +1,121 @@
+"""`make bench`: every family in processes of its own, one table, the bars, and a file of results.
+
+python -m benchmarks.run [--quick] [--family NAME …] [--limit SECONDS] [--out FILE]
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import tempfile
+from datetime import UTC, datetime
+from pathlib import Path
+
+from benchmarks.bars import judged
+from benchmarks.families import FAMILIES, Family
+from benchmarks.measure import COMMAND, REPEATS, UNIT, best, machine, run
+from benchmarks.table import table
+
+RESULTS = Path(__file__).parent / "results"
+
+Record = dict[str, object]
+
+
+def main() -> int:
+    """Measure, print, write. Exits with 1 where a policy is not proved or a verdict is not the promised one."""
+    options = _options()
+    stamp = datetime.now(UTC).strftime("%Y%m%d-%H%M%S")
+    repeats = 3 if options.quick else REPEATS
+    result: Record = {
+        "quick": options.quick,
+        "machine": machine(),
+        "unit": best(UNIT, options.limit).record(),
+        "help": best((*COMMAND, "--help"), options.limit).record(),
+    }
+    cases: list[Record] = []
+    for name in options.family or FAMILIES:
+        family = FAMILIES[name]
+        for size in family.quick if options.quick else family.sizes:
+            print(f"{family.case(size)} …", end="\r", file=sys.stderr, flush=True)
+            cases.append(measured(family, size, options.limit, repeats))
+    result["cases"] = cases
+    out = options.out or RESULTS / f"{stamp}{'-quick' if options.quick else ''}.json"
+    out.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+    print(table(result))
+    print()
+    print(judged(result))
+    broken = [problem for case in cases for problem in problems(case)]
+    for problem in broken:
+        print(f"WRONG: {problem}")
+    print(f"\nwritten: {out.name}")
+    return 1 if broken else 0
+
+
+def _options() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.run")
+    parser.add_argument("--quick", action="store_true", help="small sizes only, best of three")
+    parser.add_argument("--family", action="append", choices=FAMILIES, help="this family only; may be repeated")
+    parser.add_argument("--limit", type=float, default=300, help="seconds that one process may take (default: 300)")
+    parser.add_argument("--out", type=Path, help="where the results go (default: a new file in benchmarks/results)")
+    return parser.parse_args()
+
+
+def measured(family: Family, size: int, limit: float, repeats: int) -> Record:
+    """One size of a family, and its twin: stages, then the commands as a user runs them."""
+    with tempfile.TemporaryDirectory() as folder:
+        spec, policy, staged = (Path(folder) / name for name in ("case.tum", "policy.json", "staged.json"))
+        spec.write_text(family.text(size, True), encoding="utf-8")
+        record: Record = {"case": family.case(size), "family": family.name, "size": size, "limit": family.limit}
+        stages = run((sys.executable, "-m", "benchmarks.stages", str(spec), str(staged)), limit)
+        if stages.code != 0:
+            return record | {"verdict": "over the limit" if stages.code is None else f"exit {stages.code}"}
+        record |= json.loads(stages.output)
+        if record["verdict"] == "realizable":
+            record |= _commands(spec, policy, limit, repeats)
+            same = policy.exists() and policy.read_bytes() == staged.read_bytes()
+            record["reproduced"] = same
+        spec.write_text(family.text(size, False), encoding="utf-8")
+        twin = best((*COMMAND, "synth", str(spec), "--output-format", "json", "-o", str(policy)), limit, 1)
+        record["twin"] = twin.record()
+    return record
+
+
+def _commands(spec: Path, policy: Path, limit: float, repeats: int) -> Record:
+    """`synth` with its proof and `verify`, as whole processes."""
+    synth = best((*COMMAND, "synth", str(spec), "-o", str(policy)), limit, repeats)
+    found: Record = {"synth": synth.record()}
+    if not policy.exists():
+        return found
+    verify = best((*COMMAND, "verify", str(policy), str(spec), "--output-format", "json"), limit, repeats)
+    found["verify"] = verify.record()
+    if verify.code is not None and verify.output:
+        properties = json.loads(verify.output)["properties"]
+        found["proof"] = {
+            name: {key: each[key] for key in ("verdict", "proved_by", "obligations", "seconds")}
+            for name, each in properties.items()
+        }
+    return found
+
+
+def problems(case: Record) -> list[str]:
+    """What a measured case has that was promised otherwise. A family that shows a limit may end without an answer."""
+    name, found = case["case"], []
+    if case["limit"] and case["verdict"] == "over the limit":
+        return []
+    if case["verdict"] != "realizable":
+        return [f"{name}: {case['verdict']}"]
+    for command in ("synth", "verify"):
+        ended = case.get(command)
+        if not isinstance(ended, dict) or ended["exit"] != 0:
+            found.append(f"{name}: {command} did not prove the policy")
+    if not case.get("reproduced"):
+        found.append(f"{name}: two runs gave different policies")
+    twin = case["twin"]
+    if isinstance(twin, dict) and twin["exit"] != 1:
+        found.append(f"{name}: the twin is not called unrealizable (exit {twin['exit']})")
+    return found
+
+
+if __name__ == "__main__":
+    sys.exit(main())
