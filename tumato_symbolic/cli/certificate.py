@@ -12,7 +12,6 @@ from tumato_symbolic.cli.parser import Options
 from tumato_symbolic.policy.unrealizable import Unrealizability
 from tumato_symbolic.report.layout import dump
 from tumato_symbolic.report.unrealizable import Disproved, as_github, as_json, as_text
-from tumato_symbolic.verify import verify_unrealizable
 
 
 def run_certificate(certificate: Unrealizability, options: Options) -> int:
@@ -33,6 +32,8 @@ def judge_certificate(certificate: Unrealizability, path: str, spec_path: str, o
 
     Raises `UserError` where the specification cannot be used, or the certificate does not fit it.
     """
+    from tumato_symbolic.verify import verify_unrealizable  # loads Z3, which --prover walk does without
+
     source, spec, warnings = read_spec(spec_path)
     started = time.perf_counter()
     with errors_in(source), Progress() as progress:

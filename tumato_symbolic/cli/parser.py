@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 if TYPE_CHECKING:
     from tumato_symbolic.spec import Ordering
+    from tumato_symbolic.verify import ProverName
 
 OutputFormat = Literal["text", "json", "github"]
 PROPERTIES = ("total", "safe", "goals", "minimal")
@@ -27,6 +28,7 @@ class Options:
     policy_format: Literal["auto", "table", "diagram"] = "auto"
     prove: bool = True
     properties: tuple[str, ...] = PROPERTIES
+    prover: ProverName = "auto"
     strict: bool = False
     spec_folders: tuple[str, ...] = ()
     assignments: tuple[str, ...] = ()
@@ -45,7 +47,7 @@ From a declarative specification to a robot policy that is proved safe.
 
 A specification says what the robot can be in (state variables), what it can do (actions with nominal and
 alternative effects), what must never happen (rules) and what it should reach (goals). `synth` computes what to do in
-every valid state, or says why there is no such policy; `verify` proves a policy for all states with Z3.
+every valid state, or says why there is no such policy; `verify` proves a policy for all states.
 """
 
 _MAIN_EXAMPLE = """\
@@ -60,7 +62,7 @@ example:
 _SYNTH = """\
 Compute a policy for a specification, prove it, and write it.
 
-The policy says for every valid state which actions to execute. It is written only after Z3 has proved it. Where there
+The policy says for every valid state which actions to execute. It is written only after it has been proved. Where there
 is none, the states that fail are named and nothing is written.
 """
 
@@ -199,6 +201,7 @@ def _parser() -> argparse.ArgumentParser:
         action="store_false",
         help="write the policy without a proof (the report says so)",
     )
+    _prover(synth)
     _format(synth)
 
     verify = _add(commands, "verify", "prove a policy, whoever made it", _VERIFY, _VERIFY_EXAMPLE)
@@ -212,6 +215,7 @@ def _parser() -> argparse.ArgumentParser:
         default=[],
         help="where the specifications of a folder of policies are looked for first; may be given several times",
     )
+    _prover(verify)
     verify.add_argument(
         "--strict",
         action="store_true",
@@ -259,6 +263,17 @@ def _ordering(parser: argparse.ArgumentParser, default: str) -> None:
         choices=("any", "first"),
         help="how the effects of actions executed together may strike: in any order, one after the other, or only the "
         f"first of them (default: {default})",
+    )
+
+
+def _prover(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--prover",
+        choices=("auto", "z3", "walk", "both"),
+        default="auto",
+        help="who proves a policy: Z3; the walk, our own checker over decision diagrams, which does without Z3; both, "
+        "which must agree; or Z3 for what it answers soon and the walk for the rest (default: auto). That there is no "
+        "policy is proved by Z3",
     )
 
 

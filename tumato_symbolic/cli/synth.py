@@ -17,11 +17,11 @@ from tumato_symbolic.policy import dumps, save
 from tumato_symbolic.policy.unrealizable_file import save as save_certificate
 from tumato_symbolic.report.layout import dump
 from tumato_symbolic.report.synthesized import Synthesized, as_github, as_json, as_text
-from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.spec import Spec
 from tumato_symbolic.synthesis import Realizable, Unrealizable, synthesize
 
 if TYPE_CHECKING:
-    from tumato_symbolic.verify import UnrealizabilityVerdict, Verification
+    from tumato_symbolic.verify import ProverName, UnrealizabilityVerdict, Verification
 
 TO_STANDARD_OUTPUT = "-"
 
@@ -36,7 +36,7 @@ def run(options: Options) -> int:
         outcome = synthesize(spec, options.effect_ordering, policy_format=options.policy_format, progress=progress)
         solved = time.perf_counter()
         if isinstance(outcome, Realizable) and options.prove:
-            proof = _prove(outcome, spec, outcome.statistics.ordering, progress)
+            proof = _prove(outcome, spec, options.prover, progress)
         if isinstance(outcome, Unrealizable) and options.prove:
             disproof = _disprove(outcome, spec, progress)
     proved = time.perf_counter()
@@ -65,11 +65,11 @@ def run(options: Options) -> int:
     return NO if isinstance(outcome, Unrealizable) else UNDECIDED
 
 
-def _prove(outcome: Realizable, spec: Spec, ordering: Ordering, progress: Progress) -> Verification:
+def _prove(outcome: Realizable, spec: Spec, prover: ProverName, progress: Progress) -> Verification:
     """The verdict on our own policy. A refutation would be a bug of this program, and must not pass as a verdict."""
     from tumato_symbolic.verify import verify
 
-    proof = verify(outcome.policy, spec, ordering=ordering, progress=progress)
+    proof = verify(outcome.policy, spec, ordering=outcome.statistics.ordering, prover=prover, progress=progress)
     if proof.verdict == "refuted":
         raise AssertionError(f"the synthesized policy is refuted: {proof}")
     return proof

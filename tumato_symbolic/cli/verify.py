@@ -47,7 +47,12 @@ def judge(policy: Policy, path: str, spec_path: str, options: Options) -> Verifi
     started = time.perf_counter()
     with errors_in(source), Progress() as progress:
         verification = verify(
-            policy, spec, ordering=options.effect_ordering, properties=options.properties, progress=progress
+            policy,
+            spec,
+            ordering=options.effect_ordering,
+            properties=options.properties,
+            prover=options.prover,
+            progress=progress,
         )
     took = time.perf_counter() - started
     show_warnings(warnings, source, options)

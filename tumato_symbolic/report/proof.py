@@ -23,7 +23,7 @@ _CLAIMS: Final[dict[PropertyName, str]] = {
     "ordering": "the policy assumes the effect ordering that the specification writes",
 }
 
-_PROVERS: Final = {"z3": "Z3"}
+_PROVERS: Final = {"z3": "Z3", "walk": "the walk"}
 
 _STEPS_SHOWN = 12
 
@@ -39,7 +39,11 @@ def proof_text(verification: Verification, valid: int, took: float, paint: Paint
 
 def provers(verification: Verification) -> str:
     """Who proved what is proved."""
-    names = dict.fromkeys(result.proved_by for result in verification.properties if result.proved_by)
+    return _named("+".join(result.proved_by for result in verification.properties if result.proved_by))
+
+
+def _named(proved_by: str) -> str:
+    names = dict.fromkeys(filter(None, proved_by.split("+")))
     return enumeration([_PROVERS.get(name, name) for name in names])
 
 
@@ -51,7 +55,8 @@ def property_line(result: PropertyResult, paint: Paint) -> str:
         "undecided": paint.doubt("undecided"),
     }[result.verdict]
     reason = f" ({result.reason})" if result.reason else ""
-    return f"{result.name:<9}{verdict}: {_CLAIMS[result.name]}{reason}"
+    prover = f" by {_named(result.proved_by)}" if result.proved_by not in (None, "z3") else ""
+    return f"{result.name:<9}{verdict}{prover}: {_CLAIMS[result.name]}{reason}"
 
 
 def refutation_text(place: Place, refutation: Refutation) -> str:

@@ -1,4 +1,4 @@
-"""Obligations from a specification and a policy, proved by Z3 for all states. See `docs/certificate.md`."""
+"""Obligations from a specification and a policy, proved for all states. See `docs/certificate.md`."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from tumato_symbolic.verify.result import (
     CertificateUse,
     PropertyName,
     PropertyResult,
+    ProverName,
     Refutation,
     UnrealizabilityVerdict,
     Verdict,
@@ -24,6 +25,7 @@ __all__ = [
     "CertificateUse",
     "PropertyName",
     "PropertyResult",
+    "ProverName",
     "Refutation",
     "UnrealizabilityVerdict",
     "Verdict",
@@ -33,7 +35,7 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> Any:  # noqa: ANN401 - the two lazy names: they load z3
+def __getattr__(name: str) -> Any:  # noqa: ANN401 - the two lazy names: they may load z3
     if name == "verify":
         from tumato_symbolic.verify.prove import verify
 
