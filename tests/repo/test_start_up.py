@@ -50,6 +50,12 @@ def test_verify_does_not_load_the_engine() -> None:
     assert "dd" not in names
 
 
+def test_the_walk_does_without_z3() -> None:
+    """`verify --prover walk` imports neither dd nor z3."""
+    files = (str(ROOT / "proofs" / "amr.policy.json"), str(ROOT / "examples" / "amr.tum"))
+    assert _loaded("verify", *files, "--prover", "walk") == (0, {"lark"})
+
+
 def test_importing_the_package_loads_nothing_heavy(tmp_path: Path) -> None:
     """`import tumato_symbolic` loads no room at all."""
     probe = "import sys, tumato_symbolic; print(sorted(n for n in sys.modules if n.startswith('tumato_symbolic')))"
