@@ -22,6 +22,7 @@ from tumato_symbolic.policy.unrealizable import (
 from tumato_symbolic.semantics import State, allowed, is_valid
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.synthesis import Unrealizable, synthesize
+from tumato_symbolic.verify import verify_unrealizable
 
 CONFLICTS = (48, 189, 241, 316, 350)
 """Seeds of the profile `interacting` whose goals conflict."""
@@ -64,6 +65,23 @@ def cubes_are_true(spec: Spec, ordering: Ordering, reason: NoAllowedSet) -> bool
             if len(mine) != 1 or allowed(spec, reason.state, chosen, ordering):
                 return False
     return True
+
+
+def assert_never_wrong(world: World, certificate: Unrealizability) -> str:
+    """What is proved is true, cube by cube; a witness is an allowed set. Returns the verdict."""
+    spec, ordering = world.spec, world.ordering
+    verdict = verify_unrealizable(certificate, spec, ordering=ordering)
+    if verdict.verdict == "proved":
+        assert claim_is_true(world, certificate)
+        reason = certificate.reason
+        if isinstance(reason, NoAllowedSet) and reason.cubes is not None:
+            assert cubes_are_true(spec, ordering, reason)
+    else:
+        assert verdict.verdict == "refuted"
+        assert verdict.reason
+    if verdict.state is not None:
+        assert allowed(spec, verdict.state, verdict.chosen, ordering)
+    return verdict.verdict
 
 
 def changed(certificate: Unrealizability, dice: Random) -> Unrealizability:

@@ -9,7 +9,16 @@ from typing import Final
 import z3
 
 from tumato_symbolic.policy.unrealizable import Cube, NoAllowedSet
-from tumato_symbolic.semantics import State, holds, is_safe, is_valid, nominal_agrees, successor
+from tumato_symbolic.semantics import (
+    ActionSet,
+    State,
+    holds,
+    is_safe,
+    is_valid,
+    nominal_agrees,
+    settled_truth,
+    successor,
+)
 from tumato_symbolic.spec import Ordering, Spec, canonical_text
 from tumato_symbolic.verify.allowed_step import AllowedStep, FalseClaimError, is_state
 from tumato_symbolic.verify.encoding import Place, formula_term
@@ -19,6 +28,9 @@ from tumato_symbolic.verify.solver import Solver, UndecidedError
 from tumato_symbolic.verify.terms import Term
 
 _CLAIM: Final = "no set is allowed in the state"
+
+COUNTED: Final = 64
+"""Sets of so many actions are counted in messages."""
 
 
 def check_no_allowed_set(reason: NoAllowedSet, step: AllowedStep, ordering: Ordering) -> int:
@@ -32,25 +44,34 @@ def check_no_allowed_set(reason: NoAllowedSet, step: AllowedStep, ordering: Orde
             raise FalseClaimError(_allowed(spec, state, found[1]), state, found[1])
         return 1
     try:
-        check_cubes(spec, state, reason.cubes, ordering, step.deadline())
+        _check_cubes(step, state, reason.cubes, ordering)
     except FalseClaimError as false:
-        found = step.some_step(_CLAIM, is_state(step.state, state))
-        if found is None:
+        witness = _witness(step, state)
+        if witness is None:
             raise
-        raise FalseClaimError(f"{false.reason}; {_allowed(spec, state, found[1])}", state, found[1]) from None
+        raise FalseClaimError(f"{false.reason}; {_allowed(spec, state, witness)}", state, witness) from None
     return 3 + len(reason.cubes)
 
 
-def _allowed(spec: Spec, state: State, chosen: frozenset[int]) -> str:
+def _witness(step: AllowedStep, state: State) -> ActionSet | None:
+    """A set that is allowed in a state, where one is found in time."""
+    try:
+        found = step.some_step(_CLAIM, is_state(step.state, state))
+    except UndecidedError:
+        return None
+    return None if found is None else found[1]
+
+
+def _allowed(spec: Spec, state: State, chosen: ActionSet) -> str:
     return f"in the state {state_text(spec, state)}, {set_text(spec, chosen)} is allowed"
 
 
-def check_cubes(spec: Spec, state: State, cubes: Sequence[Cube], ordering: Ordering, deadline: float) -> None:
+def _check_cubes(step: AllowedStep, state: State, cubes: Sequence[Cube], ordering: Ordering) -> None:
     """Every set is in exactly one cube, and each cube's condition is violated by all its sets.
 
     Raises `FalseClaimError` and `UndecidedError`.
     """
-    count, covered = len(spec.actions), 0
+    count, covered, deadline = len(step.spec.actions), 0, step.deadline()
     earlier: list[tuple[int, int]] = []
     for number, cube in enumerate(cubes):
         if time.monotonic() > deadline:
@@ -63,16 +84,17 @@ def check_cubes(spec: Spec, state: State, cubes: Sequence[Cube], ordering: Order
                 raise FalseClaimError(f"cubes {other} and {number} have sets in common")
         earlier.append((executed, idle))
         covered += 1 << (count - len(cube.executed) - len(cube.idle))
-        wrong = unproved(spec, state, cube, ordering, deadline)
+        wrong = _unproved(step, state, cube, ordering)
         if wrong is not None:
             raise FalseClaimError(f"the violation of cube {number} ({cube.violation.kind}) is none: {wrong}")
     if covered != 1 << count:
-        raise FalseClaimError(f"the cubes hold {covered:,} of {1 << count:,} sets of actions")
+        held = f"{covered:,} of {1 << count:,}" if count <= COUNTED else "not all"
+        raise FalseClaimError(f"the cubes hold {held} sets of actions")
 
 
-def unproved(spec: Spec, state: State, cube: Cube, ordering: Ordering, deadline: float) -> str | None:
+def _unproved(step: AllowedStep, state: State, cube: Cube, ordering: Ordering) -> str | None:
     """Why the condition that a cube names is not violated by all its sets; None where it is."""
-    violation = cube.violation
+    spec, violation = step.spec, cube.violation
     settled = len(cube.executed) + len(cube.idle) == len(spec.actions)
     match violation.kind:
         case "precondition":
@@ -80,7 +102,7 @@ def unproved(spec: Spec, state: State, cube: Cube, ordering: Ordering, deadline:
         case "resource" | "nominal-conflict":
             return _exclusion(spec, cube)
         case "reaction-rule":
-            return _reaction_rule(spec, state, cube, deadline)
+            return _reaction_rule(step, state, cube)
         case "unsafe":
             return _unsafe(spec, state, cube, ordering)
         case "idle":
@@ -112,20 +134,28 @@ def _exclusion(spec: Spec, cube: Cube) -> str | None:
     return None if first & second else "the two actions have no resource in common"
 
 
-def _reaction_rule(spec: Spec, state: State, cube: Cube, deadline: float) -> str | None:
+def _reaction_rule(step: AllowedStep, state: State, cube: Cube) -> str | None:
+    """By the explicit meaning where the settled actions decide the rule, otherwise by Z3 for all others."""
+    spec = step.spec
     rules = {canonical_text(spec, rule.formula): rule.formula for rule in spec.reaction_rules}
     formula = rules.get(cube.violation.rule or "")
     if formula is None:
         return "the specification has no such rule"
+    truth = settled_truth(formula, state, cube.executed, cube.idle)
+    if truth is not None:
+        return "its sets keep the rule" if truth else None
     executed: list[Term] = [
         True if number in cube.executed else False if number in cube.idle else z3.Bool(f"open.{number}")
         for number in range(len(spec.actions))
     ]
     here = Place.fresh(spec, "fixed").after(tuple(enumerate(state)))
-    answer = Solver().ask(formula_term(formula, here, executed), deadline=deadline)
+    answer = Solver().ask(formula_term(formula, here, executed), deadline=step.deadline())
     if answer == "unknown":
         raise UndecidedError("a reaction rule is false for all sets of a cube")
-    return None if answer == "unsat" else "some of its sets keep the rule"
+    if answer == "sat":
+        return "some of its sets keep the rule"
+    step.proved += 1
+    return None
 
 
 def _unsafe(spec: Spec, state: State, cube: Cube, ordering: Ordering) -> str | None:
