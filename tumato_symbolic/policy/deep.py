@@ -1,0 +1,21 @@
+"""Recursion over the levels of a diagram, however many variables there are."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+_FRAMES = 8
+"""Calls that are open at the same time for one level, at most."""
+
+
+@contextmanager
+def room_for(levels: int) -> Iterator[None]:
+    """Let functions of this room call themselves once for every level. Such calls use no stack of the machine."""
+    before = sys.getrecursionlimit()
+    sys.setrecursionlimit(before + _FRAMES * levels)
+    try:
+        yield
+    finally:
+        sys.setrecursionlimit(before)

@@ -1,0 +1,125 @@
+"""Sets of states as diagrams, with the operations on them: plain Python, no engine."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from math import prod
+from typing import TypeAlias
+
+from tumato_symbolic.policy.diagram import Diagram, Node, Reference
+
+NOTHING: Reference = 0
+EVERYTHING: Reference = 1
+
+Cube: TypeAlias = tuple[tuple[int, tuple[int, ...]], ...]
+"""The states in which the variables at some levels have one of some values: `(level, values)`, all ascending."""
+
+
+class Sets:
+    """Sets over variables in a fixed order. A set is a reference; equal sets have equal references.
+
+    `sizes` counts the values of every variable; variables that are missing in `order` are never tested.
+    """
+
+    def __init__(self, order: Sequence[int], sizes: Sequence[int]) -> None:
+        self.order = tuple(order)
+        self.sizes = tuple(sizes[variable] for variable in self.order)
+        self._untested = prod(sizes) // prod(self.sizes)
+        self._depth = len(self.order)
+        self._levels = [self._depth, self._depth]
+        self._below: list[tuple[Reference, ...]] = [(), ()]
+        self._known: dict[Node, Reference] = {}
+        self._chosen: dict[tuple[Reference, Reference, Reference], Reference] = {}
+        self._counts: dict[Reference, int] = {NOTHING: 0, EVERYTHING: 1}
+
+    def node(self, level: int, below: tuple[Reference, ...]) -> Reference:
+        """The set that continues with `below[value]` for every value of the variable at `level`."""
+        if below.count(below[0]) == len(below):
+            return below[0]
+        key = (level, below)
+        found = self._known.get(key)
+        if found is None:
+            found = self._known[key] = len(self._levels)
+            self._levels.append(level)
+            self._below.append(below)
+        return found
+
+    def take(self, diagram: Diagram[bool], roots: Iterable[Reference]) -> list[Reference]:
+        """The sets in which the `roots` of a diagram, which has this order, are True."""
+        done = [EVERYTHING if leaf else NOTHING for leaf in diagram.leaves]
+        for level, below in diagram.nodes:
+            done.append(self.node(level, tuple([done[child] for child in below])))
+        return [done[root] for root in roots]
+
+    def top(self, *sets: Reference) -> int:
+        """The first level that one of the sets tests."""
+        return min(self._levels[each] for each in sets)
+
+    def below(self, level: int, states: Reference) -> tuple[Reference, ...]:
+        """What a set becomes for each value of the variable at `level`, its first or one before it."""
+        return self._below[states] if self._levels[states] == level else (states,) * self.sizes[level]
+
+    def choose(self, condition: Reference, then: Reference, otherwise: Reference) -> Reference:
+        """The states of `then` in `condition`, and those of `otherwise` outside."""
+        if condition == EVERYTHING or then == otherwise:
+            return then
+        if condition == NOTHING:
+            return otherwise
+        if then == EVERYTHING and otherwise == NOTHING:
+            return condition
+        key = (condition, then, otherwise)
+        found = self._chosen.get(key)
+        if found is None:
+            level = self.top(condition, then, otherwise)
+            parts = zip(*(self.below(level, each) for each in key), strict=True)
+            found = self._chosen[key] = self.node(level, tuple([self.choose(*part) for part in parts]))
+        return found
+
+    def both(self, first: Reference, second: Reference) -> Reference:
+        """Intersection."""
+        return self.choose(first, second, NOTHING)
+
+    def either(self, first: Reference, second: Reference) -> Reference:
+        """Union."""
+        return self.choose(first, EVERYTHING, second)
+
+    def without(self, states: Reference, removed: Reference) -> Reference:
+        """Difference."""
+        return self.choose(removed, NOTHING, states)
+
+    def cube(self, cube: Cube) -> Reference:
+        """A cube as a set."""
+        found = EVERYTHING
+        for level, values in reversed(cube):
+            found = self.node(level, tuple([found if v in values else NOTHING for v in range(self.sizes[level])]))
+        return found
+
+    def contains(self, states: Reference, cube: Cube) -> bool:
+        """Whether all of a cube is in a set."""
+        wanted = dict(cube)
+        pending, seen = [states], {states}
+        while pending:
+            here = pending.pop()
+            if here == NOTHING:
+                return False
+            level, below = self._levels[here], self._below[here]
+            for value in wanted.get(level, range(len(below))):
+                if below[value] not in seen:
+                    seen.add(below[value])
+                    pending.append(below[value])
+        return True
+
+    def count(self, states: Reference) -> int:
+        """How many states a set has, exactly."""
+        return self._count(states) * prod(self.sizes[: self._levels[states]]) * self._untested
+
+    def _count(self, states: Reference) -> int:
+        """How often the variables from a set's first level on can be given values so that the state is in it."""
+        found = self._counts.get(states)
+        if found is None:
+            level = self._levels[states] + 1
+            below = self._below[states]
+            skipped = (prod(self.sizes[level : self._levels[child]]) for child in below)
+            found = sum(self._count(child) * times for child, times in zip(below, skipped, strict=True))
+            self._counts[states] = found
+        return found
