@@ -2,8 +2,8 @@
 
     python -m benchmarks.compare [OLD NEW]
 
-Without names, the last two full runs in `benchmarks/results`. Times are compared in
-units, so that two machines may differ.
+Without names, the last two full runs in `benchmarks/results`. Times are compared in units, so
+that two machines may differ.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """`make bench`: every family in processes of its own, one table, the bars, and a file of results.
 
-python -m benchmarks.run [--quick] [--family NAME …] [--limit SECONDS] [--out FILE]
+`python -m benchmarks.run --help` tells what can be chosen.
 """
 
 from __future__ import annotations
@@ -25,6 +25,8 @@ Record = dict[str, object]
 def main() -> int:
     """Measure, print, write. Exits with 1 where a policy is not proved or a verdict is not the promised one."""
     options = _options()
+    if options.show:
+        return shown(json.loads(options.show.read_text(encoding="utf-8")))
     stamp = datetime.now(UTC).strftime("%Y%m%d-%H%M%S")
     repeats = 3 if options.quick else REPEATS
     result: Record = {
@@ -34,21 +36,25 @@ def main() -> int:
         "help": best((*COMMAND, "--help"), options.limit).record(),
     }
     cases: list[Record] = []
+    result["cases"] = cases
+    out = options.out or RESULTS / f"{stamp}{'-quick' if options.quick else ''}.json"
     for name in options.family or FAMILIES:
         family = FAMILIES[name]
         for size in family.quick if options.quick else family.sizes:
             print(f"{family.case(size)} …", end="\r", file=sys.stderr, flush=True)
             cases.append(measured(family, size, options.limit, repeats))
-    result["cases"] = cases
-    out = options.out or RESULTS / f"{stamp}{'-quick' if options.quick else ''}.json"
-    out.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
-    print(table(result))
-    print()
-    print(judged(result))
-    broken = [problem for case in cases for problem in problems(case)]
-    for problem in broken:
-        print(f"WRONG: {problem}")
+            out.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+    code = shown(result)
     print(f"\nwritten: {out.name}")
+    return code
+
+
+def shown(result: Record) -> int:
+    """Print the table, the bars and every promise that was broken; 1 where there is one, else 0."""
+    cases = result["cases"]
+    assert isinstance(cases, list)
+    broken = [f"WRONG: {problem}" for case in cases for problem in problems(case)]
+    print("\n".join((table(result), "", judged(result), *broken)))
     return 1 if broken else 0
 
 
@@ -58,6 +64,7 @@ def _options() -> argparse.Namespace:
     parser.add_argument("--family", action="append", choices=FAMILIES, help="this family only; may be repeated")
     parser.add_argument("--limit", type=float, default=300, help="seconds that one process may take (default: 300)")
     parser.add_argument("--out", type=Path, help="where the results go (default: a new file in benchmarks/results)")
+    parser.add_argument("--show", type=Path, metavar="FILE", help="only print what an earlier run found")
     return parser.parse_args()
 
 
