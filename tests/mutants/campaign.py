@@ -1,0 +1,151 @@
+"""Mutants of one specification and its policy, each through all provers and held against the truth."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Iterator
+from copy import deepcopy
+from dataclasses import dataclass, field
+from pathlib import Path
+from random import Random
+from typing import Literal
+
+from tests.checker.standalone import ask
+from tests.generate import random_text
+from tests.mutants import policies, specs
+from tests.mutants.truth import is_right
+from tests.profiles import PROFILES
+from tumato_symbolic import Realizable, parse, synthesize
+from tumato_symbolic.diagnostics import UserError
+from tumato_symbolic.policy import Policy, as_table, dumps, loads
+from tumato_symbolic.semantics import all_states, count_states, is_valid
+from tumato_symbolic.spec import Spec, digest
+from tumato_symbolic.verify import verify
+
+LARGEST = 60
+"""The most states of a specification that is taken."""
+
+PROVERS: tuple[Literal["z3", "walk"], ...] = ("z3", "walk")
+TIERS = (*PROVERS, "checker")
+Answer = Literal["accepted", "rejected", "undecided"]
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """A policy file beside a specification, and what was changed."""
+
+    kind: str
+    document: policies.Document
+    spec: str
+
+
+@dataclass
+class Tally:
+    """What was found: `complaints` is empty where every tier knows right from wrong."""
+
+    mutants: int = 0
+    right: int = 0
+    unreadable: int = 0
+    kinds: Counter[tuple[str, bool]] = field(default_factory=Counter)
+    disagreements: int = 0
+    complaints: list[str] = field(default_factory=list)
+
+    def add(self, other: Tally) -> None:
+        """Count in what another one counted."""
+        self.mutants += other.mutants
+        self.right += other.right
+        self.unreadable += other.unreadable
+        self.kinds += other.kinds
+        self.disagreements += other.disagreements
+        self.complaints += other.complaints
+
+
+def examine(profile: str, seed: int, count: int, folder: Path) -> Tally:
+    """Up to `count` mutants of one specification, none where it is too large or not realizable."""
+    text, tally = random_text(seed, PROFILES[profile]), Tally()
+    spec = parse(text)
+    if count_states(spec) > LARGEST:
+        return tally
+    bases = []
+    for form in ("table", "diagram"):
+        outcome = synthesize(spec, policy_format=form)  # type: ignore[arg-type]
+        if not isinstance(outcome, Realizable):
+            return tally
+        bases.append(json.loads(dumps(outcome.policy)))
+    for mutant in _mutants(bases, text, Random(f"{profile} {seed}"), count):
+        for complaint in _judge(mutant, spec, tally, folder):
+            tally.complaints.append(f"{profile} {seed} {mutant.kind}: {complaint}")
+    return tally
+
+
+def _mutants(bases: list[policies.Document], text: str, random: Random, count: int) -> Iterator[Mutant]:
+    """At most so many: in two of five the policy is changed, in one the certificate, in two the specification."""
+    for _ in range(count):
+        document, lines = deepcopy(random.choice(bases)), text.splitlines()
+        which = random.choice(("policy", "policy", "certificate", "meaning", "layout"))
+        if which in ("meaning", "layout"):
+            kind, change = random.choice([*(specs.MEANT if which == "meaning" else specs.LAYOUT).items()])
+            change(lines, random)
+        else:
+            form = policies.TABLE if document["Type"] == "policy" else policies.DIAGRAM
+            kind, mutate = random.choice([*(form if which == "policy" else policies.CERTIFICATE).items()])
+            mutate(document, random)
+        if document not in bases or lines != text.splitlines():
+            yield Mutant(f"{which}: {kind}", document, "\n".join(lines) + "\n")
+
+
+def _judge(mutant: Mutant, original: Spec, tally: Tally, folder: Path) -> Iterator[str]:
+    """Complaints about one mutant. One whose specification is in error, or has no valid state, is no mutant."""
+    try:
+        spec = parse(mutant.spec)
+    except UserError:
+        return
+    if not any(is_valid(spec, state) for state in all_states(spec)):
+        return
+    tally.mutants += 1
+    if mutant.kind.startswith("layout") and digest(spec) != digest(original):
+        yield "the digest depends on the layout"
+    try:
+        policy = loads(json.dumps(mutant.document))
+    except UserError:
+        tally.unreadable += 1
+        if ask(folder, json.dumps(mutant.document), mutant.spec, "--strict").code == 0:
+            yield "checker accepts what is no policy"
+        return
+    right = is_right(policy, spec)
+    tally.right += right
+    tally.kinds[mutant.kind, right] += 1
+    answers = {prover: _verified(policy, spec, prover) for prover in PROVERS}
+    answers["checker"] = _checked(mutant.document, policy, spec, mutant.spec, folder)
+    tally.disagreements += len(set(answers.values())) > 1
+    for tier, answer in answers.items():
+        if answer != ("accepted" if right else "rejected"):
+            yield f"{tier}: {answer} what is {'right' if right else 'wrong'}"
+
+
+def _verified(policy: Policy, spec: Spec, prover: Literal["z3", "walk"]) -> Answer:
+    """What `tumato-sym verify --strict --prover …` answers."""
+    found = verify(policy, spec, prover=prover)
+    if found.verdict == "refuted" or found.certificate.status in ("stale", "wrong"):
+        return "rejected"
+    return "accepted" if found.verdict == "proved" else "undecided"
+
+
+def _checked(document: policies.Document, policy: Policy, spec: Spec, text: str, folder: Path) -> Answer:
+    """What `proofs/checker.py --strict` answers; a diagram is written out as a table for it."""
+    if document["Type"] == "policy-diagram":
+        table = as_table(policy, count_states(spec))
+        assert table is not None
+        actions, variables = policy.vocabulary.actions, policy.vocabulary.variables
+        rows = [
+            {
+                **{name: values[number] for (name, values), number in zip(variables, state, strict=True)},
+                "Actions": [actions[action] for action in chosen],
+            }
+            for state, chosen in table.rows.items()
+        ]
+        document = {**document, "Type": "policy", "Policy": rows}
+        del document["Diagram"]
+    answer = ask(folder, json.dumps(document), text, "--strict")
+    return {0: "accepted", 1: "rejected"}.get(answer.code, "undecided")  # type: ignore[return-value]
