@@ -63,7 +63,7 @@ _SYNTH = """\
 Compute a policy for a specification, prove it, and write it.
 
 The policy says for every valid state which actions to execute. It is written only after it has been proved. Where there
-is none, the states that fail are named and nothing is written.
+is none, the states that fail are named, and NAME.unrealizable.json with the proof of that is written instead.
 """
 
 _SYNTH_EXAMPLE = """\
@@ -205,7 +205,9 @@ def _parser() -> argparse.ArgumentParser:
     _format(synth)
 
     verify = _add(commands, "verify", "prove a policy, whoever made it", _VERIFY, _VERIFY_EXAMPLE)
-    verify.add_argument("policy", metavar="POLICY", help="the policy, a .json file, or a folder of them")
+    verify.add_argument(
+        "policy", metavar="POLICY", help="the policy or the proof that there is none, a .json file, or a folder of them"
+    )
     verify.add_argument("specs", metavar="SPEC", nargs="*", help="the specification, a .tum file; none for a folder")
     verify.add_argument(
         "--specs",
