@@ -8,11 +8,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
+from tumato_symbolic.cli.questions import EXPLAIN, EXPLAIN_EXAMPLE, WHY, WHY_EXAMPLE, add_explain, add_why
+
 if TYPE_CHECKING:
     from tumato_symbolic.spec import Ordering
     from tumato_symbolic.verify import ProverName
 
-OutputFormat = Literal["text", "json", "github"]
+OutputFormat = Literal["text", "json", "github", "sarif"]
 PROPERTIES = ("total", "safe", "goals", "minimal")
 
 
@@ -20,12 +22,14 @@ PROPERTIES = ("total", "safe", "goals", "minimal")
 class Options:
     """One command with its options. A field that the command does not know keeps its default."""
 
-    command: Literal["synth", "verify", "decide", "check"]
+    command: Literal["synth", "explain", "verify", "decide", "why", "check"]
     specs: tuple[str, ...] = ()
     policy: str = ""
     output: str = "policy.json"
     effect_ordering: Ordering | None = None
     policy_format: Literal["auto", "table", "diagram"] = "auto"
+    timeout: float | None = None
+    memory: int | None = None
     prove: bool = True
     properties: tuple[str, ...] = PROPERTIES
     prover: ProverName = "auto"
@@ -33,6 +37,11 @@ class Options:
     spec_folders: tuple[str, ...] = ()
     assignments: tuple[str, ...] = ()
     stdin: bool = False
+    max_cubes: int | None = None
+    cores: int = 1
+    repairs: int = 3
+    write: str | None = None
+    instead: str | None = None
     output_format: OutputFormat = "text"
 
 
@@ -54,6 +63,7 @@ _MAIN_EXAMPLE = """\
 example:
   tumato-sym check amr.tum                   # any mistakes?
   tumato-sym synth amr.tum                   # writes policy.json, proved
+  tumato-sym explain robots.tum              # why there is none, and what would do
   tumato-sym verify policy.json amr.tum      # proves it again, believing nobody
   tumato-sym decide policy.json S_Location=corridor S_Battery=low S_Load=free S_Conveyor=off
 
@@ -201,8 +211,26 @@ def _parser() -> argparse.ArgumentParser:
         action="store_false",
         help="write the policy without a proof (the report says so)",
     )
+    synth.add_argument(
+        "--timeout",
+        type=_seconds,
+        metavar="SECONDS",
+        help="how long the search may take before it ends without a verdict (exit 3; default: no limit)",
+    )
+    synth.add_argument(
+        "--memory",
+        type=_megabytes,
+        metavar="MB",
+        help="how much memory the search may take for its diagrams before it ends without a verdict (exit 3; default: "
+        "no limit; CUDD only)",
+    )
     _prover(synth)
     _format(synth)
+
+    explain = _add(commands, "explain", "why there is no policy, and what would do", EXPLAIN, EXPLAIN_EXAMPLE)
+    add_explain(explain)
+    _ordering(explain, "the specification's, else any")
+    _format(explain, "sarif")
 
     verify = _add(commands, "verify", "prove a policy, whoever made it", _VERIFY, _VERIFY_EXAMPLE)
     verify.add_argument(
@@ -240,6 +268,10 @@ def _parser() -> argparse.ArgumentParser:
         "--stdin", action="store_true", help="read states from the standard input, one JSON object a line"
     )
 
+    why = _add(commands, "why", "why a policy decides as it does in a state", WHY, WHY_EXAMPLE)
+    add_why(why)
+    _ordering(why, "the one that the policy records, else the specification's, else any")
+
     check = _add(commands, "check", "look for mistakes in specifications", _CHECK, _CHECK_EXAMPLE)
     check.add_argument("specs", metavar="SPEC", nargs="+", help="specifications, .tum files")
     _format(check)
@@ -268,6 +300,20 @@ def _ordering(parser: argparse.ArgumentParser, default: str) -> None:
     )
 
 
+def _seconds(text: str) -> float:
+    seconds = float(text)
+    if not 0 < seconds < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text} is not a positive number of seconds")
+    return seconds
+
+
+def _megabytes(text: str) -> int:
+    megabytes = int(text)
+    if megabytes < 1:
+        raise argparse.ArgumentTypeError(f"{text} is not a positive number of megabytes")
+    return megabytes
+
+
 def _prover(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--prover",
@@ -279,10 +325,10 @@ def _prover(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def _format(parser: argparse.ArgumentParser) -> None:
+def _format(parser: argparse.ArgumentParser, *more: str) -> None:
     parser.add_argument(
         "--output-format",
-        choices=("text", "json", "github"),
+        choices=("text", "json", "github", *more),
         default="text",
         help="for a person, for a program (one JSON object), or as workflow commands of GitHub (default: text)",
     )

@@ -9,13 +9,30 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from copy import copy
-from dataclasses import replace
-from itertools import combinations
+from dataclasses import dataclass, replace
 
 from tumato_symbolic.explain.elements import Element, Elements, elements_of, keep_only, replace_rule, rule_of
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Assignment, Formula, Ordering, Rule, Spec, variables_of
-from tumato_symbolic.symbolic import Backend, Bdd, Encoding, Steps, build_steps, encode, regions
+from tumato_symbolic.symbolic import (
+    Backend,
+    Bdd,
+    Encoding,
+    Steps,
+    build_steps,
+    compatible_sets,
+    encode,
+    regions,
+    staying_in,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Demand:
+    """What one element demands, given others: the alternatives that can happen, or the other users of a resource."""
+
+    element: Element
+    given: Elements = frozenset()
 
 
 class Conditions:
@@ -33,10 +50,10 @@ class Conditions:
         self.manager = self.encoding.manager
         self.valid: Bdd = self.encoding.domain() & self.encoding.all_of(rule.formula for rule in spec.assumptions)
         self.regions = regions(self.encoding, self.valid)
-        self._plain = self._steps_of(keep_only(spec, frozenset()))
+        self._free: Bdd = self.encoding.domain() & compatible_sets(self.encoding)
         self._relevant = {rule: self._relevant_alternatives(rule) for rule in self.elements if _is_lasting(rule)}
-        self._lasting: dict[tuple[Element, Elements], Bdd] = {}
-        self._simple: dict[Element, Bdd] = {}
+        self._known: dict[Demand, Bdd] = {}
+        self._here: tuple[State, dict[Demand, Bdd]] | None = None
 
     @property
     def false(self) -> Bdd:
@@ -50,7 +67,7 @@ class Conditions:
 
     def allowed(self, kept: Elements) -> Bdd:
         """`Ok(s, A)` when only these elements are kept."""
-        return self.manager.intersection([self._plain.allowed, *self._demands(kept)])
+        return self.manager.intersection([self._free, *map(self._relation, self._demands(kept))])
 
     def steps(self, kept: Elements) -> Steps:
         """The step relation when only these elements are kept."""
@@ -61,8 +78,8 @@ class Conditions:
     def changed(self, element: Element, rule: Rule) -> Conditions:
         """The same with another predicate in the place of a rule or a precondition; the rest is not computed again."""
         other = self._with_spec(replace_rule(self.spec, element, rule))
-        other._simple = {each: found for each, found in self._simple.items() if each != element}
-        other._lasting = {key: found for key, found in self._lasting.items() if key[0] != element}
+        other._known = {demand: found for demand, found in self._known.items() if demand.element != element}
+        other._here = None
         if _is_lasting(element):
             other._relevant = self._relevant | {element: other._relevant_alternatives(element)}
         return other
@@ -86,9 +103,14 @@ class Conditions:
 
     def is_stuck(self, state: State, kept: Elements) -> bool:
         """Whether no set is allowed in one state: only what the elements say of this state is looked at."""
-        left = self.encoding.at(self._plain.allowed, state)
+        if self._here is None or self._here[0] != state:
+            self._here = (state, {})
+        known = self._here[1]
+        left = self.encoding.at(self._free, state)
         for demand in self._demands(kept):
-            left = left & self.encoding.at(demand, state)
+            if demand not in known:
+                known[demand] = self.encoding.at(self._relation(demand), state)
+            left = left & known[demand]
             if left == self.false:
                 return True
         return False
@@ -99,39 +121,42 @@ class Conditions:
     def _sorted(self, kept: Elements) -> list[Element]:
         return [each for each in self.elements if each in kept]
 
-    def _demands(self, kept: Elements) -> Iterator[Bdd]:
-        """One relation for each element that is kept, or two that share a resource."""
-        users: dict[int, list[int]] = {}
+    def _demands(self, kept: Elements) -> Iterator[Demand]:
+        """What the elements that are kept demand together; a resource demands something of all its users."""
+        users: dict[int, list[Element]] = {}
         for element in self._sorted(kept):
             if _is_lasting(element):
-                yield self._demand_of_lasting(element, kept & self._relevant[element])
+                yield Demand(element, kept & self._relevant[element])
             elif element.kind in ("precondition", "reaction-rule"):
-                yield self._demand(element)
+                yield Demand(element)
             elif element.kind == "resource":
-                users.setdefault(element.part, []).append(element.number)
-        for actions in users.values():
-            for first, second in combinations(actions, 2):
-                yield ~(self.encoding.executing(first) & self.encoding.executing(second))
+                users.setdefault(element.part, []).append(element)
+        yield from (Demand(first, frozenset(rest)) for first, *rest in users.values() if rest)
 
-    def _demand(self, element: Element) -> Bdd:
-        """A precondition or a reaction rule, which depend on nothing else."""
-        if element not in self._simple:
-            holds = self.encoding.formula(_rule(self.spec, element).formula)
-            idle = ~self.encoding.executing(element.number) if element.kind == "precondition" else self.false
-            self._simple[element] = idle | holds
-        return self._simple[element]
+    def _relation(self, demand: Demand) -> Bdd:
+        """The pairs of state and set that meet a demand."""
+        if demand not in self._known:
+            self._known[demand] = self._computed(demand)
+        return self._known[demand]
 
-    def _demand_of_lasting(self, element: Element, alternatives: Elements) -> Bdd:
-        """Every outcome, given these alternatives, keeps a state rule or an assumption."""
-        key = (element, alternatives)
-        if key not in self._lasting:
-            bare = keep_only(self.spec, alternatives)
-            rule = _rule(self.spec, element)
-            self._lasting[key] = self._steps_of(replace(bare, state_rules=(rule,))).allowed
-        return self._lasting[key]
+    def _computed(self, demand: Demand) -> Bdd:
+        element = demand.element
+        if element.kind == "resource":
+            return self._at_most_one([element.number, *(each.number for each in demand.given)])
+        holds = self.encoding.formula(_rule(self.spec, element).formula)
+        if element.kind == "reaction-rule":
+            return holds
+        if element.kind == "precondition":
+            return ~self.encoding.executing(element.number) | holds
+        encoding = replace(self.encoding, spec=keep_only(self.spec, demand.given))
+        return staying_in(encoding, self.ordering, self.encoding.domain() & holds, self.manager.true)
 
-    def _steps_of(self, spec: Spec) -> Steps:
-        return build_steps(replace(self.encoding, spec=spec), self.ordering)
+    def _at_most_one(self, actions: list[int]) -> Bdd:
+        nobody, somebody = self.manager.true, self.manager.false
+        for action in actions:
+            runs = self.encoding.executing(action)
+            nobody, somebody = nobody & ~runs, (somebody & ~runs) | (nobody & runs)
+        return nobody | somebody
 
     def _relevant_alternatives(self, element: Element) -> Elements:
         """The alternatives that do something else than the nominal effect to what a rule speaks of."""

@@ -84,17 +84,15 @@ def _having(core: Elements, left: Bdd, fail: Callable[[Elements, Bdd], Bdd]) -> 
 
 def core_without_set(conditions: Conditions, state: State, among: Elements) -> Elements:
     """A minimal set of elements, out of some that suffice, that leaves a state without an allowed set."""
-    return _core(conditions, among, lambda kept: conditions.is_stuck(state, kept))
+    items = [each for each in conditions.elements if each in among]
+    return minimal(items, lambda kept: conditions.is_stuck(state, kept))
 
 
 def core_without_plan(conditions: Conditions, state: State, among: Elements) -> Elements:
     """A minimal set of elements, out of some that suffice, that lets a state fail."""
     here = conditions.encoding.state_cube(state)
-    return _core(conditions, among, lambda kept: failing(conditions, kept, here) != conditions.false)
-
-
-def _core(conditions: Conditions, among: Elements, fails: Callable[[Elements], bool]) -> Elements:
-    return minimal([each for each in conditions.elements if each in among], fails)
+    items = [each for each in conditions.elements if each in among]
+    return minimal(items, lambda kept: failing(conditions, kept, here) != conditions.false)
 
 
 def more_cores(

@@ -2,28 +2,31 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Diagnostic, Source
 from tumato_symbolic.explain.cubes import StateCube
-from tumato_symbolic.explain.elements import Element, ElementKind, span_of, text_of
-from tumato_symbolic.explain.explanation import Change, Explanation, NothingToExplain, Reason, Repair, Unexplained
-from tumato_symbolic.explain.near import NearMiss
+from tumato_symbolic.explain.elements import Element, span_of
+from tumato_symbolic.explain.explanation import Explanation, NothingToExplain, Reason, Unexplained
+from tumato_symbolic.explain.near import NearMiss, applicable
 from tumato_symbolic.explain.predicates import predicate_text
 from tumato_symbolic.report.failures import FAILURE_CODES
 from tumato_symbolic.report.layout import Paint, count, enumeration
 from tumato_symbolic.report.proof import ORDERINGS
 from tumato_symbolic.report.reasons import Place, objection_text
-from tumato_symbolic.report.roles import KINDS, role
+from tumato_symbolic.report.roles import KINDS, declared, role, where
+from tumato_symbolic.report.ways_out import ways_out
 from tumato_symbolic.semantics import Objection, State
 from tumato_symbolic.spec import Spec, variables_of
 
 _REASONS_IN_FULL = 3
 _REASONS_IN_SHORT = 12
 _CUBES = 3
+_ELEMENTS = 6
+_LINES = 8
 _STATES_TOGETHER = 6
-_LONGEST_ASSUMPTION = 1_500
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +58,9 @@ def as_text(done: Explained, colour: bool) -> str:
         case Unexplained(limit):
             return f"{name}: {paint.doubt('undecided')}: {limit}."
         case Explanation() as found:
-            return "\n\n".join([_head(done, found, paint), *_reasons(done, found), *_ways_out(done, found)])
+            return "\n\n".join(
+                [_head(done, found, paint), *_reasons(done, found), *ways_out(done.place, found, done.written)]
+            )
 
 
 def _head(done: Explained, found: Explanation, paint: Paint) -> str:
@@ -94,7 +99,10 @@ def _blamed(done: Explained, reason: Reason) -> str:
     """The lines of a core, or of the goals, in short."""
     if reason.core:
         lines = sorted({span.line for element in reason.core if (span := span_of(done.spec, element))})
-        return f"because of {'line' if len(lines) == 1 else 'lines'} {enumeration([str(line) for line in lines])}"
+        shown = [str(line) for line in lines[:_LINES]]
+        if len(lines) > _LINES:
+            shown.append(f"{len(lines) - _LINES} more")
+        return f"because of {'line' if len(lines) == 1 else 'lines'} {enumeration(shown)}"
     return enumeration(list(goal_sentences(done.place, reason))) or "nothing can be done"
 
 
@@ -142,31 +150,20 @@ def _because(reason: Reason, position: int, size: int) -> str:
 
 
 def _core(place: Place, core: tuple[Element, ...], reason: Reason) -> Iterator[str]:
-    for element in core:
+    able = frozenset(applicable(place.spec, reason.example))
+    core = tuple(sorted(core, key=lambda each: each.kind == "alternative" and each.number not in able))
+    for element in core[:_ELEMENTS]:
         yield f"    {where(place, element)}: {declared(place.spec, element)}"
         yield f"      {role(place, element, core, reason)}"
+    rest = core[_ELEMENTS:]
+    if rest:
+        yield f"    … and {len(rest)} more: {_kinds(rest)} (--output-format json lists them)"
 
 
-def where(place: Place, element: Element) -> str:
-    """`file:line`."""
-    span = span_of(place.spec, element)
-    return place.file if span is None else f"{place.file}:{span.line}"
-
-
-_FIELDS: dict[ElementKind, str] = {
-    "state-rule": "rule: ",
-    "reaction-rule": "rule: ",
-    "assumption": "assume: ",
-    "precondition": "preconditions: ",
-    "alternative": "alternative effects: ",
-    "resource": "controlled resources: ",
-    "plan-bound": "",
-}
-
-
-def declared(spec: Spec, element: Element, text: str | None = None) -> str:
-    """An element, or a text in its place, as it stands in the specification."""
-    return _FIELDS[element.kind] + (text_of(spec, element) if text is None else text)
+def _kinds(elements: tuple[Element, ...]) -> str:
+    """How many there are of each kind."""
+    numbers = Counter(KINDS[element.kind] for element in elements)
+    return enumeration([count(number, kind) for kind, number in numbers.items()])
 
 
 def _cubes(done: Explained, reason: Reason) -> Iterator[str]:
@@ -239,70 +236,3 @@ def _facts(place: Place, objection: Objection) -> str:
     assert objection.rule is not None and objection.state is not None
     pairs = tuple((variable, objection.state[variable]) for variable in sorted(variables_of(objection.rule.formula)))
     return place.assignment(pairs)
-
-
-def _ways_out(done: Explained, found: Explanation) -> Iterator[str]:
-    yield "\n".join(_repairs(done, found))
-    yield "\n".join(_part(done, found))
-
-
-def _repairs(done: Explained, found: Explanation) -> Iterator[str]:
-    if found.hopeless is not None:
-        why = "states still fail" if found.hopeless == "failing" else "the goals still conflict"
-        yield f"No repair by dropping: with every rule, precondition, alternative, resource and bound dropped, {why}."
-        yield "The robot needs another action or effect, or other goals."
-        return
-    if not found.repairs:
-        yield "No repair was looked for, or none was found within the limits."
-        return
-    yield "What would do (each was tried: it makes the specification realizable):"
-    for number, repair in enumerate(found.repairs, 1):
-        yield f"  {number}. {_summary(repair)}"
-        yield from (f"     {line}" for change in repair.changes for line in _change(done.place, change))
-
-
-def _summary(repair: Repair) -> str:
-    if repair.drops:
-        return "drop this" if len(repair.changes) == 1 else "drop these"
-    return "or change this" if len(repair.changes) == 1 else "or change these"
-
-
-def _change(place: Place, change: Change) -> Iterator[str]:
-    element = change.element
-    of = ""
-    if element.kind in ("precondition", "alternative", "resource"):
-        of = f" of {place.spec.actions[element.number].name}"
-    old = declared(place.spec, element)
-    if change.text is None:
-        yield f"{where(place, element)}: - {old}  ({KINDS[element.kind]}{of})"
-    else:
-        yield f"{where(place, element)}: - {old}  ({KINDS[element.kind]}{of})"
-        yield f"{' ' * len(where(place, element))}  + {declared(place.spec, element, change.text)}"
-
-
-def _part(done: Explained, found: Explanation) -> Iterator[str]:
-    part = found.part
-    if part is None:
-        yield "No part of the states is realizable: no assumption would help."
-        return
-    kind = (
-        "largest realizable part"
-        if part.unique
-        else "a largest realizable part"
-        if part.largest
-        else ("a realizable part")
-    )
-    total = part.states + part.given_up
-    yield f"The {kind}: {part.states:,} of {count(total, 'valid state')}, under this assumption:".replace(
-        "The a ", "A "
-    )
-    text = part.text
-    if len(text) > _LONGEST_ASSUMPTION and done.written is None:
-        text = f"{text[:_LONGEST_ASSUMPTION]} … ({len(text):,} characters; --write FILE writes all of it)"
-    yield f"  assume: {text}"
-    if not part.unique:
-        yield "  (goals conflict: this is one choice among several)"
-    if done.written is not None:
-        yield f"{done.written} is written: the specification with this assumption."
-    else:
-        yield "`--write FILE` writes the specification with it."

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import combinations
 
+from tumato_symbolic.explain.near import NearMiss, near_misses
 from tumato_symbolic.report.layout import enumeration
 from tumato_symbolic.semantics import (
-    NOTHING,
     ActionSet,
     Effectuation,
     Objection,
@@ -16,16 +14,11 @@ from tumato_symbolic.semantics import (
     State,
     action_names,
     active_goals,
-    duration,
     holds,
     is_safe,
     named,
-    objections,
 )
 from tumato_symbolic.spec import Assignment, Ordering, Rule, Spec
-
-_PAIRS_TRIED = 12
-"""Pairs are looked at where at most so many actions are applicable; single actions always."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,38 +101,15 @@ def broken_here(place: Place, state: State) -> str:
 def why_no_set(place: Place, state: State, ordering: Ordering, limit: int = 3) -> list[str]:
     """The sets that come nearest to being allowed in a state where none is, each with what speaks against it.
 
-    Nearest: the nominal effects at least would do; then the fewest objections; the fewest actions; the
-    smallest duration.
+    Nearest: see `near_misses`.
     """
-    tried = []
-    for chosen in _candidates(place.spec, state):
-        found = list(objections(place.spec, state, chosen, ordering))
-        wrong_end = any(each.kind == "nominal-unsafe" for each in found)
-        distance = (wrong_end, len(found), len(chosen), duration(place.spec, chosen))
-        tried.append((distance, chosen, found))
-    tried.sort(key=lambda entry: (entry[0], sorted(entry[1])))
-    lines = [f"{place.actions(chosen)}: {_together(place, found)}" for _, chosen, found in tried[:limit]]
-    if len(tried) == 1:
+    nearest = near_misses(place.spec, state, ordering, limit)
+    lines = [f"{place.actions(near.chosen)}: {_together(place, near)}" for near in nearest]
+    if len(nearest) == 1:
         lines.append("anything else: no action has preconditions that hold here")
     return lines
 
 
-def _together(place: Place, found: list[Objection]) -> str:
-    first = objection_text(place, found[0])
-    return first if len(found) == 1 else f"{first} (and {len(found) - 1} more)"
-
-
-def _candidates(spec: Spec, state: State) -> Iterator[ActionSet]:
-    """Doing nothing, every applicable action, and every pair of them that can run together."""
-    yield NOTHING
-    applicable = [
-        number
-        for number, action in enumerate(spec.actions)
-        if all(holds(rule.formula, state) for rule in action.preconditions)
-    ]
-    for number in applicable:
-        yield frozenset((number,))
-    if len(applicable) <= _PAIRS_TRIED:
-        for first, second in combinations(applicable, 2):
-            if not spec.actions[first].resources & spec.actions[second].resources:
-                yield frozenset((first, second))
+def _together(place: Place, near: NearMiss) -> str:
+    first, more = objection_text(place, near.objections[0]), len(near.objections) - 1
+    return f"{first} (and {more} more)" if more else first

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from tumato_symbolic.explain.elements import Element, rule_of
+from tumato_symbolic.explain.elements import Element, ElementKind, rule_of, span_of, text_of
 from tumato_symbolic.explain.explanation import Reason
 from tumato_symbolic.report.layout import count, enumeration
 from tumato_symbolic.report.reasons import Place
 from tumato_symbolic.semantics import holds
+from tumato_symbolic.spec import Spec
 
-KINDS = {
+KINDS: dict[ElementKind, str] = {
     "state-rule": "state rule",
     "reaction-rule": "reaction rule",
     "assumption": "assumption",
@@ -63,3 +64,25 @@ def _resource(place: Place, element: Element, core: tuple[Element, ...]) -> str:
 
 def _competes(each: Element, element: Element) -> bool:
     return each.kind == "resource" and each.part == element.part and each.number != element.number
+
+
+def where(place: Place, element: Element) -> str:
+    """`file:line`."""
+    span = span_of(place.spec, element)
+    return place.file if span is None else f"{place.file}:{span.line}"
+
+
+_FIELDS: dict[ElementKind, str] = {
+    "state-rule": "rule: ",
+    "reaction-rule": "rule: ",
+    "assumption": "assume: ",
+    "precondition": "preconditions: ",
+    "alternative": "alternative effects: ",
+    "resource": "controlled resources: ",
+    "plan-bound": "",
+}
+
+
+def declared(spec: Spec, element: Element, text: str | None = None) -> str:
+    """An element, or a text in its place, as it stands in the specification."""
+    return _FIELDS[element.kind] + (text_of(spec, element) if text is None else text)

@@ -13,7 +13,7 @@ from tumato_symbolic.symbolic.manager import (
     Manager,
     available_backend,
 )
-from tumato_symbolic.symbolic.steps import Steps, build_steps
+from tumato_symbolic.symbolic.steps import Steps, build_steps, compatible_sets, staying_in
 
 __all__ = [
     "NO_LIMITS",
@@ -29,10 +29,12 @@ __all__ = [
     "Target",
     "available_backend",
     "build_steps",
+    "compatible_sets",
     "encode",
     "lasting",
     "never_entered",
     "preferred",
     "regions",
+    "staying_in",
     "targets",
 ]

@@ -81,19 +81,26 @@ def build_steps(encoding: Encoding, ordering: Ordering, within: Bdd | None = Non
     valid = domain & encoding.all_of(rule.formula for rule in spec.assumptions)
     valid = valid if within is None else valid & within
     safe = valid & encoding.all_of(rule.formula for rule in spec.state_rules)
-    compatible = _compatible(encoding)
+    compatible = compatible_sets(encoding)
     applicable = manager.intersection(
         ~encoding.executing(number) | encoding.all_of(rule.formula for rule in action.preconditions)
         for number, action in enumerate(spec.actions)
     )
     candidates = valid & compatible & applicable
-    stays_safe = safe & compatible if ordering == "first" else _always_safe(encoding, safe & compatible)
     allowed = candidates & encoding.all_of(rule.formula for rule in spec.reaction_rules)
-    nobody = manager.intersection(encoding.idle(group) for group in encoding.groups)
-    allowed = allowed & (~nobody | safe) & _after_any_first_effect(encoding, stays_safe)
-    if ordering == "first":
-        allowed = allowed & nominal_predecessor(encoding, safe)
+    allowed = allowed & staying_in(encoding, ordering, safe, compatible)
     return Steps(encoding, ordering, valid, safe, candidates, allowed)
+
+
+def staying_in(encoding: Encoding, ordering: Ordering, safe: Bdd, among: Bdd) -> Bdd:
+    """The sets whose outcomes are all in `safe`: conditions 5 and 6.
+
+    Right for compatible sets only; `among` holds these, and may hold others, if that is smaller.
+    """
+    stays_safe = safe & among if ordering == "first" else _always_safe(encoding, safe & among)
+    nobody = encoding.manager.intersection(encoding.idle(group) for group in encoding.groups)
+    found = (~nobody | safe) & _after_any_first_effect(encoding, stays_safe)
+    return found & nominal_predecessor(encoding, safe) if ordering == "first" else found
 
 
 def nominal_predecessor(encoding: Encoding, target: Bdd) -> Bdd:
@@ -105,7 +112,7 @@ def nominal_predecessor(encoding: Encoding, target: Bdd) -> Bdd:
     return target
 
 
-def _compatible(encoding: Encoding) -> Bdd:
+def compatible_sets(encoding: Encoding) -> Bdd:
     """Choices without two actions that share a resource or disagree nominally (conditions 2 and 3)."""
     result = encoding.choice_domain()
     count = len(encoding.spec.actions)

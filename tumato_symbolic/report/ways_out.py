@@ -1,0 +1,69 @@
+"""What would make a specification realizable, for a person: repairs, and the largest realizable part."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tumato_symbolic.explain.explanation import Change, Explanation, RealizablePart, Repair
+from tumato_symbolic.report.layout import count
+from tumato_symbolic.report.reasons import Place
+from tumato_symbolic.report.roles import KINDS, declared, where
+
+_LONGEST_ASSUMPTION = 1_500
+
+
+def ways_out(place: Place, found: Explanation, written: str | None) -> Iterator[str]:
+    """The paragraphs at the end of an explanation. `written` is the file with the assumption."""
+    yield "\n".join(_repairs(place, found))
+    yield "\n".join(_part(found.part, written))
+
+
+def _repairs(place: Place, found: Explanation) -> Iterator[str]:
+    if found.hopeless is not None:
+        why = "states still fail" if found.hopeless == "failing" else "the goals still conflict"
+        yield f"No repair by dropping: with every rule, precondition, alternative, resource and bound dropped, {why}."
+        yield "The robot needs another action or effect, or other goals."
+        return
+    if not found.repairs:
+        yield "No repair was looked for, or none was found within the limits."
+        return
+    yield "What would do (each was tried: it makes the specification realizable):"
+    for number, repair in enumerate(found.repairs, 1):
+        yield f"  {number}. {_summary(repair)}"
+        yield from (f"     {line}" for change in repair.changes for line in _change(place, change))
+
+
+def _summary(repair: Repair) -> str:
+    if repair.drops:
+        return "drop this" if len(repair.changes) == 1 else "drop these"
+    return "or change this" if len(repair.changes) == 1 else "or change these"
+
+
+def _change(place: Place, change: Change) -> Iterator[str]:
+    element = change.element
+    of = ""
+    if element.kind in ("precondition", "alternative", "resource"):
+        of = f" of {place.spec.actions[element.number].name}"
+    old = declared(place.spec, element)
+    yield f"{where(place, element)}: - {old}  ({KINDS[element.kind]}{of})"
+    if change.text is not None:
+        yield f"{' ' * len(where(place, element))}  + {declared(place.spec, element, change.text)}"
+
+
+def _part(part: RealizablePart | None, written: str | None) -> Iterator[str]:
+    if part is None:
+        yield "No part of the states is realizable: no assumption would help."
+        return
+    kind = "The largest" if part.unique else "A largest" if part.largest else "A"
+    total = count(part.states + part.given_up, "valid state")
+    yield f"{kind} realizable part: {part.states:,} of {total}, under this assumption:"
+    text = part.text
+    if len(text) > _LONGEST_ASSUMPTION and written is None:
+        text = f"{text[:_LONGEST_ASSUMPTION]} … ({len(text):,} characters; --write FILE writes all of it)"
+    yield f"  assume: {text}"
+    if not part.unique:
+        yield "  (goals conflict: this is one choice among several)"
+    if written is None:
+        yield "`--write FILE` writes the specification with it."
+    else:
+        yield f"{written} is written: the specification with this assumption."
