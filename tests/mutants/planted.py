@@ -1,0 +1,123 @@
+"""Bugs to plant in the engine, one at a time: each makes some policy come out wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tumato_symbolic import Realizable, parse, synthesize
+from tumato_symbolic.policy import Policy
+from tumato_symbolic.spec import GoalList, Spec
+from tumato_symbolic.symbolic import extract, goals, steps
+from tumato_symbolic.symbolic.encoding import Encoding
+from tumato_symbolic.synthesis import restoring
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+PLACES = """\
+BEGIN STATE VECTOR
+  state S_Place can be kitchen, hall, office, lab
+END STATE VECTOR
+BEGIN RESOURCES
+  resource WHEELS
+END RESOURCES
+BEGIN ACTIONS
+  action to_kitchen  controlled resources: WHEELS  nominal effects: S_Place is kitchen
+  action to_hall     controlled resources: WHEELS  nominal effects: S_Place is hall
+  action to_office   controlled resources: WHEELS  nominal effects: S_Place is office
+  action to_lab      controlled resources: WHEELS  nominal effects: S_Place is lab
+END ACTIONS
+BEGIN GOALS
+  goal type: priority
+  goal: S_Place is lab
+END GOALS
+"""
+"""A robot that goes anywhere in one step."""
+
+
+@dataclass(frozen=True)
+class Bug:
+    """A bug, and a specification whose policy it spoils."""
+
+    name: str
+    text: str
+    plant: Callable[[pytest.MonkeyPatch], None]
+
+    @property
+    def spec(self) -> Spec:
+        """The specification."""
+        return parse(self.text)
+
+    def spoilt(self) -> Policy:
+        """The policy that the engine makes with this bug."""
+        with pytest.MonkeyPatch.context() as planted:
+            self.plant(planted)
+            outcome = synthesize(self.spec)
+        assert isinstance(outcome, Realizable)
+        return outcome.policy
+
+
+def example(name: str) -> str:
+    """The text of an example."""
+    return (EXAMPLES / f"{name}.tum").read_text(encoding="utf-8")
+
+
+def _predecessor(patch: pytest.MonkeyPatch) -> None:
+    """What a nominal effect writes into a variable of several bits is traced back with one of them flipped."""
+    write = Encoding.assignment_bits
+
+    def flipped(encoding: Encoding, effect: Any) -> dict[str, bool]:
+        bits = write(encoding, effect)
+        return bits if len(bits) < 2 else {**bits, (last := list(bits)[-1]): not bits[last]}
+
+    def mistaken(function: Callable[..., Any]) -> Callable[..., Any]:
+        def run(*arguments: Any) -> Any:
+            with pytest.MonkeyPatch.context() as inside:
+                inside.setattr(Encoding, "assignment_bits", flipped)
+                return function(*arguments)
+
+        return run
+
+    patch.setattr(steps, "nominal_predecessor", mistaken(steps.nominal_predecessor))
+    patch.setattr(steps.Steps, "next_state", mistaken(steps.Steps.next_state))
+
+
+def _order_of_effects(patch: pytest.MonkeyPatch) -> None:
+    """Only the first effect is looked at, whatever strikes after it."""
+    patch.setattr(steps, "_always_safe", lambda _, safe: safe)
+
+
+def _restoring_choice(patch: pytest.MonkeyPatch) -> None:
+    """Any serving set is taken for the cheapest."""
+    patch.setattr(restoring, "lasting", lambda encoding, _: encoding.manager.true)
+
+
+def _goal_activation(patch: pytest.MonkeyPatch) -> None:
+    """In a priority list the last goal comes first."""
+    walk = goals._walk
+
+    def backwards(encoding: Any, goal: Any, here: Any, idle: Any) -> Any:
+        if isinstance(goal, GoalList) and goal.kind == "priority":
+            goal = replace(goal, members=goal.members[::-1])
+        return walk(encoding, goal, here, idle)
+
+    patch.setattr(goals, "_walk", backwards)
+
+
+def _extraction(patch: pytest.MonkeyPatch) -> None:
+    """The values of a variable are written in the order of another numbering."""
+    bits = extract.number_bits
+    patch.setattr(extract, "number_bits", lambda code, number: bits(code, number ^ 1))
+
+
+BUGS = (
+    Bug("predecessor", PLACES, _predecessor),
+    Bug("order of effects", example("concurrent"), _order_of_effects),
+    Bug("restoring choice", example("amr"), _restoring_choice),
+    Bug("goal activation", example("amr"), _goal_activation),
+    Bug("extraction", example("amr"), _extraction),
+)
