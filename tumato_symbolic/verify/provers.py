@@ -90,7 +90,6 @@ class _Both(_Pair):
         Raises `RuntimeError` where they differ: a bug of ours.
         """
         one, other = self._z3.prove(name), self._walk.prove(name)
-        self._z3.policy_is_safe |= name == "safe" and other.verdict == "proved"
         if {one.verdict, other.verdict} == {"proved", "refuted"}:
             raise RuntimeError(f"Z3 and the walk disagree: {one}, {other}")
         if one.verdict == other.verdict == "proved":
@@ -108,6 +107,7 @@ class _Auto(_Pair):
         if not self._walk_first(name):
             soon = self._z3.prove(name, within=SOON)
             if soon.verdict != "undecided":
+                self._walk.policy_is_safe |= name == "safe" and soon.verdict == "proved"
                 return soon
         walked = self._walk.prove(name)
         if walked.verdict != "undecided":
