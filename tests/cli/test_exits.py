@@ -210,6 +210,26 @@ def test_out_of_memory_is_undecided(cli: Cli, monkeypatch: pytest.MonkeyPatch) -
     assert cli("check", "amr.tum").code == 3
 
 
+@pytest.mark.parametrize("limit", [("--timeout", "0.000001"), ("--memory", "1")])
+def test_a_limit_is_undecided(cli: Cli, tmp_path: Path, limit: tuple[str, str]) -> None:
+    """A limit that is met ends in 3, says which, and writes nothing; one that is not met changes nothing."""
+    ran = cli("synth", "amr.tum", *limit)
+    if ran.code == 3:
+        assert "limit of" in ran.out
+        assert not (tmp_path / "policy.json").exists()
+    else:
+        assert limit[0] == "--memory"
+        assert ran.code == 0
+
+
+@pytest.mark.parametrize("limit", [("--timeout", "0"), ("--timeout", "soon"), ("--memory", "-1"), ("--memory", "1.5")])
+def test_a_limit_is_a_positive_number(cli: Cli, limit: tuple[str, str]) -> None:
+    """Anything else is wrong usage."""
+    ran = cli("synth", "amr.tum", *limit)
+    assert ran.code == 2
+    assert "is not a positive number of" in ran.err
+
+
 def test_our_own_refuted_policy_is_a_bug_and_is_not_written(
     cli: Cli, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:

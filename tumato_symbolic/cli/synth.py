@@ -18,7 +18,7 @@ from tumato_symbolic.policy.unrealizable_file import save as save_certificate
 from tumato_symbolic.report.layout import dump
 from tumato_symbolic.report.synthesized import Synthesized, as_github, as_json, as_text
 from tumato_symbolic.spec import Spec
-from tumato_symbolic.synthesis import Realizable, Unrealizable, synthesize
+from tumato_symbolic.synthesis import Limits, Realizable, Unrealizable, synthesize
 
 if TYPE_CHECKING:
     from tumato_symbolic.verify import ProverName, UnrealizabilityVerdict, Verification
@@ -33,7 +33,13 @@ def run(options: Options) -> int:
     proof = disproof = certificate = None
     started = time.perf_counter()
     with errors_in(source), Progress() as progress:
-        outcome = synthesize(spec, options.effect_ordering, policy_format=options.policy_format, progress=progress)
+        outcome = synthesize(
+            spec,
+            options.effect_ordering,
+            policy_format=options.policy_format,
+            limits=Limits(options.timeout, options.memory),
+            progress=progress,
+        )
         solved = time.perf_counter()
         if isinstance(outcome, Realizable) and options.prove:
             proof = _prove(outcome, spec, options.prover, progress)

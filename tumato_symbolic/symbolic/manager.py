@@ -80,6 +80,14 @@ class Limits:
 NO_LIMITS = Limits()
 
 
+def _raised_by_cudd(error: Exception) -> bool:
+    """Whether an error comes from dd's CUDD module, which reports refused memory in many words."""
+    place = error.__traceback__
+    while place is not None and place.tb_next is not None:
+        place = place.tb_next
+    return place is not None and place.tb_frame.f_code.co_filename.endswith("cudd.pyx")
+
+
 class Manager:
     """Bits in a fixed order and the operations on sets of bit vectors.
 
@@ -115,8 +123,8 @@ class Manager:
         """Raise `LimitReachedError` where CUDD refuses an operation because it would need too much memory."""
         try:
             yield
-        except ValueError as error:
-            if "NULL" in str(error):
+        except (ValueError, RuntimeError) as error:
+            if self._limits.megabytes is not None and _raised_by_cudd(error):
                 raise LimitReachedError(f"the memory limit of {self._limits.megabytes} MB was met") from error
             raise
 

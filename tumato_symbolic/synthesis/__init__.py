@@ -1,10 +1,12 @@
 """From a specification to a policy, or to the reason why there is none."""
 
+from tumato_symbolic.symbolic import Limits
 from tumato_symbolic.synthesis.outcome import Failure, Outcome, Realizable, Statistics, Undecided, Unrealizable
 from tumato_symbolic.synthesis.synthesize import PolicyFormat, synthesize
 
 __all__ = [
     "Failure",
+    "Limits",
     "Outcome",
     "PolicyFormat",
     "Realizable",
