@@ -34,11 +34,10 @@ HELP = 0.35
 
 def judged(result: Mapping[str, Any]) -> str:
     """Every bar that this run can judge, one line each."""
-    unit = result["unit"]
-    lines = [_time("--help", "time", result["help"], unit, HELP)]
+    lines = [_time("--help", "time", result["help"], result["unit"], HELP)]
     for case in result["cases"]:
         if bar := BARS.get(case["case"]):
-            lines += _of(case, bar, unit)
+            lines += _of(case, bar, case["unit"])
     return "\n".join(lines)
 
 

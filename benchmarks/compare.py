@@ -27,14 +27,14 @@ class Figure:
     """A number of a case. It is worse when it grows by more than a quarter and by more than `noise`."""
 
     name: str
-    of: Callable[[Case, float], float | None]
+    of: Callable[[Case], float | None]
     noise: float
 
 
-def _units(command: str) -> Callable[[Case, float], float | None]:
-    def units(case: Case, unit: float) -> float | None:
+def _units(command: str) -> Callable[[Case], float | None]:
+    def units(case: Case) -> float | None:
         ended = case.get(command)
-        return None if ended is None or ended["exit"] is None else float(ended["seconds"]) / unit
+        return None if ended is None or ended["exit"] is None else float(ended["seconds"] / case["unit"]["seconds"])
 
     return units
 
@@ -43,9 +43,9 @@ FIGURES = (
     Figure("synth", _units("synth"), 0.3),
     Figure("verify", _units("verify"), 0.3),
     Figure("no policy", _units("twin"), 0.3),
-    Figure("MB", lambda case, _: peak(case) if "states" in case else None, 20),
-    Figure("nodes", lambda case, _: case.get("nodes"), 0),
-    Figure("bytes", lambda case, _: case.get("bytes"), 0),
+    Figure("MB", lambda case: peak(case) if "states" in case else None, 20),
+    Figure("nodes", lambda case: case.get("nodes"), 0),
+    Figure("bytes", lambda case: case.get("bytes"), 0),
 )
 
 
@@ -72,9 +72,7 @@ def compared(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[str]:
     for case in new["cases"]:
         if case["case"] in before:
             earlier = before.pop(case["case"])
-            parts = [
-                _change(figure, earlier, case, old["unit"]["seconds"], new["unit"]["seconds"]) for figure in FIGURES
-            ]
+            parts = [_change(figure, earlier, case) for figure in FIGURES]
             if earlier.get("digest") != case.get("digest"):
                 parts.append("policy changed")
             yield f"{case['case']:<16}" + "; ".join(part for part in parts if part)
@@ -84,8 +82,8 @@ def compared(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[str]:
         yield f"{name:<16}no longer measured"
 
 
-def _change(figure: Figure, earlier: Case, case: Case, old_unit: float, new_unit: float) -> str:
-    old, new = figure.of(earlier, old_unit), figure.of(case, new_unit)
+def _change(figure: Figure, earlier: Case, case: Case) -> str:
+    old, new = figure.of(earlier), figure.of(case)
     if old is None and new is None:
         return ""
     if old is None or new is None:

@@ -32,21 +32,30 @@ def main() -> int:
     result: Record = {
         "quick": options.quick,
         "machine": machine(),
-        "unit": best(UNIT, options.limit).record(),
+        "unit": best(UNIT, options.limit, repeats).record(),
         "help": best((*COMMAND, "--help"), options.limit).record(),
     }
     cases: list[Record] = []
-    result["cases"] = cases
     out = options.out or RESULTS / f"{stamp}{'-quick' if options.quick else ''}.json"
-    for name in options.family or FAMILIES:
+    names = options.family or list(FAMILIES)
+    kept = _other_cases(out, names)
+    for name in names:
         family = FAMILIES[name]
         for size in family.quick if options.quick else family.sizes:
             print(f"{family.case(size)} …", end="\r", file=sys.stderr, flush=True)
             cases.append(measured(family, size, options.limit, repeats))
+            result["cases"] = [*kept, *cases]
             out.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
     code = shown(result)
     print(f"\nwritten: {out.name}")
     return code
+
+
+def _other_cases(out: Path, names: list[str]) -> list[Record]:
+    """What a file of results already holds of families that are not measured now."""
+    if not out.exists():
+        return []
+    return [case for case in json.loads(out.read_text(encoding="utf-8"))["cases"] if case["family"] not in names]
 
 
 def shown(result: Record) -> int:
@@ -63,17 +72,23 @@ def _options() -> argparse.Namespace:
     parser.add_argument("--quick", action="store_true", help="small sizes only, best of three")
     parser.add_argument("--family", action="append", choices=FAMILIES, help="this family only; may be repeated")
     parser.add_argument("--limit", type=float, default=300, help="seconds that one process may take (default: 300)")
-    parser.add_argument("--out", type=Path, help="where the results go (default: a new file in benchmarks/results)")
+    parser.add_argument(
+        "--out", type=Path, help="where the results go; other families in it stay (default: a new file)"
+    )
     parser.add_argument("--show", type=Path, metavar="FILE", help="only print what an earlier run found")
     return parser.parse_args()
 
 
 def measured(family: Family, size: int, limit: float, repeats: int) -> Record:
-    """One size of a family, and its twin: stages, then the commands as a user runs them."""
+    """One size of a family, and its twin: the unit, stages, then the commands as a user runs them.
+
+    The unit is measured anew for every case: what else runs on the machine should weigh on both.
+    """
     with tempfile.TemporaryDirectory() as folder:
         spec, policy, staged = (Path(folder) / name for name in ("case.tum", "policy.json", "staged.json"))
         spec.write_text(family.text(size, True), encoding="utf-8")
         record: Record = {"case": family.case(size), "family": family.name, "size": size, "limit": family.limit}
+        record["unit"] = best(UNIT, limit, repeats).record()
         stages = run((sys.executable, "-m", "benchmarks.stages", str(spec), str(staged)), limit)
         if stages.code != 0:
             return record | {"verdict": "over the limit" if stages.code is None else f"exit {stages.code}"}

@@ -18,8 +18,7 @@ _STAGES = COLUMNS[5:11]
 
 def table(result: Mapping[str, Any]) -> str:
     """One line per case. Stages are seconds, whole processes (`synth`, `verify`, `no policy`) are units."""
-    unit = result["unit"]["seconds"]
-    rows = [COLUMNS, *(_row(case, unit) for case in result["cases"])]
+    rows = [COLUMNS, *(_row(case) for case in result["cases"])]
     widths = [max(len(row[column]) for row in rows) for column in range(len(COLUMNS))]
     lines = []
     for row in rows:
@@ -41,9 +40,10 @@ def described(result: Mapping[str, Any]) -> str:
     )
 
 
-def _row(case: Case, unit: float) -> tuple[str, ...]:
+def _row(case: Case) -> tuple[str, ...]:
     if "states" not in case:
         return (case["case"], *(["–"] * (len(COLUMNS) - 2)), case["verdict"])
+    unit: float = case["unit"]["seconds"]
     stages: dict[str, float] = dict(case["stages"])
     extraction = stages.pop("write", 0.0) + stages.get("extraction", 0.0)
     stages["extraction"] = extraction

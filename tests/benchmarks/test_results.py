@@ -23,6 +23,7 @@ def _case(**changes: object) -> dict[str, Any]:
         "family": "amr",
         "size": 1,
         "limit": False,
+        "unit": _ran(1.0),
         "verdict": "realizable",
         "states": 32,
         "valid": 32,
@@ -61,7 +62,7 @@ def test_the_table_has_a_cell_for_every_column() -> None:
 
 def test_a_case_without_an_answer_is_shown_as_such() -> None:
     """Neither the table nor the bars hide that a process met the limit."""
-    lost = {"case": "amr", "family": "amr", "size": 1, "limit": False, "verdict": "over the limit"}
+    lost = {"case": "amr", "family": "amr", "size": 1, "limit": False, "unit": _ran(1.0), "verdict": "over the limit"}
     result = _result() | {"cases": [lost]}
     assert "over the limit" in table(result)
     assert judged(result).count("MISSED (no answer)") == 2
@@ -95,7 +96,7 @@ def test_a_regression_is_marked(changes: dict[str, object], mark: str) -> None:
 
 def test_times_are_compared_in_units() -> None:
     """A machine of half the speed makes nothing worse."""
-    slower = _result(synth=_ran(2.4), verify=_ran(1.8), twin=_ran(2.0, 1)) | {"unit": _ran(2.0)}
+    slower = _result(synth=_ran(2.4), verify=_ran(1.8), twin=_ran(2.0, 1), unit=_ran(2.0))
     (line,) = compared(_result(), slower)
     assert "WORSE" not in line
 
