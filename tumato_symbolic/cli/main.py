@@ -73,6 +73,8 @@ def _command(options: Options) -> int:
             from tumato_symbolic.cli.verify import run
         case "explain":
             from tumato_symbolic.cli.explain import run
+        case "export-proof":
+            from tumato_symbolic.cli.export import run
         case "decide":
             from tumato_symbolic.cli.decide import run
         case "why":

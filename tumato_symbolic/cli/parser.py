@@ -22,7 +22,7 @@ PROPERTIES = ("total", "safe", "goals", "minimal")
 class Options:
     """One command with its options. A field that the command does not know keeps its default."""
 
-    command: Literal["synth", "explain", "verify", "decide", "why", "check"]
+    command: Literal["synth", "explain", "verify", "export-proof", "decide", "why", "check"]
     specs: tuple[str, ...] = ()
     policy: str = ""
     output: str = "policy.json"
@@ -103,6 +103,19 @@ examples:
 
 """
 
+_EXPORT = """\
+Write a policy and its specification as one Coq file: compiling it proves that the policy is sound, complete and
+minimal. Nothing is judged here: the theorem of a wrong policy is written as well, and Coq refuses it. For
+specifications of up to 2,000 states.
+"""
+
+_EXPORT_EXAMPLE = """\
+examples:
+  tumato-sym export-proof policy.json amr.tum -o amr.v
+  coqc -q -R proofs/coq Tumato amr.v             # after `make -C proofs/coq`, in a checkout of tumato-symbolic
+
+"""
+
 _DECIDE = """\
 Ask a policy what to do in a state: one action a line, nothing where nothing is to be done.
 
@@ -138,8 +151,8 @@ def parse(arguments: Sequence[str] | None) -> Options:
     if found["command"] == "decide" and found["stdin"] == bool(found["assignments"]):
         what = "not both" if found["stdin"] else "or --stdin"
         _parser().error(f"decide: give the state as VAR=VALUE …, {what} (see tumato-sym decide --help)")
-    if found["command"] == "synth" and not found["output"]:
-        _parser().error("synth: -o needs a file name (or - for the standard output)")
+    if found["command"] in ("synth", "export-proof") and not found["output"]:
+        _parser().error(f"{found['command']}: -o needs a file name (or - for the standard output)")
     if found["command"] == "verify":
         _check_verify(found)
     settings: dict[str, Any] = {
@@ -261,6 +274,14 @@ def _parser() -> argparse.ArgumentParser:
     )
     _format(verify)
 
+    export = _add(commands, "export-proof", "write a policy as a theorem for Coq", _EXPORT, _EXPORT_EXAMPLE)
+    export.add_argument("policy", metavar="POLICY", help="the policy, a .json file")
+    export.add_argument("specs", metavar="SPEC", nargs=1, help="the specification, a .tum file")
+    export.add_argument(
+        "-o", "--output", metavar="FILE", default="-", help="where to write the theorem (default: the standard output)"
+    )
+    _ordering(export, "any where the specification writes it, else what the policy records, else any")
+
     decide = _add(commands, "decide", "what to do in a state", _DECIDE, _DECIDE_EXAMPLE)
     decide.add_argument("policy", metavar="POLICY", help="the policy, a .json file")
     decide.add_argument("assignments", metavar="VAR=VALUE", nargs="*", help="the state: a value for every variable")
@@ -301,14 +322,17 @@ def _ordering(parser: argparse.ArgumentParser, default: str) -> None:
 
 
 def _seconds(text: str) -> float:
-    seconds = float(text)
+    try:
+        seconds = float(text)
+    except ValueError:
+        seconds = 0.0
     if not 0 < seconds < float("inf"):
         raise argparse.ArgumentTypeError(f"{text} is not a positive number of seconds")
     return seconds
 
 
 def _megabytes(text: str) -> int:
-    megabytes = int(text)
+    megabytes = int(text) if text.isdecimal() else 0
     if megabytes < 1:
         raise argparse.ArgumentTypeError(f"{text} is not a positive number of megabytes")
     return megabytes

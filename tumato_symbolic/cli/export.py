@@ -1,0 +1,37 @@
+"""`tumato-sym export-proof`: a policy as a theorem for Coq."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from tumato_symbolic.cli.console import note, write
+from tumato_symbolic.cli.exits import YES
+from tumato_symbolic.cli.inputs import errors_in, read_spec, show_warnings
+from tumato_symbolic.cli.parser import Options
+from tumato_symbolic.export.coq import export
+from tumato_symbolic.policy import Policy
+from tumato_symbolic.policy.files import save_text
+from tumato_symbolic.spec import Ordering, Spec
+
+
+def run(options: Options) -> int:
+    """Exit with 0 when the theorem is written; whether it holds, Coq says."""
+    source, spec, warnings = read_spec(options.specs[0])
+    policy = Policy.load(options.policy)
+    ordering = options.effect_ordering or _ordering(policy, spec)
+    with errors_in(source):
+        text = export(policy, spec, ordering)
+    show_warnings(warnings, source, options)
+    if options.output == "-":
+        write(text)
+    else:
+        save_text(text, Path(options.output), "theorem")
+        note(
+            f"{options.output} is written, for effects in the ordering {ordering}; it is a proof when Coq compiles it."
+        )
+    return YES
+
+
+def _ordering(policy: Policy, spec: Spec) -> Ordering:
+    """What has to be proved: a policy that records `first` proves nothing where the specification writes `any`."""
+    return "any" if spec.effect_ordering == "any" else policy.ordering or spec.effect_ordering or "any"
