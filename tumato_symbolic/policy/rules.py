@@ -13,7 +13,7 @@ from tumato_symbolic.policy.cover import MOST_CUBES, Coverer, TooManyCubes
 from tumato_symbolic.policy.deep import room_for
 from tumato_symbolic.policy.model import DecisionDiagram, Policy, Vocabulary
 from tumato_symbolic.policy.problems import fault
-from tumato_symbolic.policy.sets import EVERYTHING, NOTHING, Cube, Sets
+from tumato_symbolic.policy.sets import EVERYTHING, LEAVES, NOTHING, Cube, Sets
 from tumato_symbolic.semantics import ActionSet
 
 _Region: TypeAlias = tuple[ActionSet, int]
@@ -50,7 +50,7 @@ def minimal_rules(policy: Policy) -> tuple[Rule, ...]:
     decisions = as_diagram(policy)
     with room_for(len(decisions.diagram.order)):
         sets = Sets(decisions.diagram.order, policy.vocabulary.sizes)
-        *executed, defined = sets.take(decisions.diagram, (*decisions.roots, decisions.defined))
+        *executed, defined = sets.take(decisions.diagram, (*decisions.roots, decisions.defined), LEAVES)
         if defined == NOTHING:
             return ()
         best = _shortest(sets, _regions(sets, executed, defined), defined)

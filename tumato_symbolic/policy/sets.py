@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from math import prod
 from typing import TypeAlias
 
-from tumato_symbolic.policy.diagram import Diagram, Node, Reference
+from tumato_symbolic.policy.diagram import Diagram, Leaf, Node, Reference, rebuild
 
 NOTHING: Reference = 0
 EVERYTHING: Reference = 1
+
+LEAVES = {False: NOTHING, True: EVERYTHING}
 
 Cube: TypeAlias = tuple[tuple[int, tuple[int, ...]], ...]
 """The states in which the variables at some levels have one of some values: `(level, values)`, all ascending."""
@@ -18,16 +20,17 @@ Cube: TypeAlias = tuple[tuple[int, tuple[int, ...]], ...]
 class Sets:
     """Sets over variables in a fixed order. A set is a reference; equal sets have equal references.
 
-    `sizes` counts the values of every variable; variables that are missing in `order` are never tested.
+    `sizes` counts the values of every variable; variables that are missing in `order` are never tested. With more
+    `leaves` than `NOTHING` and `EVERYTHING`, references are functions of the state too; a set chooses between them.
     """
 
-    def __init__(self, order: Sequence[int], sizes: Sequence[int]) -> None:
+    def __init__(self, order: Sequence[int], sizes: Sequence[int], leaves: int = 2) -> None:
         self.order = tuple(order)
         self.sizes = tuple(sizes[variable] for variable in self.order)
         self._untested = prod(sizes) // prod(self.sizes)
         self._depth = len(self.order)
-        self._levels = [self._depth, self._depth]
-        self._below: list[tuple[Reference, ...]] = [(), ()]
+        self._levels = [self._depth] * leaves
+        self._below: list[tuple[Reference, ...]] = [()] * leaves
         self._known: dict[Node, Reference] = {}
         self._chosen: dict[tuple[Reference, Reference, Reference], Reference] = {}
         self._counts: dict[Reference, int] = {NOTHING: 0, EVERYTHING: 1}
@@ -44,12 +47,25 @@ class Sets:
             self._below.append(below)
         return found
 
-    def take(self, diagram: Diagram[bool], roots: Iterable[Reference]) -> list[Reference]:
-        """The sets in which the `roots` of a diagram, which has this order, are True."""
-        done = [EVERYTHING if leaf else NOTHING for leaf in diagram.leaves]
+    def take(
+        self, diagram: Diagram[Leaf], roots: Iterable[Reference], leaves: Mapping[Leaf, Reference]
+    ) -> list[Reference]:
+        """What the `roots` of a diagram, which has this order, denote; `leaves` maps its leaves to those here."""
+        done = [leaves[leaf] for leaf in diagram.leaves]
         for level, below in diagram.nodes:
             done.append(self.node(level, tuple([done[child] for child in below])))
         return [done[root] for root in roots]
+
+    def give(self, roots: Sequence[Reference], leaves: Sequence[Leaf]) -> tuple[Diagram[Leaf], tuple[Reference, ...]]:
+        """A canonical diagram of functions; `leaves` are what the references from 2 on stand for."""
+        nodes = zip(self._levels[2 + len(leaves) :], self._below[2 + len(leaves) :], strict=True)
+        moved = [(level, tuple([child - 2 for child in below])) for level, below in nodes]
+        diagram = Diagram(self.order, tuple(leaves), tuple(moved))
+        return rebuild(diagram, [root - 2 for root in roots])
+
+    def is_leaf(self, function: Reference) -> bool:
+        """Whether a function is the same in every state."""
+        return self._levels[function] == self._depth
 
     def top(self, *sets: Reference) -> int:
         """The first level that one of the sets tests."""

@@ -16,6 +16,10 @@ FRAMEWORK_VERSION = "0.0.0"
 """What policies of Tumato 2.0 carry as `PolicyFrameworkVersion`."""
 
 
+_LINE = 110
+"""Columns that the nodes of one line may take."""
+
+
 def fits_table(vocabulary: Vocabulary) -> bool:
     """Whether the table format can hold the policy: a variable named `Actions` would share its key with the actions."""
     return all(name != "Actions" for name, _ in vocabulary.variables)
@@ -109,4 +113,16 @@ def diagram_lines(diagram: Diagram[Any], vocabulary: Vocabulary) -> Iterator[str
     """`Order`, `Leaves` and `Nodes`, with a comma behind."""
     yield f'    "Order": {_json([vocabulary.variables[variable][0] for variable in diagram.order])},'
     yield f'    "Leaves": {_json(diagram.leaves)},'
-    yield from block('    "Nodes": [', (_json(node) for node in diagram.nodes), "    ],")
+    yield from block('    "Nodes": [', _packed(_json(node, separators=(",", ":")) for node in diagram.nodes), "    ],")
+
+
+def _packed(entries: Iterable[str]) -> Iterator[str]:
+    """Short entries, as many as fit together on a line."""
+    line = ""
+    for entry in entries:
+        if line and len(line) + len(entry) >= _LINE:
+            yield line
+            line = ""
+        line = f"{line},{entry}" if line else entry
+    if line:
+        yield line

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from tumato_symbolic.policy import Certificate, DecisionDiagram, DiagramBuilder, Policy, RankedGoal, Vocabulary
+from tumato_symbolic.policy.minimize import minimized_decisions, minimized_ranks
 from tumato_symbolic.semantics import Residual, action_names
 from tumato_symbolic.spec import Spec, canonical_text, digest
 from tumato_symbolic.symbolic import Bdd, Extractor
@@ -18,7 +19,10 @@ def goal_names(spec: Spec, residual: Residual) -> tuple[tuple[str, ...], tuple[s
 
 
 def policy_diagram(problem: Problem, policy: Bdd, ranks: Sequence[Layers]) -> Policy:
-    """A policy that is defined in every valid state, with its certificate; `ranks` must be exact."""
+    """A policy that is defined in every valid state, with its certificate; `ranks` must be exact.
+
+    What its diagrams say of other states is free, and chosen so that they are small.
+    """
     encoding, steps = problem.encoding, problem.steps
     builder: DiagramBuilder[bool] = DiagramBuilder(encoding.order, (False, True))
     extract = Extractor(encoding, builder, default=False)
@@ -26,12 +30,14 @@ def policy_diagram(problem: Problem, policy: Bdd, ranks: Sequence[Layers]) -> Po
     for action in range(len(problem.spec.actions)):
         roots.append(extract.function([(True, steps.states_of(policy & encoding.executing(action)))]))
     defined = extract.function([(True, steps.valid)])
+    safe = extract.function([(True, steps.safe)])
+    found, vocabulary = builder.finish(), Vocabulary.of(problem.spec)
     return Policy(
-        Vocabulary.of(problem.spec),
-        DecisionDiagram(builder.finish(), tuple(roots), defined),
+        vocabulary,
+        minimized_decisions(DecisionDiagram(found, tuple(roots), defined), vocabulary.sizes),
         steps.ordering,
         digest(problem.spec),
-        certificate(problem, policy, ranks),
+        minimized_ranks(certificate(problem, policy, ranks), vocabulary.sizes, (found, safe)),
     )
 
 

@@ -1,0 +1,58 @@
+"""Diagrams become smaller, and say the same where it matters."""
+
+from itertools import product
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.policy.strategies import QUICK, policies
+from tumato_symbolic.policy import Certificate, DecisionDiagram, DiagramBuilder, Policy, RankedGoal, as_table
+from tumato_symbolic.policy.minimize import minimized_decisions, minimized_ranks
+
+
+@QUICK
+@given(policies(forms=("diagram",)))
+def test_decisions_stay_and_nothing_grows(policy):
+    """Every defined state keeps its decision, no other becomes defined, and there are no more nodes."""
+    found = minimized_decisions(policy.decisions, policy.vocabulary.sizes)
+    assert as_table(Policy(policy.vocabulary, found), 10_000) == as_table(policy, 10_000)
+    assert len(found.diagram.nodes) <= len(policy.decisions.diagram.nodes)
+
+
+@QUICK
+@given(policies(forms=("diagram",)), st.data())
+def test_ranks_stay_where_they_matter(policy, data):
+    """Every state of the given set keeps the rank of every goal, and there are no more nodes."""
+    sizes, order = policy.vocabulary.sizes, policy.decisions.diagram.order
+    states = list(product(*map(range, sizes)))
+    builder = DiagramBuilder(order, (None, 0, 1, 2))
+    tables = data.draw(st.lists(st.dictionaries(st.sampled_from(states), st.sampled_from([None, 0, 1, 2])), max_size=3))
+    goals = [RankedGoal((str(n),), (), builder.from_table(sizes, table, None)) for n, table in enumerate(tables)]
+    given_ranks = Certificate(builder.finish(), tuple(goals))
+    care = (policy.decisions.diagram, policy.decisions.defined)
+    found = minimized_ranks(given_ranks, sizes, care)
+    for before, after in zip(given_ranks.goals, found.goals, strict=True):
+        for state in states:
+            if care[0].evaluate(care[1], state):
+                assert found.ranks.evaluate(after.root, state) == given_ranks.ranks.evaluate(before.root, state)
+    assert len(found.ranks.nodes) <= len(given_ranks.ranks.nodes)
+
+
+def test_undefined_states_are_used():
+    """An action that is executed in every state that is defined needs no node, whatever it looked like elsewhere."""
+    builder = DiagramBuilder((0, 1), (False, True))
+    executed = builder.from_table((2, 2), dict.fromkeys([(0, 0), (0, 1), (1, 1)], True), False)
+    defined = builder.from_table((2, 2), dict.fromkeys([(0, 0), (1, 1)], True), False)
+    decisions = DecisionDiagram(builder.finish(), (executed,), defined)
+    assert minimized_decisions(decisions, (2, 2)).roots == (1,)
+
+
+def test_values_with_compatible_rests_share_one():
+    """A variable is not tested when its values do not contradict each other where it matters."""
+    builder = DiagramBuilder((0, 1, 2), (False, True))
+    executed = builder.from_table((2, 2, 2), {(0, 0, 0): True}, False)
+    defined = builder.from_table((2, 2, 2), dict.fromkeys([(1, 1, 0), (0, 0, 0), (0, 1, 0)], True), False)
+    found = minimized_decisions(DecisionDiagram(builder.finish(), (executed,), defined), (2, 2, 2))
+    for rest in product(range(2), range(2)):
+        low, high = (found.diagram.evaluate(found.roots[0], (first, *rest)) for first in range(2))
+        assert low == high

@@ -1,0 +1,111 @@
+"""Smaller diagrams for functions that matter in some states only."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from tumato_symbolic.policy.deep import room_for
+from tumato_symbolic.policy.diagram import Diagram, Leaf, Reference, rebuild
+from tumato_symbolic.policy.model import Certificate, DecisionDiagram, RankedGoal
+from tumato_symbolic.policy.sets import EVERYTHING, LEAVES, NOTHING, Sets
+
+
+def minimized_decisions(decisions: DecisionDiagram, sizes: Sequence[int]) -> DecisionDiagram:
+    """The same decisions in every state that is defined; elsewhere actions are whatever makes the diagram small."""
+    diagram, (defined, *roots) = _smallest(
+        decisions.diagram, decisions.roots, sizes, (decisions.diagram, decisions.defined), [decisions.defined]
+    )
+    return DecisionDiagram(diagram, tuple(roots), defined)
+
+
+def minimized_ranks(
+    certificate: Certificate, sizes: Sequence[int], states: tuple[Diagram[bool], Reference]
+) -> Certificate:
+    """The same ranks in all `states`, a diagram in the same order and a root of it; elsewhere they mean nothing."""
+    ranks, roots = _smallest(certificate.ranks, [goal.root for goal in certificate.goals], sizes, states)
+    goals = zip(certificate.goals, roots, strict=True)
+    return Certificate(ranks, tuple(RankedGoal(goal.bodies, goal.executed, root) for goal, root in goals))
+
+
+def _smallest(
+    diagram: Diagram[Leaf],
+    roots: Sequence[Reference],
+    sizes: Sequence[int],
+    states: tuple[Diagram[bool], Reference],
+    fixed: Sequence[Reference] = (),
+) -> tuple[Diagram[Leaf], tuple[Reference, ...]]:
+    """`fixed`, and functions that equal those of `roots` in `states`: of three diagrams the one with fewest nodes."""
+    found = [rebuild(diagram, (*fixed, *roots))]
+    with room_for(len(diagram.order)):
+        sets = Sets(diagram.order, sizes, 2 + len(diagram.leaves))
+        (needed,) = sets.take(states[0], states[1:], LEAVES)
+        leaves = {leaf: number for number, leaf in enumerate(diagram.leaves, 2)}
+        exact, functions = sets.take(diagram, fixed, leaves), sets.take(diagram, roots, leaves)
+        for merging in (False, True) if needed != NOTHING else ():
+            ours = _Minimizer(sets, merging)
+            found.append(sets.give([*exact, *(ours.simplest(each, needed) for each in functions)], diagram.leaves))
+    return min(found, key=lambda each: len(each[0].nodes))
+
+
+class _Minimizer:
+    """The method of Coudert and Madre (*restrict*, 1990); `merging` lets values with compatible rests share one."""
+
+    def __init__(self, sets: Sets, merging: bool) -> None:
+        self._sets = sets
+        self._merging = merging
+        self._known: dict[tuple[Reference, Reference], Reference] = {}
+        self._agreeing: dict[tuple[Reference, Reference, Reference], bool] = {}
+
+    def simplest(self, function: Reference, needed: Reference) -> Reference:
+        """A function that equals `function` in the states of `needed`, of which there are some."""
+        if needed == EVERYTHING or self._sets.is_leaf(function):
+            return function
+        key = (function, needed)
+        if key not in self._known:
+            self._known[key] = self._simplest(function, needed)
+        return self._known[key]
+
+    def _simplest(self, function: Reference, needed: Reference) -> Reference:
+        sets = self._sets
+        level = sets.top(function, needed)
+        wanted = sets.below(level, needed)
+        if level < sets.top(function):
+            every = NOTHING
+            for part in wanted:
+                every = sets.either(every, part)
+            return self.simplest(function, every)
+        rests = list(zip(sets.below(level, function), wanted, strict=True))
+        groups: list[tuple[Reference, Reference]] = []
+        member = [self._join(groups, rest) for rest in rests]
+        done = [self.simplest(*group) for group in groups]
+        return sets.node(level, tuple([done[place] for place in member]))
+
+    def _join(self, groups: list[tuple[Reference, Reference]], rest: tuple[Reference, Reference]) -> int:
+        """Put what is left for one value into a group that it agrees with; a new one where there is none."""
+        sets = self._sets
+        function, needed = rest
+        for place, (theirs, where) in enumerate(groups):
+            if needed == NOTHING:
+                return place
+            if where == NOTHING:
+                groups[place] = rest
+                return place
+            if rest == groups[place] or (self._merging and self._agree(function, theirs, sets.both(needed, where))):
+                groups[place] = sets.choose(needed, function, theirs), sets.either(needed, where)
+                return place
+        groups.append(rest)
+        return len(groups) - 1
+
+    def _agree(self, first: Reference, second: Reference, where: Reference) -> bool:
+        sets = self._sets
+        if first == second or where == NOTHING:
+            return True
+        if sets.is_leaf(first) and sets.is_leaf(second):
+            return False
+        key = (first, second, where)
+        found = self._agreeing.get(key)
+        if found is None:
+            level = sets.top(*key)
+            parts = zip(*(sets.below(level, each) for each in key), strict=True)
+            found = self._agreeing[key] = all(self._agree(*part) for part in parts)
+        return found
