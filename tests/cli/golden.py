@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tests.cli.inputs import write_inputs
+from tests.explain.variants import VARIANTS
 from tests.repo.documents import ROOT
 
 
@@ -21,6 +22,9 @@ class Case:
     name: str
     command: str
 
+
+_UNSAFE = "S_Location=corridor S_Battery=low S_Load=free S_Conveyor=on"
+_SAFE = "S_Location=workstation_1 S_Battery=ok S_Load=free S_Conveyor=off"
 
 CASES = (
     Case("synth-json", "tumato-sym synth amr.tum --output-format json"),
@@ -50,6 +54,18 @@ CASES = (
     Case("check-json", "tumato-sym check amr.tum typo.tum --output-format json"),
     Case("check-github", "tumato-sym check typo.tum warned.tum --output-format github"),
     Case("help", "tumato-sym --help"),
+    *(Case(f"explain-{variant.name}", f"tumato-sym explain {variant.name}.tum") for variant in VARIANTS),
+    Case("explain-two-robots", "tumato-sym explain two_robots.tum"),
+    Case("explain-grid5", "tumato-sym explain grid5.tum --write assumed.tum"),
+    Case("explain-conflict", "tumato-sym explain conflict.tum"),
+    Case("explain-conflict-json", "tumato-sym explain conflict.tum --output-format json"),
+    Case("explain-json", "tumato-sym explain alternative_too_many.tum --output-format json --cores 2"),
+    Case("explain-github", "tumato-sym explain rule_too_many.tum --output-format github"),
+    Case("explain-sarif", "tumato-sym explain rule_too_many.tum --output-format sarif"),
+    Case("explain-realizable", "tumato-sym explain amr.tum"),
+    Case("why", f"tumato-sym why amr.json amr.tum {_UNSAFE}"),
+    Case("why-not", f"tumato-sym why amr.json amr.tum {_UNSAFE} --not move_to_charger"),
+    Case("why-json", f"tumato-sym why amr.json amr.tum {_SAFE} --output-format json"),
 )
 
 _SECONDS = re.compile(r'("(?:seconds|synthesis|proof)": )[\d.]+')

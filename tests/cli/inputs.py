@@ -6,6 +6,7 @@ import json
 from pathlib import Path
 from typing import Any
 
+from tests.explain.variants import VARIANTS
 from tests.repo.documents import ROOT
 
 AMR = ROOT / "examples" / "amr.tum"
@@ -114,6 +115,9 @@ def write_inputs(folder: Path) -> None:
     (folder / "holed.unrealizable.json").write_text(json.dumps(holed_certificate()))
     for name, text in (("typo", TYPO), ("warned", WARNED), ("no_plan", NO_PLAN), ("conflict", CONFLICT)):
         (folder / f"{name}.tum").write_text(text)
+    for variant in VARIANTS:
+        (folder / f"{variant.name}.tum").write_text(variant.text)
+    (folder / "grid5.tum").write_text((ROOT / "examples" / "grid5.tum").read_text())
     for name, where, actions in (
         ("slower", state("corridor", "ok", "loaded", "on"), ["move_to_workstation_2"]),
         ("unsafe", state("workstation_2", "ok", "free", "on"), ["move_to_corridor", "stop_conveyor"]),

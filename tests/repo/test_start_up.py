@@ -61,3 +61,10 @@ def test_importing_the_package_loads_nothing_heavy(tmp_path: Path) -> None:
     probe = "import sys, tumato_symbolic; print(sorted(n for n in sys.modules if n.startswith('tumato_symbolic')))"
     done = subprocess.run([sys.executable, "-c", probe], capture_output=True, text=True, check=True, cwd=tmp_path)
     assert done.stdout.strip() == "['tumato_symbolic']"
+
+
+def test_why_loads_no_solver() -> None:
+    """`why` reads the specification, and imports neither z3 nor dd."""
+    policy, spec = ROOT / "proofs" / "amr.policy.json", ROOT / "examples" / "amr.tum"
+    state = ("S_Location=corridor", "S_Battery=ok", "S_Load=free", "S_Conveyor=off")
+    assert _loaded("why", str(policy), str(spec), *state) == (0, {"lark"})

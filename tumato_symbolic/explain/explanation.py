@@ -16,11 +16,13 @@ from tumato_symbolic.synthesis.outcome import FailureKind, Statistics
 class OwnGoal:
     """An active goal of a state that has no plan: `body` indexes `Spec.bodies`.
 
-    `never` are those of its parts (conjuncts) that no nominal effects ever make true, whatever is dropped.
+    `never` are those of its parts (conjuncts) that no nominal effects ever make true, whatever is dropped. `clashes`:
+    it belongs to a minimal set of the state's goals that nominal effects never make true at once.
     """
 
     body: int
     never: tuple[Formula, ...]
+    clashes: bool = False
 
 
 @dataclass(frozen=True, slots=True)

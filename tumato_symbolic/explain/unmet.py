@@ -7,7 +7,9 @@ from dataclasses import replace
 
 from tumato_symbolic.explain.conditions import Conditions
 from tumato_symbolic.explain.explanation import OwnGoal
+from tumato_symbolic.explain.minimize import minimal
 from tumato_symbolic.explain.plans import distances
+from tumato_symbolic.explain.predicates import conjunction
 from tumato_symbolic.semantics import State, active_goals
 from tumato_symbolic.spec import And, Formula, Not, Or, Rule
 from tumato_symbolic.symbolic import targets
@@ -17,7 +19,18 @@ from tumato_symbolic.synthesis.problem import Problem, served
 def own_goals(conditions: Conditions, state: State) -> tuple[OwnGoal, ...]:
     """The active goals of a state, each with the parts that no run of nominal effects makes true."""
     bodies = sorted(active_goals(conditions.spec, state))
-    return tuple(OwnGoal(body, tuple(_never(conditions, state, body))) for body in bodies)
+    never = {body: tuple(_never(conditions, state, body)) for body in bodies}
+    clash = frozenset[int]()
+    if not any(never.values()) and not _together(conditions, state, frozenset(bodies)):
+        clash = minimal(bodies, lambda some: not _together(conditions, state, some))
+    return tuple(OwnGoal(body, never[body], body in clash) for body in bodies)
+
+
+def _together(conditions: Conditions, state: State, bodies: frozenset[int]) -> bool:
+    """Whether some run meets these goals at once."""
+    rules = [conditions.spec.bodies[body] for body in sorted(bodies)]
+    whole = conjunction([rule.formula for rule in rules])
+    return not rules or _can_be_met(conditions, state, rules[0], whole)
 
 
 def _never(conditions: Conditions, state: State, body: int) -> Iterator[Formula]:

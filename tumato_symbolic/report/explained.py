@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from tumato_symbolic.diagnostics import Diagnostic, Source
 from tumato_symbolic.explain.cubes import StateCube
@@ -129,7 +129,9 @@ def _reason(done: Explained, found: Explanation, reason: Reason, number: int) ->
     if reason.kind == "conflict":
         yield from _together(place, reason)
     elif not reason.core:
-        yield from (f"  {sentence}" for sentence in goal_sentences(place, reason))
+        blamed_first = sorted(reason.goals, key=lambda goal: not (goal.never or goal.clashes))
+        told = replace(reason, goals=tuple(blamed_first))
+        yield from (f"  {sentence}" for sentence in goal_sentences(place, told))
     for position, core in enumerate(reason.cores):
         if core:
             yield _because(reason, position, len(core))
@@ -197,14 +199,19 @@ def cube_text(spec: Spec, cube: StateCube) -> str:
 
 
 def goal_sentences(place: Place, reason: Reason) -> Iterator[str]:
-    """The goals of a state that fails whatever is dropped, and what in them never comes true."""
+    """The goals of a state that fails whatever is dropped, and what in them never comes true; one sentence each."""
     for goal in reason.goals:
         rule = place.rule(place.spec.bodies[goal.body])
         never = [f"`{predicate_text(place.spec, part)}`" for part in goal.never]
         if never:
             yield f"the goal is {rule}, and no nominal effect ever makes {enumeration(never)} true"
+        elif not goal.clashes:
+            yield f"the goal is {rule}, too"
         else:
-            yield f"the goal is {rule}; nominal effects never make all of it true at once"
+            clashing = [each.body for each in reason.goals if each.clashes and each.body != goal.body]
+            others = [place.rule(place.spec.bodies[body]) for body in clashing]
+            whole = f"it and {enumeration(others)}" if others else "all of it"
+            yield f"the goal is {rule}, and nominal effects never make {whole} true at once"
 
 
 def _together(place: Place, reason: Reason) -> Iterator[str]:

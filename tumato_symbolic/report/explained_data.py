@@ -11,6 +11,7 @@ from tumato_symbolic.explain.elements import Element, span_of, text_of
 from tumato_symbolic.explain.explanation import (
     Explanation,
     NothingToExplain,
+    OwnGoal,
     RealizablePart,
     Reason,
     Repair,
@@ -22,7 +23,7 @@ from tumato_symbolic.report.failures import FAILURE_CODES
 from tumato_symbolic.report.findings import finding_json, github_command, github_commands
 from tumato_symbolic.report.roles import role
 from tumato_symbolic.semantics import action_names, active_goals, named
-from tumato_symbolic.spec import Rule, Spec
+from tumato_symbolic.spec import Spec
 
 
 def as_json(done: Explained) -> dict[str, object]:
@@ -78,10 +79,7 @@ def _reason_json(done: Explained, reason: Reason) -> dict[str, object]:
         "example": named(spec, reason.example),
         "core": [_in_core(done, element, reason.core, reason) for element in reason.core],
         "more_cores": [[_in_core(done, element, core, reason) for element in core] for core in reason.cores[1:]],
-        "goals": [
-            _goal_json(spec, spec.bodies[goal.body], [predicate_text(spec, part) for part in goal.never])
-            for goal in reason.goals
-        ],
+        "goals": [_goal_json(spec, goal) for goal in reason.goals],
         "near": [
             {
                 "actions": list(action_names(spec, near.chosen)),
@@ -126,8 +124,14 @@ def _in_core(done: Explained, element: Element, core: tuple[Element, ...], reaso
     }
 
 
-def _goal_json(spec: Spec, body: Rule, never: list[str]) -> dict[str, object]:
-    return {"text": " ".join(body.text.split()), "line": body.span.line, "never_true": never}
+def _goal_json(spec: Spec, goal: OwnGoal) -> dict[str, object]:
+    body = spec.bodies[goal.body]
+    return {
+        "text": " ".join(body.text.split()),
+        "line": body.span.line,
+        "never_true": [predicate_text(spec, part) for part in goal.never],
+        "clashes": goal.clashes,
+    }
 
 
 def _repair_json(spec: Spec, repair: Repair) -> dict[str, object]:

@@ -130,7 +130,9 @@ def _unrealizable(done: Synthesized, outcome: Unrealizable, paint: Paint) -> lis
     ordering = outcome.statistics.ordering
     shown = [failure_text(done.place, failure, ordering) for failure in outcome.failures]
     kept = "" if done.output == "-" else f" {done.output}, if it exists, is what it was."
-    return ["\n".join(head), *shown, "\n".join((f"No policy was written.{kept}", *_certified(done, ordering, paint)))]
+    written = "\n".join((f"No policy was written.{kept}", *_certified(done, ordering, paint)))
+    explain = f"`tumato-sym explain {shlex.quote(done.source.name)}` says why, line by line, and what would do."
+    return ["\n".join(head), *shown, f"{written}\n{explain}"]
 
 
 def _certified(done: Synthesized, ordering: Ordering, paint: Paint) -> list[str]:

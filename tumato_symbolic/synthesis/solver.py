@@ -184,17 +184,20 @@ def _satisfiable(solver: Term, *assumptions: Term, seconds: float | None = None)
 class HittingSets:
     """Smallest sets of numbers that have an element in common with each of some sets.
 
-    `penalties` has one for every number, from 0 on: among the smallest sets one with the least sum comes first.
+    `penalties` has one for every number, from 0 on: of the smallest sets one with the least sum comes first, and of
+    these the first as a sorted list.
     """
 
     def __init__(self, penalties: Sequence[int]) -> None:
         self._solver = z3.SolverFor("QF_FD")
         self._literals = [z3.Bool(f"h{number}") for number in range(len(penalties))]
         self._penalties = penalties
+        self._useful: set[int] = set()
         self._least = 0
 
     def require(self, numbers: Sequence[int]) -> None:
         """One of these numbers must be chosen."""
+        self._useful |= set(numbers)
         self._solver.add(_any([self._literals[number] for number in numbers]))
 
     def exclude(self, numbers: Sequence[int]) -> None:
@@ -209,19 +212,37 @@ class HittingSets:
             self._solver.push()
             if self._literals:
                 self._solver.add(z3.AtMost(*self._literals, self._least))
-            best: frozenset[int] | None = None
-            while (best is None or best) and _satisfiable(self._solver):
-                model = self._solver.model()
-                best = frozenset(n for n, literal in enumerate(self._literals) if _is_true(model, literal))
-                self._solver.add(self._below(sum(self._penalties[number] for number in best)))
+            found = self._first() if _satisfiable(self._solver) else None
             self._solver.pop()
-            if best is not None:
-                return best
+            if found is not None:
+                return found
             self._least += 1
 
-    def _below(self, total: int) -> Term:
-        """The penalties of what is chosen sum up to less."""
+    def _first(self) -> frozenset[int]:
+        """The set to prefer among those that the constraints of now allow, which all have the same size."""
+        least = self._penalty_of_model()
+        while least and _satisfiable(self._solver, self._at_most(least - 1)):
+            least = self._penalty_of_model()
+        wanted: list[Term] = [self._at_most(least)]
+        chosen: list[int] = []
+        for number in sorted(self._useful):
+            if len(chosen) == self._least:
+                break
+            if _satisfiable(self._solver, *wanted, self._literals[number]):
+                wanted.append(self._literals[number])
+                chosen.append(number)
+        return frozenset(chosen)
+
+    def _penalty_of_model(self) -> int:
+        model = self._solver.model()
+        pairs = zip(self._literals, self._penalties, strict=True)
+        return sum(penalty for literal, penalty in pairs if _is_true(model, literal))
+
+    def _at_most(self, total: int) -> Term:
+        """The penalties of what is chosen sum up to so much at most, as a literal that implies it."""
         terms = [
             (literal, penalty) for literal, penalty in zip(self._literals, self._penalties, strict=True) if penalty
         ]
-        return z3.PbLe(terms, total - 1) if terms and total else z3.BoolVal(False)
+        bound = z3.Bool(f"p{total}")
+        self._solver.add(z3.Implies(bound, z3.PbLe(terms, total) if terms else z3.BoolVal(True)))
+        return bound

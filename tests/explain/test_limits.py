@@ -1,0 +1,46 @@
+"""Tests of what `explain` may be asked: caps, more cores, no repairs, both orderings."""
+
+from tests.cli.inputs import CONFLICT, TWO_ROBOTS, WARNED
+from tumato_symbolic import parse
+from tumato_symbolic.explain.explain import explain
+from tumato_symbolic.explain.explanation import Explanation, NothingToExplain
+
+
+def _explained(text: str, **options: int) -> Explanation:
+    found = explain(parse(text), **options)
+    assert isinstance(found, Explanation)
+    return found
+
+
+def test_two_robots() -> None:
+    """112 states without an allowed set, in four disjoint cubes, each with one core."""
+    found = _explained(TWO_ROBOTS.read_text(), wanted_repairs=0)
+    assert found.failing_states == 112
+    assert sorted(reason.count for reason in found.reasons) == [16, 16, 16, 64]
+    assert all(len(reason.cubes) == 1 and reason.kind == "no-allowed-set" for reason in found.reasons)
+    assert found.part is not None
+    assert found.part.states == 912
+
+
+def test_a_cap_on_cubes_says_what_it_left_out() -> None:
+    """`max_cubes` keeps the largest; the counts stay exact."""
+    found = _explained(TWO_ROBOTS.read_text(), wanted_repairs=0, max_cubes=2)
+    assert sum(len(reason.cubes) for reason in found.reasons) == 2
+    assert [reason.omitted for reason in found.reasons] == [0, 0, 16, 16]
+    assert sum(reason.count for reason in found.reasons) == 112
+
+
+def test_no_repairs_are_looked_for_where_none_are_wanted() -> None:
+    """`wanted_repairs=0` is quick, and does not claim that there are none."""
+    found = _explained(CONFLICT, wanted_repairs=0)
+    assert (found.repairs, found.repairs_complete) == ((), False)
+
+
+def test_a_policy_leaves_nothing_to_explain() -> None:
+    """On a realizable specification."""
+    assert isinstance(explain(parse(WARNED)), NothingToExplain)
+
+
+def test_the_same_explanation_twice() -> None:
+    """Explanations are deterministic."""
+    assert _explained(TWO_ROBOTS.read_text()) == _explained(TWO_ROBOTS.read_text())

@@ -1,0 +1,46 @@
+"""Tests of minimal sets."""
+
+from itertools import combinations
+from random import Random
+
+from tumato_symbolic.explain.minimize import minimal
+from tumato_symbolic.synthesis.solver import HittingSets
+
+
+def test_minimal_sets_are_enough_and_minimal() -> None:
+    """Against random monotone questions: enough, and nothing can be left out."""
+    random = Random(1)
+    for _ in range(200):
+        items = range(random.randint(1, 9))
+        needs = [frozenset(random.sample(items, random.randint(0, len(items)))) for _ in range(3)]
+        found = minimal(items, lambda some, needs=needs: any(need <= some for need in needs))
+        assert any(need <= found for need in needs)
+        assert not any(need <= found - {item} for need in needs for item in found)
+
+
+def test_smallest_hitting_sets_come_in_order() -> None:
+    """All minimal hitting sets, the smallest first, and of one size the least penalty first."""
+    random = Random(2)
+    for _ in range(40):
+        size = random.randint(1, 6)
+        penalties = [random.randint(0, 3) for _ in range(size)]
+        sets = [frozenset(random.sample(range(size), random.randint(1, size))) for _ in range(4)]
+        search, found = HittingSets(penalties), []
+        for each in sets:
+            search.require(sorted(each))
+        while (best := search.smallest()) is not None:
+            found.append(best)
+            search.exclude(sorted(best))
+        hitting = [frozenset(some) for n in range(size + 1) for some in combinations(range(size), n)]
+        hitting = [some for some in hitting if all(some & each for each in sets)]
+        expected = {some for some in hitting if not any(other < some for other in hitting)}
+        assert set(found) == expected
+        ranked = [(len(some), sum(penalties[number] for number in some)) for some in found]
+        assert ranked == sorted(ranked)
+
+
+def test_nothing_hits_the_empty_set() -> None:
+    """Where a set to be hit is empty, there is no hitting set."""
+    search = HittingSets([0, 0])
+    search.require([])
+    assert search.smallest() is None
