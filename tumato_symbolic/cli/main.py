@@ -77,6 +77,8 @@ def _command(options: Options) -> int:
             from tumato_symbolic.cli.export import run
         case "decide":
             from tumato_symbolic.cli.decide import run
+        case "rules":
+            from tumato_symbolic.cli.rules import run
         case "why":
             from tumato_symbolic.cli.why import run
         case _:

@@ -22,7 +22,7 @@ PROPERTIES = ("total", "safe", "goals", "minimal")
 class Options:
     """One command with its options. A field that the command does not know keeps its default."""
 
-    command: Literal["synth", "explain", "verify", "export-proof", "decide", "why", "check"]
+    command: Literal["synth", "explain", "verify", "export-proof", "decide", "rules", "why", "check"]
     specs: tuple[str, ...] = ()
     policy: str = ""
     output: str = "policy.json"
@@ -128,6 +128,20 @@ examples:
   tumato-sym decide policy.json S_Location=corridor S_Battery=low S_Load=free S_Conveyor=off
   echo '{"S_Location": "corridor", "S_Battery": "low", "S_Load": "free", "S_Conveyor": "off"}' \\
     | tumato-sym decide policy.json --stdin
+
+"""
+
+_RULES = """\
+Show a policy as a short ordered list of rules: the first that matches decides.
+
+The list says what the policy says in every state that it decides, which is checked before it is printed. It needs the
+policy alone, and no list of states: a policy over 10^12 states takes seconds.
+"""
+
+_RULES_EXAMPLE = """\
+examples:
+  tumato-sym rules policy.json
+  tumato-sym rules policy.json --output-format json
 
 """
 
@@ -287,6 +301,15 @@ def _parser() -> argparse.ArgumentParser:
     decide.add_argument("assignments", metavar="VAR=VALUE", nargs="*", help="the state: a value for every variable")
     decide.add_argument(
         "--stdin", action="store_true", help="read states from the standard input, one JSON object a line"
+    )
+
+    rules = _add(commands, "rules", "a policy as a short list of rules", _RULES, _RULES_EXAMPLE)
+    rules.add_argument("policy", metavar="POLICY", help="the policy, a .json file")
+    rules.add_argument(
+        "--output-format",
+        choices=("text", "json"),
+        default="text",
+        help="for a person, or for a program (one JSON object) (default: text)",
     )
 
     why = _add(commands, "why", "why a policy decides as it does in a state", WHY, WHY_EXAMPLE)
