@@ -3,11 +3,13 @@ PYTHON ?= python3
 VENV ?= .venv
 BIN := $(VENV)/bin
 
-.PHONY: help demo test check format regenerate bench bench-compare clean
+.PHONY: help demo test proofs mutants check format regenerate bench bench-compare clean
 
 help:
 	@echo "make demo        install what is needed into $(VENV) and show the main job on a mobile robot"
 	@echo "make test        install the development tools too; lint, types, import walls, tests"
+	@echo "make proofs      compile the theorems in proofs/coq, and that of every example's policy (needs Coq)"
+	@echo "make mutants     20,000 changed policies, certificates and specifications through every prover (half an hour)"
 	@echo "make format      put the sources into shape"
 	@echo "make regenerate  write proofs/ and the generated tables anew"
 	@echo "make bench       measure every family of benchmarks/ (minutes; ARGUMENTS=--quick: about one)"
@@ -23,6 +25,12 @@ test: $(VENV)/.development
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 	$(BIN)/python -m pytest
+
+proofs: $(VENV)/.development
+	@$(BIN)/python -m tests.export
+
+mutants: $(VENV)/.development
+	$(BIN)/python -m tests.mutants $(ARGUMENTS)
 
 format: $(VENV)/.development
 	$(BIN)/ruff check --fix .
