@@ -169,7 +169,7 @@ def _compare_forms(world: World, outcome: Outcome) -> Iterator[str]:
 
 def _verify_own(world: World, policy: Policy) -> Iterator[str]:
     """Complaints about the verification of what was synthesized, with its certificate, through its file."""
-    answer = verify(loads(dumps(policy)), world.spec, ordering=world.ordering)
+    answer = verify(loads(dumps(policy)), world.spec, ordering=world.ordering, prover="both")
     if answer.verdict != "proved":
         yield f"the synthesized policy is not proved: {answer}"
     if answer.certificate.status not in ("used", "unneeded"):
@@ -183,7 +183,7 @@ def _verify_all(world: World, decisions: Decisions, random: Random, mutants: int
         right = judgement.sound_and_complete and judgement.minimal
         report.right_policies += right
         report.wrong_policies += not right
-        answer = verify(policy_from_rows(world.spec, rows), world.spec, ordering=world.ordering)
+        answer = verify(policy_from_rows(world.spec, rows), world.spec, ordering=world.ordering, prover="both")
         for complaint in _compare_verification(world, rows, judgement, answer):
             yield f"{name}: {complaint}"
     yield from _doubled_rows(world, decisions, random)
