@@ -1,11 +1,13 @@
 """Looking up what to do."""
 
+from unittest.mock import patch
+
 import pytest
 from hypothesis import given
 
 from tests.policy.strategies import QUICK, amr_like, policies
 from tumato_symbolic.diagnostics import UserError
-from tumato_symbolic.policy import Policy, UndecidedState, as_table, dumps, parse_assignments, parse_state
+from tumato_symbolic.policy import Policy, UndecidedState, as_table, decide, dumps, parse_assignments, parse_state
 
 
 @QUICK
@@ -16,6 +18,18 @@ def test_decide_is_the_row(policy):
     for state, chosen in as_table(policy, 1000).rows.items():
         named = {name: values[value] for (name, values), value in zip(variables, state, strict=True)}
         assert policy.decide(named) == tuple(name for number, name in enumerate(actions) if number in chosen)
+
+
+@QUICK
+@given(policies(forms=("diagram",)))
+def test_what_is_forgotten_is_found_again(policy):
+    """Answers are the same when almost nothing is remembered, in whatever order states are asked."""
+    variables, actions = policy.vocabulary.variables, policy.vocabulary.actions
+    rows = list(as_table(policy, 1000).rows.items())
+    with patch.object(decide, "_MOST_REMEMBERED", 2):
+        for state, chosen in rows + rows[::-1]:
+            named = {name: values[value] for (name, values), value in zip(variables, state, strict=True)}
+            assert policy.decide(named) == tuple(name for number, name in enumerate(actions) if number in chosen)
 
 
 @pytest.mark.parametrize("diagram", [False, True])

@@ -10,9 +10,13 @@ from typing import Protocol
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.diagnostics.wording import listed
+from tumato_symbolic.policy.diagram import Reference
 from tumato_symbolic.policy.model import DecisionDiagram, Policy, Table, Vocabulary
 from tumato_symbolic.policy.problems import MOST, described, fault, show, way_out
 from tumato_symbolic.policy.shape import as_object, as_text, parse_json
+
+_MOST_REMEMBERED = 20_000
+"""After so many different places in the diagrams of a policy, they are forgotten."""
 
 
 class UndecidedState(ValueError):  # noqa: N818 - no error of the user: a state may be undecided rightly
@@ -34,7 +38,7 @@ def make_decider(policy: Policy) -> Decider:
     """Prepare a policy for `Policy.decide`."""
     if isinstance(policy.decisions, Table):
         return _by_table(policy.vocabulary, policy.decisions)
-    return _by_diagram(policy.vocabulary, policy.decisions)
+    return _DiagramDecider(policy.vocabulary, policy.decisions)
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,29 +69,78 @@ def _by_table(vocabulary: Vocabulary, table: Table) -> _TableDecider:
 
 
 @dataclass(frozen=True, slots=True)
+class _Answer:
+    """What is done in a state; None where the policy does not decide it."""
+
+    actions: tuple[str, ...] | None
+
+
+@dataclass(frozen=True, slots=True)
+class _Question:
+    """Where the diagrams of a policy have come to together, and the variable that the first of them tests next."""
+
+    variable: int
+    level: int
+    roots: tuple[Reference, ...]
+    below: list[_Question | _Answer | None]
+
+
 class _DiagramDecider:
-    vocabulary: Vocabulary
-    numbers: tuple[tuple[str, dict[str, int]], ...]
-    decisions: DecisionDiagram
+    """Follows the diagrams of all actions at once, and remembers where that led."""
+
+    def __init__(self, vocabulary: Vocabulary, decisions: DecisionDiagram) -> None:
+        self._vocabulary = vocabulary
+        self._diagram = decisions.diagram
+        self._numbers = [
+            (name, {value: at for at, value in enumerate(values)}) for name, values in vocabulary.variables
+        ]
+        self._known: dict[tuple[Reference, ...], _Question | _Answer] = {}
+        self._start = self._at((decisions.defined, *decisions.roots))
 
     def decide(self, state: Mapping[str, str]) -> tuple[str, ...]:
         try:
-            values = [known[state[name]] for name, known in self.numbers] if len(state) == len(self.numbers) else None
+            values = [known[state[name]] for name, known in self._numbers] if len(state) == len(self._numbers) else None
         except (KeyError, TypeError):
             values = None
         if values is None:
-            check_state(self.vocabulary, state)
+            check_state(self._vocabulary, state)
             raise UndecidedState(state)
-        diagram = self.decisions.diagram
-        if not diagram.evaluate(self.decisions.defined, values):
+        here = self._start
+        while isinstance(here, _Question):
+            value = values[here.variable]
+            here = here.below[value] or self._follow(here, value)
+        if here.actions is None:
             raise UndecidedState(state)
-        chosen = zip(self.vocabulary.actions, self.decisions.roots, strict=True)
-        return tuple([name for name, root in chosen if diagram.evaluate(root, values)])
+        return here.actions
 
+    def _follow(self, question: _Question, value: int) -> _Question | _Answer:
+        nodes, base = self._diagram.nodes, len(self._diagram.leaves)
+        roots = tuple(
+            [
+                nodes[root - base][1][value] if root >= base and nodes[root - base][0] == question.level else root
+                for root in question.roots
+            ]
+        )
+        if len(self._known) >= _MOST_REMEMBERED:
+            self._known.clear()
+            self._start = self._at(self._start.roots) if isinstance(self._start, _Question) else self._start
+        found = question.below[value] = self._known.get(roots) or self._at(roots)
+        return found
 
-def _by_diagram(vocabulary: Vocabulary, decisions: DecisionDiagram) -> _DiagramDecider:
-    numbers = ((name, {value: at for at, value in enumerate(values)}) for name, values in vocabulary.variables)
-    return _DiagramDecider(vocabulary, tuple(numbers), decisions)
+    def _at(self, roots: tuple[Reference, ...]) -> _Question | _Answer:
+        nodes, leaves = self._diagram.nodes, self._diagram.leaves
+        base = len(leaves)
+        found: _Question | _Answer
+        if roots[0] < base and not leaves[roots[0]]:
+            found = _Answer(None)
+        elif all(root < base for root in roots):
+            chosen = zip(self._vocabulary.actions, roots[1:], strict=True)
+            found = _Answer(tuple([name for name, root in chosen if leaves[root]]))
+        else:
+            level, below = min(nodes[root - base] for root in roots if root >= base)
+            found = _Question(self._diagram.order[level], level, roots, [None] * len(below))
+        self._known[roots] = found
+        return found
 
 
 def check_state(vocabulary: Vocabulary, state: Mapping[str, str]) -> None:
