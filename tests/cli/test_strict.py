@@ -79,7 +79,7 @@ def test_strict_fails_what_is_stale_or_wrong(cli: Cli, tmp_path: Path, name: str
     assert cli(*command).code == 0
     ran = cli(*command, "--strict")
     assert ran.code == 1
-    assert f"Not accepted: the certificate is {status}" in ran.out
+    assert f"Not accepted (--strict): the certificate is {status}." in ran.out
     found = json.loads(cli(*command, "--strict", "--output-format", "json").out)
     assert (found["verdict"], found["certificate"]["status"], found["accepted"]) == ("proved", status, False)
     assert f"title={status}::certificate: " in cli(*command, "--strict", "--output-format", "github").out

@@ -54,7 +54,7 @@ def as_text(done: Disproved, colour: bool) -> str:
     if found.verdict == "proved":
         head.append(f"  {proof_line(found)}")
         if done.not_accepted:
-            head += ["", f"{paint.bad('Not accepted')}: the certificate is stale, and --strict asks."]
+            head += ["", f"{paint.bad('Not accepted')} (--strict): the certificate is stale."]
         return "\n".join(head)
     head += ["", f"  {found.reason}."]
     synth = f"tumato-sym synth {shlex.quote(done.source.name)}"

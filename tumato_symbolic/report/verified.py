@@ -67,7 +67,7 @@ def as_text(done: Verified, colour: bool) -> str:
     if left:
         lines.append(f"Not asked: {enumeration(left)}.")
     if done.certificate_fails:
-        lines += ["", f"{paint.bad('Not accepted')}: the certificate is {found.certificate.status}, and --strict asks."]
+        lines += ["", f"{paint.bad('Not accepted')} (--strict): the certificate is {found.certificate.status}."]
     if found.verdict == "refuted":
         lines += ["", f"Next: mend the policy, or let `tumato-sym synth {shlex.quote(done.source.name)}` make one."]
     return "\n".join(lines)
