@@ -20,7 +20,7 @@ ROUNDS = 300
 
 _PENALTIES: dict[ElementKind, int] = {
     "plan-bound": 0,
-    "state-rule": 1,
+    "state-rule": 2,
     "reaction-rule": 1,
     "alternative": 1,
     "precondition": 3,
