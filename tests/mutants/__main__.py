@@ -15,6 +15,7 @@ from multiprocessing import Pool
 from pathlib import Path
 
 from tests.mutants.campaign import Tally, examine
+from tests.mutants.refusals import examine_refusal
 from tests.profiles import PROFILES
 
 Job = tuple[str, int, int]
@@ -25,7 +26,9 @@ def run(job: Job) -> Tally:
     profile, seed, each = job
     try:
         with tempfile.TemporaryDirectory() as folder:
-            return examine(profile, seed, each, Path(folder))
+            tally = examine(profile, seed, each, Path(folder))
+            tally.add(examine_refusal(profile, seed, each // 4))
+            return tally
     except Exception:
         return Tally(complaints=[f"{profile} {seed}: {traceback.format_exc()}"])
 
