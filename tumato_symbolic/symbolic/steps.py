@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from tumato_symbolic.spec import Ordering
+from tumato_symbolic.spec import Assignment, Ordering
 from tumato_symbolic.symbolic.encoding import Encoding, Group, conflicting
 from tumato_symbolic.symbolic.manager import Bdd
 
@@ -55,6 +55,23 @@ class Steps:
                 moved.append(manager.and_exists([*group.bits, *written], relation, choices) & manager.cube(written))
             relation = manager.union(moved)
         return relation
+
+    def moves(self, relation: Bdd, most: int) -> dict[Assignment, Bdd] | None:
+        """The states of a relation by what its sets nominally write, all effects together; None if that is too much."""
+        manager = self.encoding.manager
+        found: dict[Assignment, Bdd] = {(): relation}
+        for group, options in zip(self.encoding.groups, self.encoding.nominal_moves, strict=True):
+            split: dict[Assignment, Bdd] = {}
+            for written, pairs in found.items():
+                for effect, choices in options:
+                    part = manager.and_exists(group.bits, pairs, choices)
+                    if part != manager.false:
+                        both = tuple(sorted({*written, *effect}))
+                        split[both] = split.get(both, manager.false) | part
+            if len(split) > most:
+                return None
+            found = split
+        return found
 
     def next_state(self, policy: Bdd) -> dict[str, Bdd]:
         """`s ↦ δ(s, π(s))` for a functional relation, as one function for every bit that the policy changes somewhere.

@@ -74,11 +74,25 @@ def by_any_step(problem: Problem, relation: Bdd) -> Predecessor:
     return lambda states, target: states & problem.steps.predecessor(relation & states, target)
 
 
+MOST_MOVES = 100
+"""A policy that does more different things is composed as a whole."""
+
+
 def by_policy(problem: Problem, policy: Bdd) -> Predecessor:
-    """The predecessor under a policy: a policy is a function, and the predecessor a composition with it."""
-    following = problem.steps.next_state(policy)
-    decided = problem.steps.states_of(policy)
-    return lambda states, target: states & decided & problem.encoding.manager.compose(target, following)
+    """The predecessor under a policy.
+
+    A policy that does few different things is taken move by move: the predecessor under each is a cofactor. Otherwise
+    it is a composition with the policy, which is a function.
+    """
+    steps, manager = problem.steps, problem.encoding.manager
+    moves = steps.moves(policy, MOST_MOVES)
+    if moves is not None:
+        cofactors = [(problem.encoding.assignment_bits(effect), acting) for effect, acting in moves.items()]
+        return lambda states, target: (
+            states & manager.union(acting & manager.cofactor(target, effect) for effect, acting in cofactors)
+        )
+    following, decided = steps.next_state(policy), steps.states_of(policy)
+    return lambda states, target: states & decided & manager.compose(target, following)
 
 
 def attractor(problem: Problem, target: Bdd, predecessor: Predecessor, within: Bdd, limit: int | None) -> Layers:
