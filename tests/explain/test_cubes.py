@@ -48,7 +48,7 @@ def test_shortest_cubes_are_irredundant() -> None:
     """No cube of a cover can be left out."""
     for seed in range(20):
         encoding, states, indifferent = _drawn(seed)
-        cubes = [set_of(encoding, cube) for cube in shortest_cubes(encoding, states, indifferent)]
+        cubes = [set_of(encoding, cube) for cube in shortest_cubes(encoding, states, indifferent) or ()]
         for left_out in range(len(cubes)):
             others = encoding.manager.union(cube for number, cube in enumerate(cubes) if number != left_out)
             assert states & ~others != encoding.manager.false

@@ -41,9 +41,17 @@ def disjoint_cubes(encoding: Encoding, states: Bdd, indifferent: Bdd, limit: int
     return _cover(encoding, states, encoding.domain() & ~(states | indifferent), True, limit)
 
 
-def shortest_cubes(encoding: Encoding, states: Bdd, indifferent: Bdd) -> tuple[StateCube, ...]:
-    """Cubes, which may overlap, of `states` and some of `indifferent`; none can be left out."""
-    cubes = _cover(encoding, states, encoding.domain() & ~(states | indifferent), False, None).cubes
+def shortest_cubes(
+    encoding: Encoding, states: Bdd, indifferent: Bdd, limit: int | None = None
+) -> tuple[StateCube, ...] | None:
+    """Cubes, which may overlap, of `states` and some of `indifferent`; none can be left out.
+
+    None where more than `limit` cubes are looked at.
+    """
+    cover = _cover(encoding, states, encoding.domain() & ~(states | indifferent), False, limit)
+    if cover.rest != encoding.manager.false:
+        return None
+    cubes = cover.cubes
     sets = [set_of(encoding, cube) for cube in cubes]
     kept = list(range(len(cubes)))
     for number in reversed(range(len(cubes))):

@@ -8,6 +8,9 @@ from tumato_symbolic.explain.cubes import StateCube, shortest_cubes
 from tumato_symbolic.spec import FALSE, TRUE, And, Constant, Executing, Formula, Iff, Is, Not, Or, Spec
 from tumato_symbolic.symbolic import Bdd, Encoding
 
+MANY_CUBES = 500
+"""Of a set that needs more cubes than its complement, so many are looked at before it is given up."""
+
 
 def conjunction(parts: Sequence[Formula]) -> Formula:
     """All of some formulas."""
@@ -39,13 +42,16 @@ def shortest_formula(encoding: Encoding, states: Bdd, indifferent: Bdd) -> Formu
     The shorter of two: one of these, or none of those cubes.
     """
     spec = encoding.spec
-    inside = shortest_cubes(encoding, states, indifferent)
+    inside = shortest_cubes(encoding, states, indifferent, MANY_CUBES)
     others = encoding.domain() & ~(states | indifferent)
-    outside = shortest_cubes(encoding, others, indifferent)
-    candidates = [
-        disjunction([cube_formula(spec, cube) for cube in inside]),
-        conjunction([_negated(cube_formula(spec, cube)) for cube in outside]),
-    ]
+    outside = shortest_cubes(encoding, others, indifferent, MANY_CUBES)
+    if inside is None and outside is None:
+        outside = shortest_cubes(encoding, others, indifferent)
+    candidates: list[Formula] = []
+    if inside is not None:
+        candidates.append(disjunction([cube_formula(spec, cube) for cube in inside]))
+    if outside is not None:
+        candidates.append(conjunction([_negated(cube_formula(spec, cube)) for cube in outside]))
     return min(candidates, key=lambda formula: len(predicate_text(spec, formula)))
 
 

@@ -227,7 +227,8 @@ def _together(place: Place, reason: Reason) -> Iterator[str]:
 def near_story(place: Place, state: State, near: NearMiss) -> list[str]:
     """Why a set is not allowed, as a short story."""
     first = near.objections[0]
-    more = f" (and {len(near.objections) - 1} more)" if len(near.objections) > 1 else ""
+    others = {(each.rule, each.actions) for each in near.objections} - {(first.rule, first.actions)}
+    more = f" (and {len(others)} more)" if others else ""
     doing = f"executing {place.actions(near.chosen)}" if near.chosen else "doing nothing"
     if first.rule is not None and first.state is not None and near.chosen:
         told = objection_text(place, first).split("\n")[0].removeprefix("when ").rstrip(",")
