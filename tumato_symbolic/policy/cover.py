@@ -125,15 +125,10 @@ class Coverer:
         done: list[Cube] = []
         left = wanted
         for cube in cubes:
-            own = sets.both(sets.without(left, later.pop()), sets.cube(cube))
-            done.append(tuple([(level, self._occurring(level, values, own)) for level, values in cube]))
+            own = sets.tested(sets.both(sets.without(left, later.pop()), sets.cube(cube)))
+            done.append(tuple([(level, tuple([v for v in values if v in own[level]])) for level, values in cube]))
             left = sets.without(left, sets.cube(done[-1]))
         return tuple(done)
-
-    def _occurring(self, level: int, values: tuple[int, ...], states: Reference) -> tuple[int, ...]:
-        """The values that a variable has in some state of a set."""
-        sets = self._sets
-        return tuple([value for value in values if sets.both(states, sets.cube(((level, (value,)),))) != NOTHING])
 
     def _later(self, cubes: Sequence[Cube]) -> list[Reference]:
         """For every cube the union of those behind it; that of the first cube is the last entry."""

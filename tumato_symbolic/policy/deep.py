@@ -12,7 +12,10 @@ _FRAMES = 8
 
 @contextmanager
 def room_for(levels: int) -> Iterator[None]:
-    """Let functions of this room call themselves once for every level. Such calls use no stack of the machine."""
+    """Let functions of this room call themselves once for every level.
+
+    Plain calls of Python functions use no stack of the machine; those through `map`, `sum`, `all` or `f(*x)` do.
+    """
     before = sys.getrecursionlimit()
     sys.setrecursionlimit(before + _FRAMES * levels)
     try:

@@ -77,7 +77,7 @@ class _Minimizer:
         rests = list(zip(sets.below(level, function), wanted, strict=True))
         groups: list[tuple[Reference, Reference]] = []
         member = [self._join(groups, rest) for rest in rests]
-        done = [self.simplest(*group) for group in groups]
+        done = [self.simplest(function, needed) for function, needed in groups]
         return sets.node(level, tuple([done[place] for place in member]))
 
     def _join(self, groups: list[tuple[Reference, Reference]], rest: tuple[Reference, Reference]) -> int:
@@ -105,7 +105,11 @@ class _Minimizer:
         key = (first, second, where)
         found = self._agreeing.get(key)
         if found is None:
-            level = sets.top(*key)
-            parts = zip(*(sets.below(level, each) for each in key), strict=True)
-            found = self._agreeing[key] = all(self._agree(*part) for part in parts)
+            level = sets.top(first, second, where)
+            found = True
+            for a, b, care in zip(*(sets.below(level, each) for each in key), strict=True):
+                if not self._agree(a, b, care):
+                    found = False
+                    break
+            self._agreeing[key] = found
         return found

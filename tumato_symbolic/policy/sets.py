@@ -86,9 +86,10 @@ class Sets:
         key = (condition, then, otherwise)
         found = self._chosen.get(key)
         if found is None:
-            level = self.top(condition, then, otherwise)
-            parts = zip(*(self.below(level, each) for each in key), strict=True)
-            found = self._chosen[key] = self.node(level, tuple([self.choose(*part) for part in parts]))
+            levels = self._levels
+            level = min(levels[condition], levels[then], levels[otherwise])
+            each = zip(self.below(level, condition), self.below(level, then), self.below(level, otherwise), strict=True)
+            found = self._chosen[key] = self.node(level, tuple([self.choose(c, t, o) for c, t, o in each]))
         return found
 
     def both(self, first: Reference, second: Reference) -> Reference:
@@ -125,6 +126,20 @@ class Sets:
                     pending.append(below[value])
         return True
 
+    def tested(self, states: Reference) -> dict[int, set[int]]:
+        """For every level that a set tests somewhere, the values that lead on to some of its states."""
+        found: dict[int, set[int]] = {}
+        pending, seen = [states], {states}
+        while pending:
+            here = pending.pop()
+            for value, below in enumerate(self._below[here]):
+                if below != NOTHING:
+                    found.setdefault(self._levels[here], set()).add(value)
+                    if below not in seen:
+                        seen.add(below)
+                        pending.append(below)
+        return found
+
     def count(self, states: Reference) -> int:
         """How many states a set has, exactly."""
         return self._count(states) * prod(self.sizes[: self._levels[states]]) * self._untested
@@ -135,7 +150,8 @@ class Sets:
         if found is None:
             level = self._levels[states] + 1
             below = self._below[states]
-            skipped = (prod(self.sizes[level : self._levels[child]]) for child in below)
-            found = sum(self._count(child) * times for child, times in zip(below, skipped, strict=True))
+            found = 0
+            for child in below:
+                found += self._count(child) * prod(self.sizes[level : self._levels[child]])
             self._counts[states] = found
         return found

@@ -18,11 +18,14 @@ def as_text(path: str, vocabulary: Vocabulary, rules: Sequence[Rule], states: in
     if not rules:
         return f"{decided}: there are no rules."
     values = dict(vocabulary.variables)
-    lines = [f"{decided}; {count(len(rules), 'rule decides', 'rules decide')} the same. The first that matches counts."]
+    lines = [
+        f"{decided}; {count(len(rules), 'rule decides', 'rules decide')} the same. The first that matches counts.",
+        "",
+    ]
     width = len(str(len(rules)))
     for number, rule in enumerate(rules, 1):
         actions = ", ".join(map(_shown, rule.actions)) or "(nothing)"
-        lines += ["", f"{number:>{width}}  {condition(values, rule)}", f"{'':>{width}}    {actions}"]
+        lines += [f"{number:>{width}}  {condition(values, rule)}", f"{'':>{width}}    {actions}"]
     return "\n".join(lines)
 
 
