@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Iterator
+from contextlib import suppress
 from copy import deepcopy
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -87,12 +88,20 @@ def _mutants(bases: list[policies.Document], text: str, random: Random, count: i
         if which in ("meaning", "layout"):
             kind, change = random.choice([*(specs.MEANT if which == "meaning" else specs.LAYOUT).items()])
             change(lines, random)
+            if which == "meaning" and random.random() < 0.7:
+                _renew_digest(document, lines)
         else:
             form = policies.TABLE if document["Type"] == "policy" else policies.DIAGRAM
             kind, mutate = random.choice([*(form if which == "policy" else policies.CERTIFICATE).items()])
             mutate(document, random)
         if document not in bases or lines != text.splitlines():
             yield Mutant(f"{which}: {kind}", document, "\n".join(lines) + "\n")
+
+
+def _renew_digest(document: policies.Document, lines: list[str]) -> None:
+    """Pretend that the policy was made for the changed specification: nothing is stale then, but perhaps false."""
+    with suppress(UserError):
+        document["SpecificationDigest"] = digest(parse("\n".join(lines) + "\n"))
 
 
 def _judge(mutant: Mutant, original: Spec, tally: Tally, folder: Path) -> Iterator[str]:
