@@ -39,9 +39,11 @@ def _smallest(
     with room_for(len(diagram.order)):
         sets = Sets(diagram.order, sizes, 2 + len(diagram.leaves))
         (needed,) = sets.take(states[0], states[1:], LEAVES)
+        if needed in (NOTHING, EVERYTHING):
+            return found[0]
         leaves = {leaf: number for number, leaf in enumerate(diagram.leaves, 2)}
         exact, functions = sets.take(diagram, fixed, leaves), sets.take(diagram, roots, leaves)
-        for merging in (False, True) if needed != NOTHING else ():
+        for merging in (False, True):
             ours = _Minimizer(sets, merging)
             found.append(sets.give([*exact, *(ours.simplest(each, needed) for each in functions)], diagram.leaves))
     return min(found, key=lambda each: len(each[0].nodes))
