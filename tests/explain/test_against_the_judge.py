@@ -3,6 +3,7 @@
 import pytest
 
 from tests.explain.campaign import examine
+from tumato_symbolic.spec import Ordering
 
 CHOSEN = (
     *(("mixed", seed) for seed in range(8)),
@@ -10,6 +11,21 @@ CHOSEN = (
     *(("restoring", seed) for seed in range(6)),
     *(("concurrent", seed) for seed in range(6)),
 )
+
+CONFLICTS = (
+    ("interacting", 101314, "any"),
+    ("interacting", 102349, "first"),
+    ("interacting", 103597, "first"),
+    ("mixed", 101684, "any"),
+)
+
+
+@pytest.mark.parametrize(("profile", "seed", "ordering"), CONFLICTS)
+def test_a_conflict_is_explained(profile: str, seed: int, ordering: Ordering) -> None:
+    """Conflicting states, their cores, repairs and the part that is left are what the explicit meaning says."""
+    _, counts, wrong = examine((profile, seed, ordering, 3))
+    assert counts["reasons: conflict"] == 1
+    assert wrong == []
 
 
 @pytest.mark.parametrize(("profile", "seed"), CHOSEN)

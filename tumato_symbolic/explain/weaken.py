@@ -2,18 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import TypeAlias
 
 from tumato_symbolic.explain.conditions import Conditions
 from tumato_symbolic.explain.cubes import StateCube
 from tumato_symbolic.explain.elements import Element, Elements, rule_of, without
 from tumato_symbolic.explain.plans import failing
 from tumato_symbolic.explain.predicates import cube_formula, predicate_text
+from tumato_symbolic.semantics import count_states
 from tumato_symbolic.spec import And, Or, Rule, Spec
 from tumato_symbolic.synthesis import Outcome, Realizable, synthesize
 
 TRIES = 400
 """So many exceptions are looked at for one repair at most."""
+
+MOST_STATES = 10_000
+"""In larger specifications no exceptions are looked for that settle conflicts of goals."""
+
+_Test: TypeAlias = Callable[[Conditions, Elements], bool]
+"""Whether the specification that is left when some elements are dropped will do."""
 
 
 @dataclass(frozen=True)
@@ -39,20 +48,29 @@ def weakening(conditions: Conditions, repair: Elements) -> Weakening | None:
     A rule or a precondition gets the exception `OR c` for one cube `c`, which is as small as can be: with one value of
     one variable less it would not do. The plan bound is raised as little as possible. Verified by synthesis.
     """
+    for suffices in (_no_state_fails, _is_realizable):
+        found = _weakened(conditions, repair, suffices)
+        if found is None or _solves(conditions, found.spec):
+            return found
+    return None
+
+
+def _weakened(conditions: Conditions, repair: Elements, suffices: _Test) -> Weakening | None:
+    """A weakening that passes a test, None where nothing can be changed."""
     edits: list[Edit] = []
     dropped = repair
     for element in [each for each in conditions.elements if each in repair]:
         others = dropped - {element}
-        weaken = _raised if element.kind == "plan-bound" else _excepted
-        found = weaken(conditions, element, others)
+        found = (
+            _raised(conditions, element, others)
+            if element.kind == "plan-bound"
+            else _excepted(conditions, element, others, suffices)
+        )
         if found is not None:
             conditions, edit = found
             edits.append(edit)
             dropped = others
-    if not edits:
-        return None
-    final = without(conditions.spec, dropped)
-    return Weakening(tuple(edits), dropped, final) if _solves(conditions, final) else None
+    return Weakening(tuple(edits), dropped, without(conditions.spec, dropped)) if edits else None
 
 
 def _raised(conditions: Conditions, bound: Element, others: Elements) -> tuple[Conditions, Edit] | None:
@@ -71,7 +89,9 @@ def _raised(conditions: Conditions, bound: Element, others: Elements) -> tuple[C
     return conditions.bounded(enough), Edit(bound, f"max_plan_length: {enough}")
 
 
-def _excepted(conditions: Conditions, element: Element, others: Elements) -> tuple[Conditions, Edit] | None:
+def _excepted(
+    conditions: Conditions, element: Element, others: Elements, suffices: _Test
+) -> tuple[Conditions, Edit] | None:
     """The rule with the smallest exception that this search finds; None where it must be dropped whole."""
     spec, rule = conditions.spec, rule_of(conditions.spec, element)
     if rule is None:
@@ -85,12 +105,17 @@ def _excepted(conditions: Conditions, element: Element, others: Elements) -> tup
             tries += 1
             if tries > TRIES:
                 return None
-            if smaller and _no_state_fails(conditions.changed(element, _with_exception(spec, rule, candidate)), others):
+            if smaller and suffices(conditions.changed(element, _with_exception(spec, rule, candidate)), others):
                 cube = candidate
     if cube == everything:
         return None
     wider = _with_exception(spec, rule, cube)
     return conditions.changed(element, wider), Edit(element, wider.text)
+
+
+def _is_realizable(conditions: Conditions, dropped: Elements) -> bool:
+    """The exact test, for where goals conflict; it is too slow for large specifications."""
+    return count_states(conditions.spec) <= MOST_STATES and _solves(conditions, without(conditions.spec, dropped))
 
 
 def _no_state_fails(conditions: Conditions, dropped: Elements) -> bool:
