@@ -82,6 +82,11 @@ def test_answers_come_at_once(folder: Path) -> None:
         assert process.wait(timeout=10) == 0
 
 
+def _heed_ctrl_c() -> None:
+    """Shells start background jobs, such as a whole test run, with Ctrl-C ignored, and children inherit that."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 def test_ctrl_c_is_130_and_leaves_nothing(folder: Path) -> None:
     """Ctrl-C: exit 130, a word instead of a traceback, and no half-written file."""
     before = set(folder.iterdir())
@@ -92,6 +97,7 @@ def test_ctrl_c_is_130_and_leaves_nothing(folder: Path) -> None:
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
+        preexec_fn=_heed_ctrl_c,
     ) as process:
         assert process.stdin is not None
         assert process.stdout is not None
