@@ -82,22 +82,24 @@ def test_answers_come_at_once(folder: Path) -> None:
         assert process.wait(timeout=10) == 0
 
 
-def _heed_ctrl_c() -> None:
-    """Shells start background jobs, such as a whole test run, with Ctrl-C ignored, and children inherit that."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
+HEED_CTRL_C = """
+import os, signal, sys
+signal.signal(signal.SIGINT, signal.SIG_DFL)
+os.execv(sys.argv[1], sys.argv[1:])
+"""
+"""Shells start background jobs, such as a whole test run, with Ctrl-C ignored, and children inherit that."""
 
 
 def test_ctrl_c_is_130_and_leaves_nothing(folder: Path) -> None:
     """Ctrl-C: exit 130, a word instead of a traceback, and no half-written file."""
     before = set(folder.iterdir())
     with subprocess.Popen(
-        [TUMATO, "decide", "amr.json", "--stdin"],
+        [sys.executable, "-c", HEED_CTRL_C, TUMATO, "decide", "amr.json", "--stdin"],
         cwd=folder,
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-        preexec_fn=_heed_ctrl_c,
     ) as process:
         assert process.stdin is not None
         assert process.stdout is not None
