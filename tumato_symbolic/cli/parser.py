@@ -202,12 +202,23 @@ def _properties(text: str) -> tuple[str, ...]:
     return asked
 
 
+class _Help(argparse.RawDescriptionHelpFormatter):
+    """Help as Python 3.13 formats it: earlier ones forget that commands are indented, and break their column."""
+
+    def add_argument(self, action: argparse.Action) -> None:
+        """Count the indented commands in the width of the first column."""
+        super().add_argument(action)
+        for command in self._iter_indented_subactions(action):
+            width = len(self._format_action_invocation(command)) + self._current_indent
+            self._action_max_length = max(self._action_max_length, width)
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="tumato-sym",
         description=_MAIN,
         epilog=_MAIN_EXAMPLE + _EXITS,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        formatter_class=_Help,
         allow_abbrev=False,
     )
     parser.add_argument(
@@ -330,7 +341,7 @@ def _add(
         help=purpose,
         description=about,
         epilog=example + _EXITS,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        formatter_class=_Help,
         allow_abbrev=False,
     )
 
