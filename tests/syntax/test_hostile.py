@@ -76,3 +76,20 @@ def test_damaged_specifications_end_in_diagnostics(path: Path):
     """Fixed mutants of every example load or are refused; an error comes exactly where there is no specification."""
     for mutant in islice(mutations(path.read_text(encoding="utf-8"), 3), 60):
         check(mutant)
+
+
+def test_a_goal_that_breaks_off_before_the_next_block() -> None:
+    """A list of goals that ends inside a goal is reported, though the `END` that is missing would not fit there."""
+    text = """
+BEGIN STATE VECTOR
+state S_A can be a, b
+END STATE VECTOR
+BEGIN GOALS
+goal type: priority
+when S_A is a then
+BEGIN CONFIG
+max_plan_length: 5
+END CONFIG
+"""
+    found = load(Source("broken", text))
+    assert [each.code.name for each in found.diagnostics if each.severity == "error"] == ["TUM107"]

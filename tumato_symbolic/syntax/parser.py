@@ -144,32 +144,31 @@ class _Run:
         """Report the token at `index`, and make the parser ready to go on with the token at the new `index`."""
         situation = self._situation()
         self.found.append(explain(situation))
+        if not self._mend(situation):
+            self._panic()
+
+    def _mend(self, situation: Situation) -> bool:
+        """Put right what is surely meant. False where nothing is, or where it would not fit."""
         if situation.end_words and situation.title:
             line = situation.end_words[0].line
             while self.tokens[self.index].kind == "word" and self.tokens[self.index].line == line:
                 self.index += 1
-            self._supply(*situation.title[len(situation.end_words) - 1 :])
-        elif situation.block_is_unclosed and situation.title:
-            self._supply("END", *situation.title)
-        elif (meant := situation.in_another_case or situation.misspelled) is not None:
-            self._supply(meant)
-            self.index += 1
-        elif (rest := situation.meant_title_rest) and self.stack.fits(self.grammar.terminals[rest[0]]):
-            self._supply(*rest)
-            self.index += len(rest)
-        elif situation.expected == {":"} and not situation.lacks_goal_type:
-            self._supply(":")
-            self.index += self.tokens[self.index].kind == "other"
-        elif situation.expected == {"priority", "constraint"} and situation.token.kind == "word":
-            self._supply("priority")
-            self.index += 1
-        elif situation.lacks_goal_type and situation.token.text == "when":
-            self._supply("goal", "type", ":", "priority")
-        elif situation.lacks_goal_type and situation.token.text == ":" and self.stack.fits("TYPE"):
-            self._supply("type", ":", "priority")
-            self.index -= 1
-        else:
-            self._panic()
+            return self._supply(*situation.title[len(situation.end_words) - 1 :])
+        if situation.block_is_unclosed and situation.title:
+            return self._supply("END", *situation.title)
+        if (meant := situation.in_another_case or situation.misspelled) is not None:
+            return self._replace(1, meant)
+        if rest := situation.meant_title_rest:
+            return self._replace(len(rest), *rest)
+        if situation.expected == {":"} and not situation.lacks_goal_type:
+            return self._replace(int(self.tokens[self.index].kind == "other"), ":")
+        if situation.expected == {"priority", "constraint"} and situation.token.kind == "word":
+            return self._replace(1, "priority")
+        if situation.lacks_goal_type and situation.token.text == "when":
+            return self._supply("goal", "type", ":", "priority")
+        if situation.lacks_goal_type and situation.token.text == ":" and self.stack.fits("TYPE"):
+            return self._replace(-1, "type", ":", "priority")
+        return False
 
     def _situation(self) -> Situation:
         """What surrounds the token at `index`, or the one before it where that was taken for something else.
@@ -199,11 +198,21 @@ class _Run:
             return False
         return any(self._can_restart(depth, before) for depth in self.stack.topmost())
 
-    def _supply(self, *words: str) -> None:
-        """Feed words that are missing from the text, and that fit."""
+    def _replace(self, tokens: int, *words: str) -> bool:
+        """Feed words instead of the next tokens, so many of them; False where they do not fit."""
+        fits = self._supply(*words)
+        self.index += tokens if fits else 0
+        return fits
+
+    def _supply(self, *words: str) -> bool:
+        """Feed words that are missing from the text, as far as they fit; whether they all do."""
         here = self.tokens[self.index]
         for word in words:
-            self.stack.feed(_fed(self.grammar.terminals[word], here, word))
+            terminal = self.grammar.terminals[word]
+            if not self.stack.fits(terminal):
+                return False
+            self.stack.feed(_fed(terminal, here, word))
+        return True
 
     def _panic(self) -> None:
         """Drop what is half read, and pass over text up to a word with which something complete can begin."""
