@@ -128,10 +128,6 @@ class Manager:
                 raise LimitReachedError(f"the memory limit of {self._limits.megabytes} MB was met") from error
             raise
 
-    def level(self, bit: str) -> int:
-        """The position of a bit in the order."""
-        return self._level[bit]
-
     def cube(self, values: Mapping[str, bool]) -> Bdd:
         """The vectors in which the given bits have the given values."""
         cube: Bdd = self._bdd.cube(dict(values))
@@ -211,7 +207,3 @@ class Manager:
             below[node] = (total, here)
         total, top = below[u]
         return total << top
-
-    def node_count(self, u: Bdd) -> int:
-        """How many inner nodes `u` has (without complement edges)."""
-        return len(self.descending(u))

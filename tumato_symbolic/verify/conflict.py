@@ -45,7 +45,7 @@ class _Goals:
         self.members: dict[int, list[Residual]] = {}
         for goal in reason.goals:
             self.members.setdefault(goal.root, []).append(named_goal(spec, goal.bodies, goal.executed))
-        self.distances = Distances(reason.distances, tuple(goal.root for goal in reason.goals), spec.max_plan_length)
+        self.distances = Distances(reason.distances, spec.max_plan_length)
 
 
 def _check_distances(reason: Conflict, goals: _Goals, step: AllowedStep) -> None:

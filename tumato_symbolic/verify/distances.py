@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
 import z3
 
@@ -20,9 +19,8 @@ class Distances:
     Raises `FalseClaimError` where a distance is negative.
     """
 
-    def __init__(self, diagram: Diagram[int | None], roots: Sequence[Reference], bound: int | None) -> None:
+    def __init__(self, diagram: Diagram[int | None], bound: int | None) -> None:
         self._diagram = diagram
-        self._roots = tuple(roots)
         self._bound = bound
         finite = [leaf for leaf in diagram.leaves if leaf is not None]
         if any(leaf < 0 for leaf in finite):
