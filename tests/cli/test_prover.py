@@ -7,7 +7,7 @@ import pytest
 from tests.cli.conftest import Cli
 from tumato_symbolic.semantics import State
 from tumato_symbolic.verify import PropertyResult, Refutation
-from tumato_symbolic.verify.by_walk import WalkProver
+from tumato_symbolic.verify.by_walk.prover import WalkProver
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.conftest import Cli
-from tumato_symbolic.verify import unrealizable
+from tumato_symbolic.verify.no_policy import unrealizable
 
 
 def files(folder: Path) -> set[str]:

@@ -10,7 +10,8 @@ from tests.verify.policies import certified, dressed, exact_ranks, near_policies
 from tumato_symbolic.policy import Policy
 from tumato_symbolic.semantics import State, better_sets, duration, judge
 from tumato_symbolic.spec import Ordering, Spec
-from tumato_symbolic.verify import Refutation, Verification, rank_terms, verify
+from tumato_symbolic.verify import Refutation, Verification, verify
+from tumato_symbolic.verify.by_z3 import rank_terms
 
 Rows = dict[State, frozenset[int]]
 

@@ -13,7 +13,7 @@ from tumato_symbolic.policy import as_diagram, policy_from_rows
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.verify import PropertyResult, provers, verify
-from tumato_symbolic.verify.by_walk import WalkProver
+from tumato_symbolic.verify.by_walk.prover import WalkProver
 
 NAMES = ["total", "safe", "goals", "minimal"]
 

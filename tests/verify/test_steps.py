@@ -10,8 +10,9 @@ from tests.semantics.build import Build, chosen
 from tumato_symbolic.policy import policy_from_rows
 from tumato_symbolic.semantics import ActionSet, State, all_states, allowed, is_safe, objections
 from tumato_symbolic.spec import And, Is, Not, Ordering, Spec
-from tumato_symbolic.verify import PropertyResult, outcomes, verify
-from tumato_symbolic.verify.outcomes import objections_to
+from tumato_symbolic.verify import PropertyResult, verify
+from tumato_symbolic.verify.by_z3 import outcomes
+from tumato_symbolic.verify.by_z3.outcomes import objections_to
 
 
 def _safe(spec: Spec, rows: dict[State, ActionSet], ordering: Ordering) -> PropertyResult:

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Protocol
 
 from tumato_symbolic.policy.model import Policy, Table
 from tumato_symbolic.spec import Ordering, Spec
-from tumato_symbolic.verify.by_walk import WalkProver
+from tumato_symbolic.verify.by_walk.prover import WalkProver
 from tumato_symbolic.verify.result import CertificateUse, PropertyName, PropertyResult, ProverName
 
 if TYPE_CHECKING:
-    from tumato_symbolic.verify.by_z3 import Z3Prover
+    from tumato_symbolic.verify.by_z3.prover import Z3Prover
 
 SOON = 2.0
 """How many seconds Z3 may think about a property before the walk is tried."""
@@ -51,7 +51,7 @@ def make_prover(name: ProverName, spec: Spec, policy: Policy, ordering: Ordering
 
 
 def _z3(spec: Spec, policy: Policy, ordering: Ordering, timeout: float | None) -> Z3Prover:
-    from tumato_symbolic.verify.by_z3 import Z3Prover
+    from tumato_symbolic.verify.by_z3.prover import Z3Prover
 
     return Z3Prover(spec, policy, ordering, timeout)
 

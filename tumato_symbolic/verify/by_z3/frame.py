@@ -13,7 +13,7 @@ import z3
 from tumato_symbolic.policy.model import DecisionDiagram
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import Spec
-from tumato_symbolic.verify.encoding import (
+from tumato_symbolic.verify.by_z3.encoding import (
     Place,
     agreement_terms,
     diagram_terms,
@@ -22,9 +22,9 @@ from tumato_symbolic.verify.encoding import (
     successor_place,
     valid_term,
 )
-from tumato_symbolic.verify.goal_terms import GoalTerms
-from tumato_symbolic.verify.solver import Solver, UndecidedError
-from tumato_symbolic.verify.terms import Term, conjunction, disjunction, negation
+from tumato_symbolic.verify.by_z3.goal_terms import GoalTerms
+from tumato_symbolic.verify.by_z3.solver import Solver, UndecidedError
+from tumato_symbolic.verify.by_z3.terms import Term, conjunction, disjunction, negation
 
 
 class Frame:

@@ -27,12 +27,12 @@ from tumato_symbolic.semantics import (
     objections,
 )
 from tumato_symbolic.spec import Assignment, Ordering, Spec
+from tumato_symbolic.verify.by_walk.goals import WalkGoals
+from tumato_symbolic.verify.by_walk.model import Model
+from tumato_symbolic.verify.by_walk.ranks import WalkRanks
+from tumato_symbolic.verify.by_walk.walk import FALSE, BudgetError, Function
 from tumato_symbolic.verify.decisions import Decisions
 from tumato_symbolic.verify.result import CertificateUse, PropertyName, PropertyResult, Refutation
-from tumato_symbolic.verify.walk import FALSE, BudgetError, Function
-from tumato_symbolic.verify.walk_goals import WalkGoals
-from tumato_symbolic.verify.walk_model import Model
-from tumato_symbolic.verify.walk_ranks import WalkRanks
 
 LISTED_ACTIONS = 8
 """Up to so many actions, all outcomes of a set are listed when a witness is replayed."""

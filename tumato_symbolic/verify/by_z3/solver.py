@@ -10,7 +10,7 @@ from typing import Any, Literal, TypeAlias
 
 import z3
 
-from tumato_symbolic.verify.terms import Term, z3_term
+from tumato_symbolic.verify.by_z3.terms import Term, z3_term
 
 Answer: TypeAlias = Literal["sat", "unsat", "unknown"]
 

@@ -11,14 +11,14 @@ from tumato_symbolic.policy.diagram import count_true
 from tumato_symbolic.policy.model import Policy, Table
 from tumato_symbolic.semantics import is_valid
 from tumato_symbolic.spec import Ordering, Spec
-from tumato_symbolic.verify.certificate import RankSource
-from tumato_symbolic.verify.frame import Frame
-from tumato_symbolic.verify.goals_property import prove_goals
-from tumato_symbolic.verify.minimal_property import prove_minimal
+from tumato_symbolic.verify.by_z3.frame import Frame
+from tumato_symbolic.verify.by_z3.goals_property import prove_goals
+from tumato_symbolic.verify.by_z3.minimal_property import prove_minimal
+from tumato_symbolic.verify.by_z3.rank_source import RankSource
+from tumato_symbolic.verify.by_z3.solver import UndecidedError
+from tumato_symbolic.verify.by_z3.step_property import prove_safe, prove_total
+from tumato_symbolic.verify.by_z3.terms import conjunction, negation
 from tumato_symbolic.verify.result import CertificateUse, PropertyName, PropertyResult
-from tumato_symbolic.verify.solver import UndecidedError
-from tumato_symbolic.verify.step_property import prove_safe, prove_total
-from tumato_symbolic.verify.terms import conjunction, negation
 
 
 class Z3Prover:

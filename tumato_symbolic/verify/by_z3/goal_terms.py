@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from tumato_symbolic.semantics import Residual
 from tumato_symbolic.spec import ConditionalGoal, Goal, SimpleGoal, Spec, executing_atoms
-from tumato_symbolic.verify.encoding import Place, formula_term
-from tumato_symbolic.verify.terms import Term, conjunction, disjunction, negation
+from tumato_symbolic.verify.by_z3.encoding import Place, formula_term
+from tumato_symbolic.verify.by_z3.terms import Term, conjunction, disjunction, negation
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,10 +7,10 @@ from functools import cached_property
 
 from tumato_symbolic.policy.model import Policy
 from tumato_symbolic.semantics import Residual
+from tumato_symbolic.verify.by_walk.goals import WalkGoals
+from tumato_symbolic.verify.by_walk.model import Model
+from tumato_symbolic.verify.by_walk.walk import FALSE, Function
 from tumato_symbolic.verify.given import UNNEEDED, GivenRanks
-from tumato_symbolic.verify.walk import FALSE, Function
-from tumato_symbolic.verify.walk_goals import WalkGoals
-from tumato_symbolic.verify.walk_model import Model
 
 
 def at_most_one_more(one: int, other: int) -> int:

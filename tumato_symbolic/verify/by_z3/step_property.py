@@ -8,12 +8,12 @@ from typing import Any
 
 from tumato_symbolic.semantics import ActionSet, Objection, State, objections
 from tumato_symbolic.spec import Ordering
-from tumato_symbolic.verify.encoding import formula_term
-from tumato_symbolic.verify.frame import Frame
-from tumato_symbolic.verify.outcomes import UnsafeOutcome
+from tumato_symbolic.verify.by_z3.encoding import formula_term
+from tumato_symbolic.verify.by_z3.frame import Frame
+from tumato_symbolic.verify.by_z3.outcomes import UnsafeOutcome
+from tumato_symbolic.verify.by_z3.solver import UndecidedError
+from tumato_symbolic.verify.by_z3.terms import Term, at_most_one, conjunction, disjunction, negation
 from tumato_symbolic.verify.result import PropertyResult, Refutation
-from tumato_symbolic.verify.solver import UndecidedError
-from tumato_symbolic.verify.terms import Term, at_most_one, conjunction, disjunction, negation
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from tumato_symbolic.semantics import ActionSet, Residual, State, action_names, named
 from tumato_symbolic.spec import Spec, canonical_text
-from tumato_symbolic.verify.allowed_step import FalseClaimError
+from tumato_symbolic.verify.no_policy.allowed_step import FalseClaimError
 
 
 def named_goal(spec: Spec, bodies: Sequence[str], executed: Sequence[str]) -> Residual:

@@ -16,14 +16,14 @@ from tumato_symbolic.semantics import (
     residual_goal,
 )
 from tumato_symbolic.spec import Ordering
-from tumato_symbolic.verify.certificate import RankSource
-from tumato_symbolic.verify.choice import Choice
-from tumato_symbolic.verify.frame import Frame, unknown_bits
-from tumato_symbolic.verify.outcomes import objections_to
-from tumato_symbolic.verify.rank_terms import RankFunction
+from tumato_symbolic.verify.by_z3.choice import Choice
+from tumato_symbolic.verify.by_z3.frame import Frame, unknown_bits
+from tumato_symbolic.verify.by_z3.outcomes import objections_to
+from tumato_symbolic.verify.by_z3.rank_source import RankSource
+from tumato_symbolic.verify.by_z3.rank_terms import RankFunction
+from tumato_symbolic.verify.by_z3.solver import UndecidedError
+from tumato_symbolic.verify.by_z3.terms import Term, implies, negation
 from tumato_symbolic.verify.result import PropertyResult, Refutation
-from tumato_symbolic.verify.solver import UndecidedError
-from tumato_symbolic.verify.terms import Term, implies, negation
 
 Cheaper: TypeAlias = tuple[State, ActionSet, Run]
 

@@ -10,12 +10,12 @@ import z3
 
 from tumato_symbolic.semantics import ActionSet, State, is_safe, successor
 from tumato_symbolic.spec import Ordering, Spec
-from tumato_symbolic.verify.choice import Choice
-from tumato_symbolic.verify.encoding import Place, safe_term
-from tumato_symbolic.verify.goal_terms import GoalTerms
-from tumato_symbolic.verify.outcomes import objections_to
-from tumato_symbolic.verify.solver import Solver, UndecidedError
-from tumato_symbolic.verify.terms import Term, conjunction
+from tumato_symbolic.verify.by_z3.choice import Choice
+from tumato_symbolic.verify.by_z3.encoding import Place, safe_term
+from tumato_symbolic.verify.by_z3.goal_terms import GoalTerms
+from tumato_symbolic.verify.by_z3.outcomes import objections_to
+from tumato_symbolic.verify.by_z3.solver import Solver, UndecidedError
+from tumato_symbolic.verify.by_z3.terms import Term, conjunction
 
 Step: TypeAlias = tuple[State, ActionSet, State]
 """A state, a set that is allowed in it, and the nominal successor."""

@@ -14,8 +14,8 @@ from functools import cached_property
 from tumato_symbolic.policy.model import DecisionDiagram
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import And, Assignment, Constant, Executing, Formula, Iff, Is, Not, Or, Ordering, Spec
-from tumato_symbolic.verify.walk import FALSE, TRUE, Function, Walk
-from tumato_symbolic.verify.walk_order import conflicting, disagreeing, exclusive_groups, walk_order
+from tumato_symbolic.verify.by_walk.order import conflicting, disagreeing, exclusive_groups, walk_order
+from tumato_symbolic.verify.by_walk.walk import FALSE, TRUE, Function, Walk
 
 MOST_CASES = 128
 """Where the policy nominally writes at most so many different things, each is looked at apart."""

@@ -7,8 +7,8 @@ from functools import cached_property
 
 from tumato_symbolic.semantics import Residual
 from tumato_symbolic.spec import ConditionalGoal, Goal, SimpleGoal, executing_atoms
-from tumato_symbolic.verify.walk import FALSE, TRUE, Function
-from tumato_symbolic.verify.walk_model import Model
+from tumato_symbolic.verify.by_walk.model import Model
+from tumato_symbolic.verify.by_walk.walk import FALSE, TRUE, Function
 
 
 class WalkGoals:

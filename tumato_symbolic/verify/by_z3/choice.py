@@ -10,7 +10,7 @@ import z3
 
 from tumato_symbolic.semantics import ActionSet, Objection
 from tumato_symbolic.spec import Spec
-from tumato_symbolic.verify.encoding import (
+from tumato_symbolic.verify.by_z3.encoding import (
     Place,
     agreement_terms,
     formula_term,
@@ -18,8 +18,8 @@ from tumato_symbolic.verify.encoding import (
     safe_term,
     successor_place,
 )
-from tumato_symbolic.verify.solver import Solver
-from tumato_symbolic.verify.terms import Number, Term, at_most_one, conjunction, disjunction, implies
+from tumato_symbolic.verify.by_z3.solver import Solver
+from tumato_symbolic.verify.by_z3.terms import Number, Term, at_most_one, conjunction, disjunction, implies
 
 
 class Choice:

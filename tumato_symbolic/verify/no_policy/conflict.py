@@ -13,12 +13,12 @@ import z3
 from tumato_symbolic.policy.unrealizable import Conflict, Cut
 from tumato_symbolic.semantics import Residual, is_valid, reached, residual_goal
 from tumato_symbolic.spec import Spec
-from tumato_symbolic.verify.allowed_step import AllowedStep, FalseClaimError, is_state
-from tumato_symbolic.verify.distances import Distances
-from tumato_symbolic.verify.goal_terms import reached_term
-from tumato_symbolic.verify.named_goals import goal_text, named_goal, set_text, state_text
-from tumato_symbolic.verify.solver import Solver, UndecidedError
-from tumato_symbolic.verify.terms import Term, at_most_one, conjunction, disjunction, negation
+from tumato_symbolic.verify.by_z3.goal_terms import reached_term
+from tumato_symbolic.verify.by_z3.solver import Solver, UndecidedError
+from tumato_symbolic.verify.by_z3.terms import Term, at_most_one, conjunction, disjunction, negation
+from tumato_symbolic.verify.no_policy.allowed_step import AllowedStep, FalseClaimError, is_state
+from tumato_symbolic.verify.no_policy.distances import Distances
+from tumato_symbolic.verify.no_policy.named_goals import goal_text, named_goal, set_text, state_text
 
 Pick: TypeAlias = tuple[int, int]
 """An option (by number) of a choice (by number)."""

@@ -8,12 +8,12 @@ from dataclasses import replace
 from tumato_symbolic.policy.unrealizable import NoAllowedSet, NoPlan, Unrealizability
 from tumato_symbolic.policy.unrealizable_file import bind
 from tumato_symbolic.spec import Ordering, Spec, digest
-from tumato_symbolic.verify.allowed_step import AllowedStep, FalseClaimError
-from tumato_symbolic.verify.conflict import check_conflict
-from tumato_symbolic.verify.no_allowed_set import check_no_allowed_set
-from tumato_symbolic.verify.no_plan import check_no_plan
+from tumato_symbolic.verify.by_z3.solver import UndecidedError
+from tumato_symbolic.verify.no_policy.allowed_step import AllowedStep, FalseClaimError
+from tumato_symbolic.verify.no_policy.conflict import check_conflict
+from tumato_symbolic.verify.no_policy.no_allowed_set import check_no_allowed_set
+from tumato_symbolic.verify.no_policy.no_plan import check_no_plan
 from tumato_symbolic.verify.result import UnrealizabilityKind, UnrealizabilityVerdict
-from tumato_symbolic.verify.solver import UndecidedError
 
 OBLIGATION_BUDGET = 30.0
 """How many seconds Z3 may think about one obligation."""

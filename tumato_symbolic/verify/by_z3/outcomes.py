@@ -21,9 +21,9 @@ from tumato_symbolic.semantics import (
     objections,
 )
 from tumato_symbolic.spec import Action, Ordering, Spec
-from tumato_symbolic.verify.encoding import Place, agreement_terms, is_true, safe_term
-from tumato_symbolic.verify.solver import Solver, UndecidedError
-from tumato_symbolic.verify.terms import Number, Term, at_most_one, conjunction, disjunction, implies, negation
+from tumato_symbolic.verify.by_z3.encoding import Place, agreement_terms, is_true, safe_term
+from tumato_symbolic.verify.by_z3.solver import Solver, UndecidedError
+from tumato_symbolic.verify.by_z3.terms import Number, Term, at_most_one, conjunction, disjunction, implies, negation
 
 LISTED_ACTIONS = 6
 """Of up to so many actions all outcomes are listed."""

@@ -20,12 +20,12 @@ from tumato_symbolic.semantics import (
     successor,
 )
 from tumato_symbolic.spec import Ordering, Spec, canonical_text
-from tumato_symbolic.verify.allowed_step import AllowedStep, FalseClaimError, is_state
-from tumato_symbolic.verify.encoding import Place, formula_term
-from tumato_symbolic.verify.named_goals import set_text, state_text
-from tumato_symbolic.verify.outcomes import replay
-from tumato_symbolic.verify.solver import Solver, UndecidedError
-from tumato_symbolic.verify.terms import Term
+from tumato_symbolic.verify.by_z3.encoding import Place, formula_term
+from tumato_symbolic.verify.by_z3.outcomes import replay
+from tumato_symbolic.verify.by_z3.solver import Solver, UndecidedError
+from tumato_symbolic.verify.by_z3.terms import Term
+from tumato_symbolic.verify.no_policy.allowed_step import AllowedStep, FalseClaimError, is_state
+from tumato_symbolic.verify.no_policy.named_goals import set_text, state_text
 
 _CLAIM: Final = "no set is allowed in the state"
 

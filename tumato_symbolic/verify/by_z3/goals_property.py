@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from tumato_symbolic.semantics import Residual, State, follow
-from tumato_symbolic.verify.certificate import RankSource
+from tumato_symbolic.verify.by_z3.encoding import is_true
+from tumato_symbolic.verify.by_z3.frame import Frame
+from tumato_symbolic.verify.by_z3.rank_source import RankSource
+from tumato_symbolic.verify.by_z3.rank_terms import RankProof
+from tumato_symbolic.verify.by_z3.solver import UndecidedError
+from tumato_symbolic.verify.by_z3.terms import conjunction, negation, same
 from tumato_symbolic.verify.decisions import LARGEST_TABLE
-from tumato_symbolic.verify.encoding import is_true
-from tumato_symbolic.verify.frame import Frame
-from tumato_symbolic.verify.rank_terms import RankProof
 from tumato_symbolic.verify.result import PropertyResult, Refutation
-from tumato_symbolic.verify.solver import UndecidedError
-from tumato_symbolic.verify.terms import conjunction, negation, same
 
 
 def prove_goals(frame: Frame, source: RankSource) -> PropertyResult:

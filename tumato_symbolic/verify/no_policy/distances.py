@@ -8,9 +8,9 @@ import z3
 
 from tumato_symbolic.policy.diagram import Diagram, Reference
 from tumato_symbolic.semantics import State
-from tumato_symbolic.verify.allowed_step import FalseClaimError
-from tumato_symbolic.verify.encoding import Place, diagram_terms
-from tumato_symbolic.verify.terms import Number, Term, conjunction
+from tumato_symbolic.verify.by_z3.encoding import Place, diagram_terms
+from tumato_symbolic.verify.by_z3.terms import Number, Term, conjunction
+from tumato_symbolic.verify.no_policy.allowed_step import FalseClaimError
 
 
 class Distances:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from tumato_symbolic.policy.diagram import Diagram
 from tumato_symbolic.policy.unrealizable import Layers, NoPlan
 from tumato_symbolic.semantics import Residual, is_valid, residual_goal
-from tumato_symbolic.verify.allowed_step import AllowedStep, FalseClaimError, Step, is_state
-from tumato_symbolic.verify.encoding import diagram_terms
-from tumato_symbolic.verify.goal_terms import reached_term
-from tumato_symbolic.verify.named_goals import goal_text, named_goal, set_text, state_text
-from tumato_symbolic.verify.terms import disjunction, negation
+from tumato_symbolic.verify.by_z3.encoding import diagram_terms
+from tumato_symbolic.verify.by_z3.goal_terms import reached_term
+from tumato_symbolic.verify.by_z3.terms import disjunction, negation
+from tumato_symbolic.verify.no_policy.allowed_step import AllowedStep, FalseClaimError, Step, is_state
+from tumato_symbolic.verify.no_policy.named_goals import goal_text, named_goal, set_text, state_text
 
 
 def check_no_plan(reason: NoPlan, step: AllowedStep) -> int:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from tumato_symbolic.policy.model import Policy
 from tumato_symbolic.semantics import Residual, State
 from tumato_symbolic.spec import Ordering
+from tumato_symbolic.verify.by_z3.frame import Frame
+from tumato_symbolic.verify.by_z3.outcomes import objections_to
+from tumato_symbolic.verify.by_z3.rank_terms import RankFunction, RankProof
+from tumato_symbolic.verify.by_z3.solver import UndecidedError
 from tumato_symbolic.verify.decisions import Decisions, Ranks
-from tumato_symbolic.verify.frame import Frame
 from tumato_symbolic.verify.given import UNNEEDED, GivenRanks
-from tumato_symbolic.verify.outcomes import objections_to
-from tumato_symbolic.verify.rank_terms import RankFunction, RankProof
-from tumato_symbolic.verify.solver import UndecidedError
 
 
 class RankSource(GivenRanks):

@@ -12,11 +12,11 @@ import z3
 
 from tumato_symbolic.policy.diagram import Diagram, Reference
 from tumato_symbolic.semantics import Residual, State
-from tumato_symbolic.verify.encoding import Place, diagram_terms
-from tumato_symbolic.verify.frame import Frame
-from tumato_symbolic.verify.goal_terms import reached_term
-from tumato_symbolic.verify.solver import Answer, UndecidedError
-from tumato_symbolic.verify.terms import Number, Term, conjunction, disjunction, either, negation
+from tumato_symbolic.verify.by_z3.encoding import Place, diagram_terms
+from tumato_symbolic.verify.by_z3.frame import Frame
+from tumato_symbolic.verify.by_z3.goal_terms import reached_term
+from tumato_symbolic.verify.by_z3.solver import Answer, UndecidedError
+from tumato_symbolic.verify.by_z3.terms import Number, Term, conjunction, disjunction, either, negation
 
 AT_ONCE = 1.0
 """How many seconds Z3 may think about all ranks and decisions at once, before they are asked one by one."""

@@ -1,0 +1,1 @@
+"""Policies proved by Z3 (`docs/certificate.md`, "The obligations")."""
