@@ -13,34 +13,53 @@ Value = TypeVar("Value", bound=Hashable)
 
 
 class Extractor(Generic[Value]):
-    """Turns functions of the state, given as disjoint sets with a value each, into nodes of one shared diagram."""
+    """Turns functions of the state, given as disjoint sets with a value each, into nodes of one shared diagram.
+
+    The parts of a function are numbered, the default being 0, and only the digits of these numbers are followed down the
+    diagrams: of 30 ranks, 5 sets.
+    """
 
     def __init__(self, encoding: Encoding, builder: DiagramBuilder[Value], default: Value) -> None:
-        self._encoding = encoding
+        self._manager = encoding.manager
         self._default = default
         self._node = builder.node
         self._leaf = builder.leaf
-        self._known: dict[tuple[int, tuple[tuple[Value, Bdd], ...]], Reference] = {}
+        self._values = [
+            [number_bits(encoding.state_bits[variable], number) for number in range(len(declared.values))]
+            for variable in encoding.order
+            for declared in (encoding.spec.variables[variable],)
+        ]
+        self._tested = {
+            encoding.manager.level(bit): level
+            for level, variable in enumerate(encoding.order)
+            for bit in encoding.state_bits[variable]
+        }
+        self._known: dict[tuple[Reference, ...], dict[tuple[Bdd, ...], Reference]] = {}
 
     def function(self, parts: Sequence[tuple[Value, Bdd]]) -> Reference:
         """The reference of the function that has each part's value in that part and the default elsewhere."""
-        false = self._encoding.manager.false
-        return self._build(0, tuple(part for part in parts if part[1] != false))
+        leaves = (self._leaf(self._default), *(self._leaf(value) for value, _ in parts))
+        digits = tuple(
+            self._manager.union(states for number, (_, states) in enumerate(parts, 1) if number >> digit & 1)
+            for digit in range(len(parts).bit_length())
+        )
+        return self._build(digits, leaves, self._known.setdefault(leaves, {}))
 
-    def _build(self, level: int, parts: tuple[tuple[Value, Bdd], ...]) -> Reference:
-        manager = self._encoding.manager
-        if not parts:
-            return self._leaf(self._default)
-        if parts[0][1] == manager.true:
-            return self._leaf(parts[0][0])
-        key = (level, parts)
-        if key not in self._known:
-            variable = self._encoding.order[level]
-            below = []
-            for number in range(len(self._encoding.spec.variables[variable].values)):
-                constants = number_bits(self._encoding.state_bits[variable], number)
-                rest = ((value, manager.cofactor(part, constants)) for value, part in parts)
-                kept = tuple(part for part in rest if part[1] != manager.false)
-                below.append(self._build(level + 1, kept))
-            self._known[key] = self._node(level, tuple(below))
-        return self._known[key]
+    def _build(
+        self, digits: tuple[Bdd, ...], leaves: tuple[Reference, ...], known: dict[tuple[Bdd, ...], Reference]
+    ) -> Reference:
+        found = known.get(digits)
+        if found is None:
+            manager = self._manager
+            inner = [manager.top(digit) for digit in digits if digit not in (manager.true, manager.false)]
+            if inner:
+                level = self._tested[min(inner)]
+                below = [
+                    self._build(tuple([manager.cofactor(digit, value) for digit in digits]), leaves, known)
+                    for value in self._values[level]
+                ]
+                found = self._node(level, tuple(below))
+            else:
+                found = leaves[sum((digit == manager.true) << place for place, digit in enumerate(digits))]
+            known[digits] = found
+        return found

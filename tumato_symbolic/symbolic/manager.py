@@ -176,6 +176,15 @@ class Manager:
             result = result & part
         return result
 
+    def level(self, bit: str) -> int:
+        """Where a bit stands in the order; 0 is the top."""
+        return self._level[bit]
+
+    def top(self, u: Any) -> int:  # noqa: ANN401 - dd has no types
+        """The level of the first bit on which `u`, which is neither empty nor everything, depends."""
+        level: int = u.level
+        return level
+
     def branches(self, u: Any) -> tuple[int, Bdd, Bdd]:  # noqa: ANN401 - dd has no types
         """`(level, low, high)` of a set that is neither empty nor everything."""
         low, high = u.low, u.high

@@ -56,15 +56,19 @@ class Steps:
             relation = manager.union(moved)
         return relation
 
-    def moves(self, relation: Bdd, most: int) -> dict[Assignment, Bdd] | None:
-        """The states of a relation by what its sets nominally write, all effects together; None if that is too much."""
+    def moves(self, relation: Bdd, most: int, *, keep_sets: bool = False) -> dict[Assignment, Bdd] | None:
+        """The states of a relation by what its sets nominally write, all effects together; None if that is too much.
+
+        With `keep_sets` its pairs, instead of their states alone. `most` is the largest number of moves that is not too
+        much.
+        """
         manager = self.encoding.manager
         found: dict[Assignment, Bdd] = {(): relation}
         for group, options in zip(self.encoding.groups, self.encoding.nominal_moves, strict=True):
             split: dict[Assignment, Bdd] = {}
             for written, pairs in found.items():
                 for effect, choices in options:
-                    part = manager.and_exists(group.bits, pairs, choices)
+                    part = pairs & choices if keep_sets else manager.and_exists(group.bits, pairs, choices)
                     if part != manager.false:
                         both = tuple(sorted({*written, *effect}))
                         split[both] = split.get(both, manager.false) | part

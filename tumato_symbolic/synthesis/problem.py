@@ -75,7 +75,21 @@ def by_any_step(problem: Problem, relation: Bdd) -> Predecessor:
 
 
 MOST_MOVES = 100
-"""A policy that does more different things is composed as a whole."""
+"""A relation whose sets do more different things is taken as a whole."""
+
+
+def leading(problem: Problem, relation: Bdd) -> Callable[[Bdd], Bdd]:
+    """Those pairs of a relation that lead into a set of states.
+
+    Where the pairs do few different things they are taken move by move: what leads into a set by one move is a cofactor.
+    """
+    steps, manager = problem.steps, problem.encoding.manager
+    exclusive = max(map(len, problem.encoding.nominal_moves), default=0)
+    moves = steps.moves(relation, max(MOST_MOVES, exclusive), keep_sets=True)
+    if moves is None:
+        return lambda target: relation & steps.before(target)
+    cofactors = [(problem.encoding.assignment_bits(effect), pairs) for effect, pairs in moves.items()]
+    return lambda target: manager.union(pairs & manager.cofactor(target, effect) for effect, pairs in cofactors)
 
 
 def by_policy(problem: Problem, policy: Bdd) -> Predecessor:

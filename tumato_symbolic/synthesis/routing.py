@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from tumato_symbolic.symbolic import Bdd, Target, preferred
-from tumato_symbolic.synthesis.problem import Layers, Problem, attractor, by_policy
+from tumato_symbolic.synthesis.problem import Layers, Problem, attractor, by_policy, leading
 
 
 def own_region_policy(problem: Problem) -> Bdd:
@@ -28,10 +28,11 @@ def _nearest_first(problem: Problem, target: Target, here: Bdd) -> Bdd:
     others end in it.
     """
     policy, undecided, front, steps = problem.false, here, target.states, 0
-    bound = problem.spec.max_plan_length
+    bound, into = problem.spec.max_plan_length, leading(problem, target.owed & here)
     while problem.false not in {undecided, front} and (bound is None or steps < bound):
-        decided = undecided & problem.steps.predecessor(target.owed & undecided, front)
-        policy = policy | preferred(problem.encoding, target.owed & decided & problem.steps.before(front))
+        pairs = undecided & into(front)
+        decided = problem.steps.states_of(pairs)
+        policy = policy | preferred(problem.encoding, pairs)
         undecided, front, steps = undecided & ~decided, decided & ~target.states, steps + 1
     return policy
 
@@ -66,12 +67,12 @@ def _by_steps(
     problem: Problem, owing: Sequence[Target], ranks: Sequence[Layers], states: Bdd, relation: Bdd
 ) -> Iterator[Bdd]:
     """The pairs that reach what they owe in one step, in two, and so on; empty sets are left out."""
-    relation = relation & states
+    parts = [
+        (leading(problem, relation & states & target.owed), layers) for target, layers in zip(owing, ranks, strict=True)
+    ]
     for rank in range(max(map(len, ranks), default=0)):
         pairs = problem.encoding.manager.union(
-            relation & target.owed & problem.steps.before(layers[rank])
-            for target, layers in zip(owing, ranks, strict=True)
-            if rank < len(layers) and layers[rank] != problem.false
+            into(layers[rank]) for into, layers in parts if rank < len(layers) and layers[rank] != problem.false
         )
         if pairs != problem.false:
             yield pairs
