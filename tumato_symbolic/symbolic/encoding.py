@@ -14,6 +14,7 @@ from functools import cached_property
 from tumato_symbolic.semantics import ActionSet, State, nominal_agrees
 from tumato_symbolic.spec import And, Assignment, Constant, Executing, Formula, Iff, Is, Not, Or, Spec
 from tumato_symbolic.symbolic.manager import NO_LIMITS, Backend, Bdd, Limits, Manager
+from tumato_symbolic.symbolic.order import variable_order
 
 
 @dataclass(frozen=True, slots=True)
@@ -214,7 +215,7 @@ def encode(spec: Spec, backend: Backend, limits: Limits = NO_LIMITS) -> Encoding
         tuple(f"v{number}.{bit}" for bit in range((len(variable.values) - 1).bit_length()))
         for number, variable in enumerate(spec.variables)
     )
-    order = tuple(range(len(spec.variables)))
+    order = variable_order(spec)
     above: dict[int, list[Group]] = {}
     for group in groups:
         written = (v for action in group.actions for effect in spec.actions[action].effects for v, _ in effect)

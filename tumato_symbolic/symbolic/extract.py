@@ -15,8 +15,8 @@ Value = TypeVar("Value", bound=Hashable)
 class Extractor(Generic[Value]):
     """Turns functions of the state, given as disjoint sets with a value each, into nodes of one shared diagram.
 
-    The parts of a function are numbered, the default being 0, and only the digits of these numbers are followed down the
-    diagrams: of 30 ranks, 5 sets.
+    The parts of a function are numbered, the default being 0, and only the digits of these numbers are followed down
+    the diagrams: of 30 ranks, 5 sets.
     """
 
     def __init__(self, encoding: Encoding, builder: DiagramBuilder[Value], default: Value) -> None:

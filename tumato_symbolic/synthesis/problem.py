@@ -81,7 +81,7 @@ MOST_MOVES = 100
 def leading(problem: Problem, relation: Bdd) -> Callable[[Bdd], Bdd]:
     """Those pairs of a relation that lead into a set of states.
 
-    Where the pairs do few different things they are taken move by move: what leads into a set by one move is a cofactor.
+    Where the pairs do few different things they are taken move by move: the predecessor under one is a cofactor.
     """
     steps, manager = problem.steps, problem.encoding.manager
     exclusive = max(map(len, problem.encoding.nominal_moves), default=0)
