@@ -24,7 +24,7 @@ def family(name: str, size: int) -> Spec:
 
 
 def answer(outcome: Outcome) -> object:
-    """What was decided: all decisions, or all failing states; conflicts are minimal sets, of which there may be many."""
+    """All decisions, or all failing states; of a conflict its kind: there may be many minimal sets."""
     match outcome:
         case Realizable(policy):
             assert isinstance(policy.decisions, Table)

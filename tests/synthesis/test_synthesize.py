@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from importlib import import_module
+from itertools import combinations
 
 import pytest
 
@@ -11,7 +12,7 @@ from tests.semantics.build import Build, chosen, constraint, priority, when
 from tumato_symbolic.diagnostics import Code, UserError
 from tumato_symbolic.policy import Policy, Table, as_table, dumps
 from tumato_symbolic.semantics import ActionSet, State, judge
-from tumato_symbolic.spec import FALSE, And, Iff, Is, Not, Or, Spec
+from tumato_symbolic.spec import FALSE, And, Is, Not, Or, Spec
 from tumato_symbolic.symbolic import Backend, Limits, available_backend
 from tumato_symbolic.synthesis import Outcome, Realizable, Undecided, Unrealizable, synthesize
 
@@ -262,10 +263,10 @@ def test_a_time_limit_ends_in_undecided(backend: Backend) -> None:
 
 @pytest.mark.skipif(available_backend() == "autoref", reason="only CUDD bounds its memory")
 def test_a_memory_limit_ends_in_undecided() -> None:
-    """A rule whose diagram grows with the order of its variables runs into the limit, not into the ground."""
-    pairs = 20
-    build = Build({f"v{number}": "ab" for number in range(2 * pairs)})
-    same = [Iff(Is(number, 0), Is(number + pairs, 0)) for number in range(pairs)]
-    outcome = synthesize(build.spec(state_rules=same), limits=Limits(megabytes=8))
+    """Rules whose diagram is large in any order of the variables run into the limit, not into the ground."""
+    boxes = 14
+    build = Build({f"v{box}": "abcdefghijklmn" for box in range(boxes)})
+    apart = [Not(And((Is(i, p), Is(j, p)))) for i, j in combinations(range(boxes), 2) for p in range(boxes)]
+    outcome = synthesize(build.spec(state_rules=apart), limits=Limits(megabytes=8))
     assert isinstance(outcome, Undecided)
     assert "memory limit of 8 MB" in outcome.limit
