@@ -14,7 +14,7 @@ from tumato_symbolic.policy import Policy
 from tumato_symbolic.spec import GoalList, Spec
 from tumato_symbolic.symbolic import extract, goals, steps
 from tumato_symbolic.symbolic.encoding import Encoding
-from tumato_symbolic.synthesis import restoring
+from tumato_symbolic.synthesis import fixpoints, judging, restoring, routing
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -82,8 +82,12 @@ def _predecessor(patch: pytest.MonkeyPatch) -> None:
 
         return run
 
+    leading = fixpoints.leading
     patch.setattr(steps, "nominal_predecessor", mistaken(steps.nominal_predecessor))
     patch.setattr(steps.Steps, "next_state", mistaken(steps.Steps.next_state))
+    patch.setattr(fixpoints.Course, "predecessor", mistaken(fixpoints.Course.predecessor))
+    for room in (routing, judging):
+        patch.setattr(room, "leading", lambda *given: mistaken(mistaken(leading)(*given)))
 
 
 def _order_of_effects(patch: pytest.MonkeyPatch) -> None:

@@ -8,10 +8,12 @@ from dataclasses import replace
 from tumato_symbolic.explain.conditions import Conditions
 from tumato_symbolic.explain.elements import Elements
 from tumato_symbolic.explain.minimize import minimal
-from tumato_symbolic.explain.plans import distances, pose_kept
+from tumato_symbolic.explain.plans import pose_kept
 from tumato_symbolic.semantics import State
 from tumato_symbolic.symbolic import Bdd, preferred, regions
-from tumato_symbolic.synthesis.problem import Problem, served
+from tumato_symbolic.synthesis.fixpoints import distances
+from tumato_symbolic.synthesis.judging import Judge, served
+from tumato_symbolic.synthesis.problem import Problem
 from tumato_symbolic.synthesis.repair import Impossible, Repair
 from tumato_symbolic.synthesis.routing import shortest_decisions
 
@@ -36,7 +38,7 @@ def served_together(conditions: Conditions, wanted: Bdd, kept: Elements) -> bool
     if (wanted & ~served(problem, ranks, problem.steps.allowed)) != conditions.false:
         return False
     policy = shortest_decisions(problem, ranks, problem.steps.safe, problem.steps.allowed)
-    return not isinstance(Repair(problem, _completed(problem, policy), ranks).run(), Impossible)
+    return not isinstance(Repair(Judge(problem), _completed(problem, policy), ranks).run(), Impossible)
 
 
 def _completed(problem: Problem, policy: Bdd) -> Bdd:

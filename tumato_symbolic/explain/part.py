@@ -8,13 +8,15 @@ from dataclasses import dataclass, replace
 
 from tumato_symbolic.diagnostics import Span
 from tumato_symbolic.explain.conditions import Conditions
-from tumato_symbolic.explain.plans import distances, restricted
+from tumato_symbolic.explain.plans import restricted
 from tumato_symbolic.explain.predicates import predicate_text, shortest_formula
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Formula, Rule, Spec
 from tumato_symbolic.symbolic import Bdd, targets
 from tumato_symbolic.synthesis import Realizable, Unrealizable, synthesize
-from tumato_symbolic.synthesis.problem import Problem, served
+from tumato_symbolic.synthesis.fixpoints import distances
+from tumato_symbolic.synthesis.judging import served
+from tumato_symbolic.synthesis.problem import Problem
 
 CHOICES = 200
 """So many ways out of conflicts are tried at most."""

@@ -7,7 +7,9 @@ from dataclasses import replace
 from tumato_symbolic.explain.conditions import Conditions
 from tumato_symbolic.explain.elements import Element, Elements
 from tumato_symbolic.symbolic import Bdd, Regions, targets
-from tumato_symbolic.synthesis.problem import Layers, Problem, attractor, by_any_step, served
+from tumato_symbolic.synthesis.fixpoints import distances
+from tumato_symbolic.synthesis.judging import served
+from tumato_symbolic.synthesis.problem import Problem
 
 
 def pose_kept(conditions: Conditions, kept: Elements, regions: Regions) -> Problem:
@@ -16,13 +18,6 @@ def pose_kept(conditions: Conditions, kept: Elements, regions: Regions) -> Probl
     bound = conditions.spec.max_plan_length if Element("plan-bound") in kept else None
     spec = replace(conditions.encoding.spec, max_plan_length=bound)
     return Problem(spec, steps, regions, tuple(targets(steps, regions)))
-
-
-def distances(problem: Problem) -> tuple[Layers, ...]:
-    """How far every state is from each target when any allowed steps may be taken."""
-    step = by_any_step(problem, problem.steps.allowed)
-    within, limit = problem.steps.safe, problem.last_layer
-    return tuple(attractor(problem, target.states, step, within, limit) for target in problem.targets)
 
 
 def failing(conditions: Conditions, kept: Elements, states: Bdd) -> Bdd:

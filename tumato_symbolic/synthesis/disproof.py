@@ -30,7 +30,7 @@ from tumato_symbolic.semantics import (
 from tumato_symbolic.spec import Rule, Spec, canonical_text, digest
 from tumato_symbolic.symbolic import Bdd, Extractor
 from tumato_symbolic.synthesis.certificate import goal_names
-from tumato_symbolic.synthesis.problem import Layers as Ranks
+from tumato_symbolic.synthesis.fixpoints import Layers as Ranks
 from tumato_symbolic.synthesis.problem import Problem
 from tumato_symbolic.synthesis.repair import Impossible
 

@@ -3,34 +3,35 @@
 from __future__ import annotations
 
 from tumato_symbolic.symbolic import Bdd, preferred
-from tumato_symbolic.synthesis.problem import Layers, Problem, evaluate, serves_all
+from tumato_symbolic.synthesis.fixpoints import Layers, alike, mixed
+from tumato_symbolic.synthesis.judging import Evaluation, Judge
+from tumato_symbolic.synthesis.problem import Problem
 from tumato_symbolic.synthesis.routing import shortest_decisions
 
 TRIES_TO_GIVE_BACK = 200
 """How many evaluations are spent on undoing changes that turned out not to be needed."""
 
 
-def override(problem: Problem, policy: Bdd, distances: tuple[Layers, ...]) -> Bdd:
+def override(judge: Judge, found: Evaluation, distances: tuple[Layers, ...]) -> Evaluation:
     """A policy under which fewer states fail, or the given one: failing states get their shortest run.
 
     Every state on such a run follows it, whatever its own goals are. All states are judged again after the change for
     one target, which is kept when fewer of them fail. What still fails then needs a closer look (`Repair`).
     """
-    count = problem.encoding.count_states
-    failing = evaluate(problem, policy).failing
+    problem, count = judge.problem, judge.problem.encoding.count_states
     improved = True
-    while improved and failing != problem.false:
+    while improved and found.failing != problem.false:
         improved = False
         for number in range(len(problem.targets)):
-            candidate = _towards(problem, policy, failing, distances, number)
-            if candidate == policy:
+            candidate = _towards(problem, found.course.policy, found.failing, distances, number)
+            if candidate == found.course.policy:
                 continue
-            still = evaluate(problem, candidate).failing
-            if count(still) < count(failing):
-                policy, failing, improved = candidate, still, True
-            if failing == problem.false:
+            judged = judge.evaluate(candidate)
+            if count(judged.failing) < count(found.failing):
+                found, improved = judged, True
+            if found.failing == problem.false:
                 break
-    return policy
+    return found
 
 
 def _towards(problem: Problem, policy: Bdd, failing: Bdd, distances: tuple[Layers, ...], number: int) -> Bdd:
@@ -56,23 +57,25 @@ def _towards(problem: Problem, policy: Bdd, failing: Bdd, distances: tuple[Layer
     return changed | (policy & ~steps.states_of(changed))
 
 
-def give_back(problem: Problem, before: Bdd, after: Bdd) -> Bdd:
+def give_back(judge: Judge, before: Bdd, after: Bdd) -> Bdd:
     """`after` with as many decisions of `before` as fit without a failing state; what does not go is halved.
 
     Both policies are defined in every safe state, and none fails under `after`.
     """
+    problem = judge.problem
     pending = [problem.steps.states_of(after & ~before)]
     suspects = list(range(len(problem.targets)))
+    earlier, now = alike(problem, (before, after))
     tries = 0
     while pending and tries < TRIES_TO_GIVE_BACK:
         states = pending.pop()
-        candidate = (after & ~states) | (before & states)
+        candidate = mixed(now, earlier, states)
         tries += 1
-        if serves_all(problem, candidate, suspects):
-            after = candidate
+        if judge.serves_all(candidate, suspects):
+            now = candidate
         else:
             pending += reversed(_halves(problem, states))
-    return after
+    return now.policy
 
 
 def _halves(problem: Problem, states: Bdd) -> list[Bdd]:

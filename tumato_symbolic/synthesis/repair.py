@@ -13,7 +13,8 @@ from dataclasses import dataclass
 
 from tumato_symbolic.semantics import ActionSet, State, successor
 from tumato_symbolic.symbolic import Bdd, preferred
-from tumato_symbolic.synthesis.problem import Layers, Problem, evaluate
+from tumato_symbolic.synthesis.fixpoints import Layers
+from tumato_symbolic.synthesis.judging import Judge
 from tumato_symbolic.synthesis.solver import Choices, Pick
 
 NARROW_ROUNDS = 24
@@ -64,8 +65,9 @@ class Impossible:
 class Repair:
     """Repairs a policy that is defined in every safe state. `distances` are the layers of all allowed runs."""
 
-    def __init__(self, problem: Problem, policy: Bdd, distances: tuple[Layers, ...]) -> None:
-        self._problem = problem
+    def __init__(self, judge: Judge, policy: Bdd, distances: tuple[Layers, ...]) -> None:
+        self._judge = judge
+        self._problem = problem = judge.problem
         self._policy = policy
         self._distances = distances
         self._choices = Choices(problem.encoding.manager)
@@ -95,7 +97,7 @@ class Repair:
                 return picked
             self._picked = picked
             candidate = self._current()
-            failing = evaluate(self._problem, candidate).failing & required
+            failing = self._judge.evaluate(candidate).failing & required
             if failing == self._problem.false:
                 return candidate
             self._explain_some(failing)

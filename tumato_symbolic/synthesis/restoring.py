@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from tumato_symbolic.symbolic import Bdd, lasting
-from tumato_symbolic.synthesis.problem import Layers, Problem
+from tumato_symbolic.synthesis.fixpoints import Layers
+from tumato_symbolic.synthesis.problem import Problem
 from tumato_symbolic.synthesis.routing import shortest_decisions
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from tumato_symbolic.symbolic import Bdd, Target, preferred
-from tumato_symbolic.synthesis.problem import Layers, Problem, attractor, by_policy, leading
+from tumato_symbolic.synthesis.fixpoints import Layers, attractor, course, leading
+from tumato_symbolic.synthesis.problem import Problem
 
 
 def own_region_policy(problem: Problem) -> Bdd:
@@ -43,9 +44,9 @@ def route(problem: Problem, policy: Bdd, undecided: Bdd, within: Bdd, owing: Seq
     Runs use decided states of `within` only, so that a later decision never spoils an earlier one.
     """
     while undecided != problem.false:
-        decided = within & problem.steps.states_of(policy)
-        step = by_policy(problem, policy)
-        ranks = [attractor(problem, target.states, step, decided, problem.last_layer) for target in owing]
+        so_far = course(problem, policy)
+        decided = within & so_far.decided
+        ranks = [attractor(problem, t.states, so_far.predecessor, decided, problem.last_layer) for t in owing]
         nearest = next(iter(_by_steps(problem, owing, ranks, undecided, problem.steps.allowed)), None)
         if nearest is None:
             break

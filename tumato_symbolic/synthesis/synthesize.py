@@ -13,6 +13,8 @@ from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.symbolic import NO_LIMITS, Backend, Bdd, LimitReachedError, Limits, available_backend
 from tumato_symbolic.synthesis.certificate import policy_diagram
 from tumato_symbolic.synthesis.disproof import certified, conflict, no_allowed_set, no_plan
+from tumato_symbolic.synthesis.fixpoints import Layers, course, distances
+from tumato_symbolic.synthesis.judging import Evaluation, Judge, in_time, served
 from tumato_symbolic.synthesis.lint import suspicions
 from tumato_symbolic.synthesis.outcome import (
     STATES_LISTED,
@@ -25,17 +27,7 @@ from tumato_symbolic.synthesis.outcome import (
     Unrealizable,
 )
 from tumato_symbolic.synthesis.overriding import give_back, override
-from tumato_symbolic.synthesis.problem import (
-    Layers,
-    Problem,
-    attractor,
-    by_any_step,
-    by_policy,
-    evaluate,
-    in_time,
-    pose,
-    served,
-)
+from tumato_symbolic.synthesis.problem import Problem, pose
 from tumato_symbolic.synthesis.restoring import restoring_policy
 from tumato_symbolic.synthesis.routing import own_region_policy, route, shortest_decisions
 
@@ -90,23 +82,23 @@ def _solve(
     policy = own_region_policy(problem)
     statistics = replace(statistics, own_region=_count_decided(problem, policy))
     known.append(statistics)
-    undecided = problem.steps.safe & ~problem.steps.states_of(policy)
-    evaluation = evaluate(problem, policy) if undecided == problem.false else None
+    undecided, judge = problem.steps.safe & ~problem.steps.states_of(policy), Judge(problem)
+    evaluation = judge.evaluate(policy) if undecided == problem.false else None
     if stuck != problem.false or evaluation is None or evaluation.failing != problem.false:
         tell("measuring distances")
-        distances = tuple(_distances(problem))
-        helpless = problem.steps.valid & ~stuck & ~served(problem, distances, problem.steps.allowed)
+        apart = distances(problem)
+        helpless = problem.steps.valid & ~stuck & ~served(problem, apart, problem.steps.allowed)
         if (stuck | helpless) != problem.false:
             failures = (_failure(problem, "no-allowed-set", stuck), _failure(problem, "no-plan", helpless))
             found = tuple(failure for failure in failures if failure is not None)
             reason = no_allowed_set if stuck != problem.false else no_plan
             proof = certified(problem, reason(problem, found[0].example))
             return Unrealizable(found, statistics, proof, warnings)
-        resolved = _resolve(problem, policy, distances, statistics, tell)
+        resolved = _resolve(judge, policy, apart, statistics, tell)
         if isinstance(resolved, Undecided | Unrealizable):
             return replace(resolved, warnings=warnings)
-        policy, statistics, evaluation = resolved.policy, resolved.statistics, evaluate(problem, resolved.policy)
-    complete, statistics = _finish(problem, policy, evaluation.ranks, statistics, tell)
+        evaluation, statistics = resolved.evaluation, resolved.statistics
+    complete, statistics = _finish(problem, evaluation, statistics, tell)
     return Realizable(_as(complete, policy_format, statistics.valid), statistics, warnings)
 
 
@@ -120,67 +112,72 @@ def _no_valid_state(spec: Spec) -> Diagnostic:
 class _Resolved:
     """A policy for all safe states that serves every valid state."""
 
-    policy: Bdd
+    evaluation: Evaluation
     statistics: Statistics
 
 
 def _resolve(
-    problem: Problem, policy: Bdd, distances: tuple[Layers, ...], statistics: Statistics, tell: Callable[[str], None]
+    judge: Judge, policy: Bdd, apart: tuple[Layers, ...], statistics: Statistics, tell: Callable[[str], None]
 ) -> _Resolved | Unrealizable | Undecided:
-    """Decide what the own regions leave open, changing earlier decisions only where that is needed."""
-    steps = problem.steps
+    """Decide what the own regions leave open, changing earlier decisions only where that is needed.
+
+    `apart` are the distances from the targets.
+    """
+    problem, steps = judge.problem, judge.problem.steps
     tell("routing through solved states")
     undecided = steps.safe & ~steps.states_of(policy)
     policy = route(problem, policy, undecided, steps.safe, problem.targets)
     statistics = replace(statistics, routed=_count_decided(problem, policy) - statistics.own_region)
     undecided = steps.safe & ~steps.states_of(policy)
-    policy = policy | shortest_decisions(problem, distances, undecided, steps.allowed)
-    if evaluate(problem, policy).failing == problem.false:
-        return _Resolved(policy, statistics)
+    policy = policy | shortest_decisions(problem, apart, undecided, steps.allowed)
+    found = judge.evaluate(policy)
+    if found.failing == problem.false:
+        return _Resolved(found, statistics)
     tell("overriding decisions of other goals")
-    changed = override(problem, policy, distances)
-    if evaluate(problem, changed).failing != problem.false:
+    found = override(judge, found, apart)
+    changed = found.course.policy
+    if found.failing != problem.false:
         from tumato_symbolic.synthesis.repair import ROUNDS, Impossible, Repair, RoundsExhaustedError
 
         tell("repairing decisions where goals interact")
         try:
-            repaired = Repair(problem, changed, distances).run()
+            repaired = Repair(judge, changed, apart).run()
         except RoundsExhaustedError:
             return Undecided(f"{ROUNDS:,} rounds of repair did not settle how the goals interact", statistics)
         if isinstance(repaired, Impossible):
             states = repaired.states
             failure = Failure("conflict", len(states), states[0], states)
-            return Unrealizable((failure,), statistics, certified(problem, conflict(problem, distances, repaired)))
+            return Unrealizable((failure,), statistics, certified(problem, conflict(problem, apart, repaired)))
         changed = repaired
-    changed = give_back(problem, policy, changed)
-    return _Resolved(changed, replace(statistics, changed=_count_decided(problem, policy & ~changed)))
+    tell("giving back decisions that need not change")
+    changed = give_back(judge, policy, changed)
+    statistics = replace(statistics, changed=_count_decided(problem, policy & ~changed))
+    return _Resolved(judge.evaluate(changed), statistics)
 
 
 def _finish(
-    problem: Problem, policy: Bdd, ranks: Sequence[Layers], statistics: Statistics, tell: Callable[[str], None]
+    problem: Problem, found: Evaluation, statistics: Statistics, tell: Callable[[str], None]
 ) -> tuple[Policy, Statistics]:
     """Add restoring sets and the certificate to a policy for the safe states that serves every valid state."""
-    steps = problem.steps
+    steps, near = problem.steps, in_time(problem, found.ranks)
     tell("choosing restoring sets")
-    restoring, durations = restoring_policy(problem, in_time(problem, ranks))
-    policy = policy | restoring
+    restoring, durations = restoring_policy(problem, near)
+    policy = found.course.policy | restoring
     assert steps.states_of(policy) == steps.valid, "a served state was left without a decision"
-    longest = _longest_run(problem, policy, in_time(problem, ranks))
+    longest = _longest_run(problem, policy, near)
     tell("extracting the policy and its certificate")
     statistics = replace(statistics, longest_run=longest, restoring_durations=len(durations))
-    return policy_diagram(problem, policy, ranks), statistics
+    return policy_diagram(problem, policy, found.ranks), statistics
 
 
 def _longest_run(problem: Problem, policy: Bdd, ranks: Sequence[Layers]) -> int:
     """The largest number of steps that a run of a policy takes to what it owes."""
-    step = by_policy(problem, policy)
-    owing = [problem.steps.states_of(policy & target.owed) for target in problem.targets]
-    deepest = max(map(len, ranks))
+    found, deepest = course(problem, policy), max(map(len, ranks))
     return next(
         1 + rank
         for rank in reversed(range(deepest))
-        for states, layers in zip(owing, ranks, strict=True)
-        if rank < len(layers) and step(states, layers[rank]) != problem.false
+        for states, layers in zip(found.owing, ranks, strict=True)
+        if rank < len(layers) and found.predecessor(states, layers[rank]) != problem.false
     )
 
 
@@ -191,14 +188,6 @@ def _as(policy: Policy, policy_format: PolicyFormat, states: int) -> Policy:
     table = as_table(policy, states)
     assert table is not None, "the table has one row for every valid state"
     return replace(policy, decisions=table)
-
-
-def _distances(problem: Problem) -> list[Layers]:
-    """How far every safe state is from each target when any allowed steps may be taken."""
-    step = by_any_step(problem, problem.steps.allowed)
-    return [
-        attractor(problem, target.states, step, problem.steps.safe, problem.last_layer) for target in problem.targets
-    ]
 
 
 def _failure(problem: Problem, kind: FailureKind, states: Bdd) -> Failure | None:

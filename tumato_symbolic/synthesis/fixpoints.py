@@ -1,0 +1,130 @@
+"""Where steps lead, and the fixpoints over them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from tumato_symbolic.spec import Assignment
+from tumato_symbolic.symbolic import Bdd
+from tumato_symbolic.synthesis.problem import Problem
+
+Layers: TypeAlias = list[Bdd]
+"""Disjoint sets of safe states: in layer `j` are those that reach the target in `j` steps and not earlier."""
+
+Predecessor: TypeAlias = Callable[[Bdd, Bdd], Bdd]
+"""Those states of the first set from where one step leads into the second."""
+
+MOST_MOVES = 100
+"""A relation whose sets do more different things is taken as a whole."""
+
+
+def attractor(problem: Problem, target: Bdd, predecessor: Predecessor, within: Bdd, limit: int | None) -> Layers:
+    """Backward layers of `target`: `μ Z. target ∪ (within ∩ pre(Z))`, at most `limit` steps deep.
+
+    With a policy's predecessor these are the exact ranks of its runs; with that of all allowed pairs, the distances.
+    """
+    layers = [target]
+    left = within & ~target
+    while layers[-1] != problem.false and (limit is None or len(layers) <= limit):
+        layer = predecessor(left, layers[-1])
+        layers.append(layer)
+        left = left & ~layer
+    return layers
+
+
+def by_any_step(problem: Problem, relation: Bdd) -> Predecessor:
+    """The predecessor when any pair of a relation may be taken."""
+    return lambda states, target: states & problem.steps.predecessor(relation & states, target)
+
+
+def leading(problem: Problem, relation: Bdd) -> Callable[[Bdd], Bdd]:
+    """Those pairs of a relation that lead into a set of states.
+
+    Where the pairs do few different things they are taken move by move: the predecessor under one is a cofactor.
+    """
+    steps, manager = problem.steps, problem.encoding.manager
+    exclusive = max(map(len, problem.encoding.nominal_moves), default=0)
+    moves = steps.moves(relation, max(MOST_MOVES, exclusive), keep_sets=True)
+    if moves is None:
+        return lambda target: relation & steps.before(target)
+    cofactors = [(problem.encoding.assignment_bits(effect), pairs) for effect, pairs in moves.items()]
+    return lambda target: manager.union(pairs & manager.cofactor(target, effect) for effect, pairs in cofactors)
+
+
+def distances(problem: Problem) -> tuple[Layers, ...]:
+    """How far every safe state is from each target when any allowed steps may be taken."""
+    step, within = by_any_step(problem, problem.steps.allowed), problem.steps.safe
+    return tuple(attractor(problem, target.states, step, within, problem.last_layer) for target in problem.targets)
+
+
+@dataclass(frozen=True)
+class Course:
+    """Where a policy nominally leads, and what it owes.
+
+    A policy that does few different things is taken move by move: `moves` has the states by what is written there, and
+    the predecessor is a union of cofactors. Otherwise `moves` is None, and `following` has the next value of every bit
+    that changes somewhere: the predecessor is a composition. `owing` has, for every target, the states whose decision
+    owes it.
+    """
+
+    problem: Problem
+    policy: Bdd
+    decided: Bdd
+    owing: tuple[Bdd, ...]
+    moves: Mapping[Assignment, Bdd] | None
+    following: Mapping[str, Bdd]
+
+    def predecessor(self, states: Bdd, target: Bdd) -> Bdd:
+        """Those of some states that the policy leads into a set in one step."""
+        encoding, manager = self.problem.encoding, self.problem.encoding.manager
+        if self.moves is None:
+            return states & self.decided & manager.compose(target, self.following)
+        return states & manager.union(
+            acting & manager.cofactor(target, encoding.assignment_bits(effect)) for effect, acting in self.moves.items()
+        )
+
+
+def course(problem: Problem, policy: Bdd, most: int = MOST_MOVES) -> Course:
+    """The course of a policy, which is a function where it is defined; `moves` where there are at most so many."""
+    steps = problem.steps
+    moves = steps.moves(policy, most)
+    following = steps.next_state(policy) if moves is None else {}
+    owing = tuple(steps.states_of(policy & target.owed) for target in problem.targets)
+    return Course(problem, policy, steps.states_of(policy), owing, moves, following)
+
+
+def alike(problem: Problem, policies: Sequence[Bdd]) -> list[Course]:
+    """The courses of some policies, all with `moves` or none, so that they can be mixed."""
+    courses = [course(problem, policy) for policy in policies]
+    if all(each.moves is not None for each in courses):
+        return courses
+    return [each if each.moves is None else course(problem, each.policy, 0) for each in courses]
+
+
+def mixed(one: Course, other: Course, states: Bdd) -> Course:
+    """The course of the policy that follows `other` in some states and `one` elsewhere; both are `alike`."""
+    problem, manager = one.problem, one.problem.encoding.manager
+
+    def spliced(elsewhere: Bdd, there: Bdd) -> Bdd:
+        return (elsewhere & ~states) | (there & states)
+
+    moves = None
+    if one.moves is not None and other.moves is not None:
+        moves = {
+            effect: spliced(one.moves.get(effect, problem.false), other.moves.get(effect, problem.false))
+            for effect in {**one.moves, **other.moves}
+        }
+    following = {
+        bit: spliced(*(each.following.get(bit, manager.cube({bit: True})) for each in (one, other)))
+        for bit in {**one.following, **other.following}
+    }
+    return Course(
+        problem,
+        spliced(one.policy, other.policy),
+        spliced(one.decided, other.decided),
+        tuple(map(spliced, one.owing, other.owing)),
+        moves,
+        following,
+    )

@@ -1,0 +1,79 @@
+"""How well a policy solves a problem."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from tumato_symbolic.symbolic import Bdd
+from tumato_symbolic.synthesis.fixpoints import Course, Layers, attractor, course, leading
+from tumato_symbolic.synthesis.problem import Problem
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """What a policy achieves.
+
+    `ranks[k]` are the exact layers of target `k` under the policy; `failing` the valid states that have no good
+    decision: safe ones whose run misses what they owe, and unsafe ones where no allowed set serves.
+    """
+
+    course: Course
+    ranks: tuple[Layers, ...]
+    failing: Bdd
+
+
+def in_time(problem: Problem, ranks: Sequence[Layers]) -> list[Layers]:
+    """The layers that a first successor may be in, where the plan bound leaves room for the rest of the run."""
+    return [layers[: problem.spec.max_plan_length] for layers in ranks]
+
+
+def served(problem: Problem, ranks: Sequence[Layers], relation: Bdd) -> Bdd:
+    """The states where some pair of `relation` leads, in time, to a state with a rank for the target that it owes."""
+    manager = problem.encoding.manager
+    return manager.union(
+        problem.steps.predecessor(relation & target.owed, manager.union(layers))
+        for target, layers in zip(problem.targets, in_time(problem, ranks), strict=True)
+        if (relation & target.owed) != problem.false
+    )
+
+
+class Judge:
+    """Judges policies that are defined in every safe state; unsafe states may take any allowed set."""
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        restoring = problem.steps.allowed & problem.steps.unsafe
+        self._restoring: list[Callable[[Bdd], Bdd]] = [
+            leading(problem, restoring & target.owed) for target in problem.targets
+        ]
+
+    def evaluate(self, policy: Bdd) -> Evaluation:
+        """All that a policy achieves."""
+        problem, union = self.problem, self.problem.encoding.manager.union
+        found, steps = course(problem, policy), problem.steps
+        ranks = tuple(attractor(problem, t.states, found.predecessor, steps.safe, None) for t in problem.targets)
+        near = [union(layers) for layers in in_time(problem, ranks)]
+        safe = union(found.predecessor(*pair) for pair in zip(found.owing, near, strict=True))
+        return Evaluation(found, ranks, steps.valid & ~(safe | union(map(self._restored, range(len(near)), near))))
+
+    def serves_all(self, found: Course, suspects: list[int]) -> bool:
+        """Whether no state fails under a policy.
+
+        Targets are tried in the order of `suspects`, a permutation of their numbers; one that fails moves to the front.
+        """
+        problem, steps = self.problem, self.problem.steps
+        restored = problem.false
+        for place, number in enumerate(suspects):
+            target, owing = problem.targets[number], found.owing[number]
+            layers = attractor(problem, target.states, found.predecessor, steps.safe, problem.last_layer)
+            near = problem.encoding.manager.union(layers)
+            if found.predecessor(owing, near) != owing:
+                suspects.insert(0, suspects.pop(place))
+                return False
+            restored = restored | self._restored(number, near)
+        return (steps.unsafe & ~restored) == problem.false
+
+    def _restored(self, number: int, near: Bdd) -> Bdd:
+        """The unsafe states where some allowed set owes a target and leads into a set."""
+        return self.problem.steps.states_of(self._restoring[number](near))
