@@ -5,15 +5,18 @@ Keywords are soft: which words are keywords is decided here, by what the parser 
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source, Span
 from tumato_symbolic.syntax import ast
 from tumato_symbolic.syntax.grammar import Grammar, grammar
-from tumato_symbolic.syntax.mistakes import explain
 from tumato_symbolic.syntax.model import Parsed
 from tumato_symbolic.syntax.nesting import MAX_NESTING, deepest
-from tumato_symbolic.syntax.situation import BLOCKS, TITLES, Situation
 from tumato_symbolic.syntax.stack import Row, Stack
-from tumato_symbolic.syntax.tokens import HARD, Token, tokenize
+from tumato_symbolic.syntax.tokens import BLOCKS, HARD, TITLES, Token, tokenize
+
+if TYPE_CHECKING:
+    from tumato_symbolic.syntax.situation import Situation
 
 MAX_SYNTAX_ERRORS = 100
 """Reading stops after so many mistakes in the syntax."""
@@ -139,6 +142,8 @@ class _Run:
 
     def _recover(self) -> None:
         """Report the token at `index`, and make the parser ready to go on with the token at the new `index`."""
+        from tumato_symbolic.syntax.mistakes import explain
+
         situation = self._situation()
         self.found.append(explain(situation))
         if not self._mend(situation):
@@ -173,6 +178,8 @@ class _Run:
         A keyword that was taken for a name is put back, and so is the BEGIN of a block that begins while a list of
         goals is open: it was taken for a nested list.
         """
+        from tumato_symbolic.syntax.situation import Situation
+
         if self._was_keyword():
             self.stack.cut(len(self.stack.values) - 1)
             self.index -= 1
