@@ -15,8 +15,10 @@ from contextlib import redirect_stdout, redirect_stderr
 with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
     from tumato_symbolic.cli.main import main
     code = main(sys.argv[1:])
-print(json.dumps([code, [name for name in ("lark", "z3", "dd") if name in sys.modules]]))
+asked = ("lark", "z3", "dd", "tumato_symbolic.policy.unrealizable", "tumato_symbolic.syntax.mistakes")
+print(json.dumps([code, [name for name in asked if name in sys.modules]]))
 """
+"""Runs a command; shows its exit code, and what it loaded of the heavy packages and of what other answers need."""
 
 
 def _loaded(*arguments: str) -> tuple[int, set[str]]:
@@ -37,7 +39,7 @@ def test_check_loads_neither_solver_nor_lark() -> None:
 
 
 def test_synth_loads_solvers_only(tmp_path: Path) -> None:
-    """`synth` imports dd and z3, and no lark."""
+    """`synth` imports dd and z3, no lark, and, where there is a policy, nothing that only the answer no needs."""
     output = str(tmp_path / "policy.json")
     assert _loaded("synth", str(ROOT / "examples" / "amr.tum"), "-o", output) == (0, {"dd", "z3"})
 
@@ -50,7 +52,7 @@ def test_decide_loads_neither_solver_nor_parser() -> None:
 
 
 def test_verify_does_not_load_the_engine() -> None:
-    """`verify` imports no dd: it shares nothing with the engine. It imports no lark either."""
+    """`verify` imports no dd, for it shares nothing with the engine, and no lark, and nothing for the answer no."""
     files = (str(ROOT / "proofs" / "amr.policy.json"), str(ROOT / "examples" / "amr.tum"))
     assert _loaded("verify", *files) == (0, {"z3"})
 

@@ -12,7 +12,6 @@ from tumato_symbolic.semantics import count_states
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.symbolic import NO_LIMITS, Backend, Bdd, LimitReachedError, Limits, available_backend
 from tumato_symbolic.synthesis.certificate import policy_diagram
-from tumato_symbolic.synthesis.disproof import certified, conflict, no_allowed_set, no_plan
 from tumato_symbolic.synthesis.lint import suspicions
 from tumato_symbolic.synthesis.outcome import (
     STATES_LISTED,
@@ -97,6 +96,8 @@ def _solve(
         distances = tuple(_distances(problem))
         helpless = problem.steps.valid & ~stuck & ~served(problem, distances, problem.steps.allowed)
         if (stuck | helpless) != problem.false:
+            from tumato_symbolic.synthesis.disproof import certified, no_allowed_set, no_plan
+
             failures = (_failure(problem, "no-allowed-set", stuck), _failure(problem, "no-plan", helpless))
             found = tuple(failure for failure in failures if failure is not None)
             reason = no_allowed_set if stuck != problem.false else no_plan
@@ -148,6 +149,8 @@ def _resolve(
         except RoundsExhaustedError:
             return Undecided(f"{ROUNDS:,} rounds of repair did not settle how the goals interact", statistics)
         if isinstance(repaired, Impossible):
+            from tumato_symbolic.synthesis.disproof import certified, conflict
+
             states = repaired.states
             failure = Failure("conflict", len(states), states[0], states)
             return Unrealizable((failure,), statistics, certified(problem, conflict(problem, distances, repaired)))
