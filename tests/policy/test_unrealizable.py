@@ -15,6 +15,7 @@ from tests.policy.strategies import NAMES, QUICK, spec_of, vocabularies
 from tests.policy.test_bind import shuffled
 from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.policy import DiagramBuilder, Policy, RankedGoal, Vocabulary, rebuild
+from tumato_symbolic.policy.claim import load_claim
 from tumato_symbolic.policy.files import load as load_policy
 from tumato_symbolic.policy.unrealizable import (
     Choice,
@@ -27,7 +28,7 @@ from tumato_symbolic.policy.unrealizable import (
     Unrealizability,
     Violation,
 )
-from tumato_symbolic.policy.unrealizable_file import bind, dumps, load, load_claim, loads, save
+from tumato_symbolic.policy.unrealizable_file import bind, dumps, load, loads, save
 
 SCHEMA = json.loads(Path(__file__).parents[2].joinpath("tumato_symbolic/policy/unrealizable.schema.json").read_text())
 

@@ -59,10 +59,11 @@ def test_the_wheel_installs_and_runs_outside_the_checkout(built: Path, tmp_path:
 
 
 def test_the_wheel_holds_what_it_needs(built: Path) -> None:
-    """The wheel has the grammar, the schema, the type marker and the licence, and neither tests nor examples."""
+    """The wheel has the grammar, its table, the schema, the type marker and the licence; no tests, no examples."""
     (wheel,) = built.glob("*.whl")
     names = zipfile.ZipFile(wheel).namelist()
     assert "tumato_symbolic/syntax/tumato.lark" in names
+    assert "tumato_symbolic/syntax/tumato.table.json" in names
     assert "tumato_symbolic/py.typed" in names
     assert any(name.endswith(".schema.json") for name in names)
     assert any(name.endswith("LICENSE") for name in names)

@@ -13,8 +13,8 @@ from tumato_symbolic.cli.exits import NO, UNDECIDED, USAGE, YES
 from tumato_symbolic.cli.parser import Options
 from tumato_symbolic.cli.verify import exit_code, judge
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
+from tumato_symbolic.policy.claim import load_claim
 from tumato_symbolic.policy.unrealizable import Unrealizability
-from tumato_symbolic.policy.unrealizable_file import load_claim
 from tumato_symbolic.report.folder import Entry, Folder, as_github, as_json, as_text
 from tumato_symbolic.report.layout import dump
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+import sys
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -161,7 +162,8 @@ examples:
 
 def parse(arguments: Sequence[str] | None) -> Options:
     """Read a command line. Help, version and usage errors end in `SystemExit`, as argparse does."""
-    found: dict[str, Any] = vars(_parser().parse_args(arguments))
+    typed = sys.argv[1:] if arguments is None else arguments
+    found: dict[str, Any] = vars(_parser(typed).parse_args(typed))
     if found["command"] == "decide" and found["stdin"] == bool(found["assignments"]):
         what = "not both" if found["stdin"] else "or --stdin"
         _parser().error(f"decide: give the state as VAR=VALUE …, {what} (see tumato-sym decide --help)")
@@ -213,7 +215,8 @@ class _Help(argparse.RawDescriptionHelpFormatter):
             self._action_max_length = max(self._action_max_length, width)
 
 
-def _parser() -> argparse.ArgumentParser:
+def _parser(typed: Sequence[str] = ()) -> argparse.ArgumentParser:
+    """What may be typed. Only the commands that were typed know their arguments: making all takes its time."""
     parser = argparse.ArgumentParser(
         prog="tumato-sym",
         description=_MAIN,
@@ -225,10 +228,18 @@ def _parser() -> argparse.ArgumentParser:
         "--version", action=_Version, nargs=0, default=argparse.SUPPRESS, help="show the version and exit"
     )
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
+    for name, purpose, about, example, add_arguments in _COMMANDS:
+        command = commands.add_parser(
+            name, help=purpose, description=about, epilog=example + _EXITS, formatter_class=_Help, allow_abbrev=False
+        )
+        if name in typed:
+            add_arguments(command)
+    return parser
 
-    synth = _add(commands, "synth", "compute, prove and write a policy", _SYNTH, _SYNTH_EXAMPLE)
-    synth.add_argument("specs", metavar="SPEC", nargs=1, help="the specification, a .tum file")
-    synth.add_argument(
+
+def _synth(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("specs", metavar="SPEC", nargs=1, help="the specification, a .tum file")
+    parser.add_argument(
         "-o",
         "--output",
         metavar="FILE",
@@ -236,46 +247,48 @@ def _parser() -> argparse.ArgumentParser:
         help="where to write the policy (default: policy.json here; - for the standard output, the report then goes "
         "to the standard error stream)",
     )
-    _ordering(synth, "the specification's, else any")
-    synth.add_argument(
+    _ordering(parser, "the specification's, else any")
+    parser.add_argument(
         "--policy-format",
         choices=("auto", "table", "diagram"),
         default="auto",
         help="a row for every state, or a decision diagram (default: auto, a table up to about 10,000 valid states)",
     )
-    synth.add_argument(
+    parser.add_argument(
         "--no-verify",
         dest="prove",
         action="store_false",
         help="write the policy without a proof (the report says so)",
     )
-    synth.add_argument(
+    parser.add_argument(
         "--timeout",
         type=_seconds,
         metavar="SECONDS",
         help="how long the search may take before it ends without a verdict (exit 3; default: no limit)",
     )
-    synth.add_argument(
+    parser.add_argument(
         "--memory",
         type=_megabytes,
         metavar="MB",
         help="how much memory the search may take for its diagrams before it ends without a verdict (exit 3; default: "
         "no limit; CUDD only)",
     )
-    _prover(synth)
-    _format(synth)
+    _prover(parser)
+    _format(parser)
 
-    explain = _add(commands, "explain", "why there is no policy, and what would do", EXPLAIN, EXPLAIN_EXAMPLE)
-    add_explain(explain)
-    _ordering(explain, "the specification's, else any")
-    _format(explain, "sarif")
 
-    verify = _add(commands, "verify", "prove a policy, whoever made it", _VERIFY, _VERIFY_EXAMPLE)
-    verify.add_argument(
+def _explain(parser: argparse.ArgumentParser) -> None:
+    add_explain(parser)
+    _ordering(parser, "the specification's, else any")
+    _format(parser, "sarif")
+
+
+def _verify(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
         "policy", metavar="POLICY", help="the policy or the proof that there is none, a .json file, or a folder of them"
     )
-    verify.add_argument("specs", metavar="SPEC", nargs="*", help="the specification, a .tum file; none for a folder")
-    verify.add_argument(
+    parser.add_argument("specs", metavar="SPEC", nargs="*", help="the specification, a .tum file; none for a folder")
+    parser.add_argument(
         "--specs",
         dest="spec_folders",
         metavar="DIR",
@@ -283,67 +296,58 @@ def _parser() -> argparse.ArgumentParser:
         default=[],
         help="where the specifications of a folder of policies are looked for first; may be given several times",
     )
-    _prover(verify)
-    verify.add_argument(
+    _prover(parser)
+    parser.add_argument(
         "--strict",
         action="store_true",
         help="fail as well (exit 1) where the certificate is wrong, or stale: made for another specification",
     )
-    _ordering(verify, "the one that the policy records, else the specification's, else any")
-    verify.add_argument(
+    _ordering(parser, "the one that the policy records, else the specification's, else any")
+    parser.add_argument(
         "--properties",
         type=_properties,
         default=PROPERTIES,
         metavar="LIST",
         help=f"what to prove, separated by commas (default: {','.join(PROPERTIES)})",
     )
-    _format(verify)
+    _format(parser)
 
-    export = _add(commands, "export-proof", "write a policy as a theorem for Coq", _EXPORT, _EXPORT_EXAMPLE)
-    export.add_argument("policy", metavar="POLICY", help="the policy, a .json file")
-    export.add_argument("specs", metavar="SPEC", nargs=1, help="the specification, a .tum file")
-    export.add_argument(
+
+def _export(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("policy", metavar="POLICY", help="the policy, a .json file")
+    parser.add_argument("specs", metavar="SPEC", nargs=1, help="the specification, a .tum file")
+    parser.add_argument(
         "-o", "--output", metavar="FILE", default="-", help="where to write the theorem (default: the standard output)"
     )
-    _ordering(export, "any where the specification writes it, else what the policy records, else any")
+    _ordering(parser, "any where the specification writes it, else what the policy records, else any")
 
-    decide = _add(commands, "decide", "what to do in a state", _DECIDE, _DECIDE_EXAMPLE)
-    decide.add_argument("policy", metavar="POLICY", help="the policy, a .json file")
-    decide.add_argument("assignments", metavar="VAR=VALUE", nargs="*", help="the state: a value for every variable")
-    decide.add_argument(
+
+def _decide(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("policy", metavar="POLICY", help="the policy, a .json file")
+    parser.add_argument("assignments", metavar="VAR=VALUE", nargs="*", help="the state: a value for every variable")
+    parser.add_argument(
         "--stdin", action="store_true", help="read states from the standard input, one JSON object a line"
     )
 
-    rules = _add(commands, "rules", "a policy as a short list of rules", _RULES, _RULES_EXAMPLE)
-    rules.add_argument("policy", metavar="POLICY", help="the policy, a .json file")
-    rules.add_argument(
+
+def _rules(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("policy", metavar="POLICY", help="the policy, a .json file")
+    parser.add_argument(
         "--output-format",
         choices=("text", "json"),
         default="text",
         help="for a person, or for a program (one JSON object) (default: text)",
     )
 
-    why = _add(commands, "why", "why a policy decides as it does in a state", WHY, WHY_EXAMPLE)
-    add_why(why)
-    _ordering(why, "the one that the policy records, else the specification's, else any")
 
-    check = _add(commands, "check", "look for mistakes in specifications", _CHECK, _CHECK_EXAMPLE)
-    check.add_argument("specs", metavar="SPEC", nargs="+", help="specifications, .tum files")
-    _format(check)
-    return parser
+def _why(parser: argparse.ArgumentParser) -> None:
+    add_why(parser)
+    _ordering(parser, "the one that the policy records, else the specification's, else any")
 
 
-def _add(
-    commands: argparse._SubParsersAction[argparse.ArgumentParser], name: str, purpose: str, about: str, example: str
-) -> argparse.ArgumentParser:
-    return commands.add_parser(
-        name,
-        help=purpose,
-        description=about,
-        epilog=example + _EXITS,
-        formatter_class=_Help,
-        allow_abbrev=False,
-    )
+def _check(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("specs", metavar="SPEC", nargs="+", help="specifications, .tum files")
+    _format(parser)
 
 
 def _ordering(parser: argparse.ArgumentParser, default: str) -> None:
@@ -390,3 +394,16 @@ def _format(parser: argparse.ArgumentParser, *more: str) -> None:
         default="text",
         help="for a person, for a program (one JSON object), or as workflow commands of GitHub (default: text)",
     )
+
+
+_COMMANDS: tuple[tuple[str, str, str, str, Callable[[argparse.ArgumentParser], None]], ...] = (
+    ("synth", "compute, prove and write a policy", _SYNTH, _SYNTH_EXAMPLE, _synth),
+    ("explain", "why there is no policy, and what would do", EXPLAIN, EXPLAIN_EXAMPLE, _explain),
+    ("verify", "prove a policy, whoever made it", _VERIFY, _VERIFY_EXAMPLE, _verify),
+    ("export-proof", "write a policy as a theorem for Coq", _EXPORT, _EXPORT_EXAMPLE, _export),
+    ("decide", "what to do in a state", _DECIDE, _DECIDE_EXAMPLE, _decide),
+    ("rules", "a policy as a short list of rules", _RULES, _RULES_EXAMPLE, _rules),
+    ("why", "why a policy decides as it does in a state", WHY, WHY_EXAMPLE, _why),
+    ("check", "look for mistakes in specifications", _CHECK, _CHECK_EXAMPLE, _check),
+)
+"""The commands: name, purpose, description, examples, and what adds the arguments."""

@@ -14,7 +14,6 @@ from tumato_symbolic.cli.output import check_writable
 from tumato_symbolic.cli.parser import Options
 from tumato_symbolic.diagnostics import Code, UserError
 from tumato_symbolic.policy import dumps, save
-from tumato_symbolic.policy.unrealizable_file import save as save_certificate
 from tumato_symbolic.report.layout import dump
 from tumato_symbolic.report.synthesized import Synthesized, as_github, as_json, as_text
 from tumato_symbolic.spec import Spec
@@ -101,6 +100,8 @@ def certificate_path(output: str) -> Path | None:
 
 def _write_certificate(outcome: Unrealizable, output: str) -> str | None:
     """Where the certificate was written; None where there is no place for it, or it is too large."""
+    from tumato_symbolic.policy.unrealizable_file import save as save_certificate
+
     path = certificate_path(output)
     if path is None:
         return None

@@ -5,14 +5,12 @@ from __future__ import annotations
 import sys
 import time
 
-from tumato_symbolic.cli.certificate import run_certificate
 from tumato_symbolic.cli.console import Progress, wants_colour, write
 from tumato_symbolic.cli.exits import NO, UNDECIDED, YES
 from tumato_symbolic.cli.inputs import errors_in, read_spec, show_warnings
 from tumato_symbolic.cli.parser import Options
 from tumato_symbolic.policy import Policy
-from tumato_symbolic.policy.unrealizable import Unrealizability
-from tumato_symbolic.policy.unrealizable_file import load_claim
+from tumato_symbolic.policy.claim import load_claim
 from tumato_symbolic.report.layout import dump
 from tumato_symbolic.report.verified import Verified, as_github, as_json, as_text
 from tumato_symbolic.verify import verify
@@ -25,7 +23,9 @@ def run(options: Options) -> int:
 
         return run_folder(options)
     claim = load_claim(options.policy)
-    if isinstance(claim, Unrealizability):
+    if not isinstance(claim, Policy):
+        from tumato_symbolic.cli.certificate import run_certificate
+
         return run_certificate(claim, options)
     done = judge(claim, options.policy, options.specs[0], options)
     match options.output_format:

@@ -115,8 +115,10 @@ class Renumbering:
         """Every row with new numbers, in row-major order."""
         places = [self.variables.index(new) for new in range(len(self.variables))]
         new_values = [{old: new for new, old in enumerate(values)} for values in self.values]
+        decisions = {chosen: self.action_set(chosen) for chosen in set(table.rows.values())}
+        columns = [(place, new_values[place]) for place in places]
         rows = {
-            tuple(new_values[place][state[place]] for place in places): frozenset(self.actions[old] for old in chosen)
+            tuple([values[state[place]] for place, values in columns]): decisions[chosen]
             for state, chosen in table.rows.items()
         }
         return Table(dict(sorted(rows.items())))

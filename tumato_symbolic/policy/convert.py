@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
 
 from tumato_symbolic.policy.diagram import Diagram, DiagramBuilder, Reference, count_true
@@ -27,14 +27,25 @@ def as_diagram(policy: Policy) -> DecisionDiagram:
     if isinstance(policy.decisions, DecisionDiagram):
         return policy.decisions
     rows, sizes = policy.decisions.rows, policy.vocabulary.sizes
-    builder = DiagramBuilder[bool](range(len(sizes)), (False, True))
-    executed: list[dict[State, bool]] = [{} for _ in policy.vocabulary.actions]
-    for state, chosen in rows.items():
-        for action in chosen:
-            executed[action][state] = True
-    roots = tuple(builder.from_table(sizes, states, False) for states in executed)
-    defined = builder.from_table(sizes, dict.fromkeys(rows, True), False)
+    whole = DiagramBuilder[ActionSet | None](range(len(sizes)), (None, *dict.fromkeys(rows.values())))
+    root = whole.from_table(sizes, rows, None)
+    decided, builder = whole.finish(), DiagramBuilder[bool](range(len(sizes)), (False, True))
+    roots = tuple(
+        _where(decided, root, [chosen is not None and action in chosen for chosen in decided.leaves], builder)
+        for action in range(len(policy.vocabulary.actions))
+    )
+    defined = _where(decided, root, [chosen is not None for chosen in decided.leaves], builder)
     return DecisionDiagram(builder.finish(), roots, defined)
+
+
+def _where(
+    diagram: Diagram[ActionSet | None], root: Reference, wanted: Sequence[bool], builder: DiagramBuilder[bool]
+) -> Reference:
+    """The states in which `root` leads to a leaf that is wanted, as a root of what is built."""
+    references = [builder.leaf(each) for each in wanted]
+    for level, below in diagram.nodes:
+        references.append(builder.node(level, tuple([references[child] for child in below])))
+    return references[root]
 
 
 def count_defined(policy: Policy) -> int:

@@ -54,7 +54,7 @@ class DiagramBuilder(Generic[Leaf]):
 
     def node(self, level: int, below: tuple[Reference, ...]) -> Reference:
         """The reference of a node, which is made where there is none yet."""
-        if all(child == below[0] for child in below):
+        if below.count(below[0]) == len(below):
             return below[0]
         key = (level, below)
         found = self._known.get(key)
@@ -65,27 +65,14 @@ class DiagramBuilder(Generic[Leaf]):
 
     def from_table(self, sizes: Sequence[int], table: Mapping[tuple[int, ...], Leaf], default: Leaf) -> Reference:
         """The diagram of a finite function: `table`, and `default` elsewhere. `sizes` counts values per variable."""
-        depth, elsewhere = len(self._order), self.leaf(default)
-        rows = sorted((tuple(state[variable] for variable in self._order), state) for state in table)
-        if not rows or not depth:
-            return self.leaf(table[rows[0][1]]) if rows else elsewhere
-        path: tuple[int, ...] = ()
-        unfinished: list[list[Reference]] = []
-        for key, state in rows:
-            shared = next((level for level, value in enumerate(path) if value != key[level]), 0)
-            self._close(unfinished, path, shared + 1)
-            for level in range(len(unfinished), depth):
-                unfinished.append([elsewhere] * sizes[self._order[level]])
-            unfinished[-1][key[-1]] = self.leaf(table[state])
-            path = key
-        self._close(unfinished, path, 1)
-        return self.node(0, tuple(unfinished[0]))
-
-    def _close(self, unfinished: list[list[Reference]], path: tuple[int, ...], keep: int) -> None:
-        """Make the nodes on `path` below the first `keep` levels."""
-        while len(unfinished) > keep:
-            done = self.node(len(unfinished) - 1, tuple(unfinished.pop()))
-            unfinished[-1][path[len(unfinished) - 1]] = done
+        elsewhere = self.leaf(default)
+        below = {tuple([state[variable] for variable in self._order]): self.leaf(leaf) for state, leaf in table.items()}
+        for level in reversed(range(len(self._order))):
+            children: dict[tuple[int, ...], list[Reference]] = {}
+            for (*path, value), child in below.items():
+                children.setdefault(tuple(path), [elsewhere] * sizes[self._order[level]])[value] = child
+            below = {path: self.node(level, tuple(nodes)) for path, nodes in children.items()}
+        return below.get((), elsewhere)
 
     def finish(self) -> Diagram[Leaf]:
         """The diagram with all nodes made so far."""

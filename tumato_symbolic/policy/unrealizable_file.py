@@ -12,8 +12,8 @@ from tumato_symbolic.diagnostics import Source, UserError
 from tumato_symbolic.policy.bind import Renumbering
 from tumato_symbolic.policy.diagram import rebuild
 from tumato_symbolic.policy.files import read_text, save_text
-from tumato_symbolic.policy.model import Policy, RankedGoal, Vocabulary
-from tumato_symbolic.policy.read import FORMAT_VERSION, UNREALIZABLE, policy_of
+from tumato_symbolic.policy.model import RankedGoal, Vocabulary
+from tumato_symbolic.policy.read import FORMAT_VERSION, UNREALIZABLE
 from tumato_symbolic.policy.shape import MAX_BYTES, as_object, parse_json, too_large
 from tumato_symbolic.policy.unrealizable import (
     Choice,
@@ -46,16 +46,6 @@ def loads(text: str, name: str = "certificate") -> Unrealizability:
 def load(path: str) -> Unrealizability:
     """The certificate in the file at `path`; `-` is standard input. Raises `UserError` as `loads` does."""
     return loads(*read_text(path))
-
-
-def load_claim(path: str) -> Policy | Unrealizability:
-    """What `verify` is given: a policy, or the certificate that there is none. Raises `UserError`."""
-    text, name = read_text(path)
-    try:
-        document = as_object(parse_json(text, name), "the file")
-        return unrealizability_of(document) if document.get("Type") == UNREALIZABLE else policy_of(document)
-    except UserError as error:
-        raise UserError(error.diagnostics, error.source or Source(name, "")) from None
 
 
 def save(certificate: Unrealizability, path: Path) -> None:

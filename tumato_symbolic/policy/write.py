@@ -82,10 +82,12 @@ def variable_entries(vocabulary: Vocabulary) -> Iterator[str]:
 
 def _rows(table: Table, vocabulary: Vocabulary) -> Iterator[str]:
     cells = [[f"{_json(name)}: {_json(value)}" for value in values] for name, values in vocabulary.variables]
+    names = {
+        chosen: _json([vocabulary.actions[action] for action in sorted(chosen)]) for chosen in set(table.rows.values())
+    }
     for state, chosen in sorted(table.rows.items()):
         shown = ", ".join([values[value] for values, value in zip(cells, state, strict=True)])
-        names = _json([vocabulary.actions[action] for action in sorted(chosen)])
-        yield f'{{{shown}, "Actions": {names}}}'
+        yield f'{{{shown}, "Actions": {names[chosen]}}}'
 
 
 def _decisions(decisions: DecisionDiagram, vocabulary: Vocabulary, last: str) -> Iterator[str]:

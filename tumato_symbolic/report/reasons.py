@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from tumato_symbolic.explain.near import NearMiss, near_misses
 from tumato_symbolic.report.layout import enumeration
 from tumato_symbolic.semantics import (
     ActionSet,
@@ -19,6 +19,9 @@ from tumato_symbolic.semantics import (
     named,
 )
 from tumato_symbolic.spec import Assignment, Ordering, Rule, Spec
+
+if TYPE_CHECKING:
+    from tumato_symbolic.explain.near import NearMiss
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,6 +106,8 @@ def why_no_set(place: Place, state: State, ordering: Ordering, limit: int = 3) -
 
     Nearest: see `near_misses`.
     """
+    from tumato_symbolic.explain.near import near_misses
+
     nearest = near_misses(place.spec, state, ordering, limit)
     lines = [f"{place.actions(near.chosen)}: {_together(place, near)}" for near in nearest]
     if len(nearest) == 1:

@@ -13,7 +13,6 @@ from tumato_symbolic.report.layout import Paint, count, seconds
 from tumato_symbolic.report.picture import picture
 from tumato_symbolic.report.proof import ORDERINGS, proof_json, proof_text
 from tumato_symbolic.report.reasons import Place
-from tumato_symbolic.report.unrealizable import proof_line, verdict_json
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.synthesis.outcome import Outcome, Realizable, Statistics, Undecided, Unrealizable
 from tumato_symbolic.verify.result import UnrealizabilityVerdict, Verification
@@ -139,6 +138,8 @@ def _certified(done: Synthesized, ordering: Ordering, paint: Paint) -> list[str]
     """What became of the certificate that there is no policy."""
     lines = []
     if done.disproof is not None:
+        from tumato_symbolic.report.unrealizable import proof_line
+
         proved = done.disproof.verdict == "proved"
         lines.append(
             f"{paint.good('Proved')}: {proof_line(done.disproof)}."
@@ -185,6 +186,8 @@ def as_json(done: Synthesized) -> dict[str, object]:
 
 def _proof_json(done: Synthesized) -> dict[str, object] | None:
     if done.disproof is not None:
+        from tumato_symbolic.report.unrealizable import verdict_json
+
         return verdict_json(done.spec, done.disproof)
     return proof_json(done.spec, done.proof) if done.proof is not None else None
 

@@ -6,7 +6,7 @@ texts with the same tree differ in layout and comments only. The printer is the 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from tumato_symbolic.diagnostics import Span
@@ -16,96 +16,107 @@ NOWHERE = Span(1, 1, 1, 1)
 
 
 class Node:
-    """What all nodes share. One `__repr__` serves them all: generating thirty of them slows down every start."""
+    """What all nodes share: how they compare and how they are shown.
+
+    One method for all nodes, because generating one for each of thirty classes slows down every start.
+    """
 
     __slots__: tuple[str, ...] = ()
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Node) and type(self) is type(other) and self._values() == other._values()
+
+    def __hash__(self) -> int:
+        return hash(self._values())
+
     def __repr__(self) -> str:
-        values = (repr(getattr(self, name)) for name in self.__slots__ if name != "span")
-        return f"{type(self).__name__}({', '.join(values)})"
+        return f"{type(self).__name__}({', '.join(map(repr, self._values()))})"
+
+    def _values(self) -> tuple[object, ...]:
+        return tuple(getattr(self, name) for name in self.__slots__ if name != "span")
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Name(Node):
     """A name as it is written in one place."""
 
     text: str
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Truth(Node):
     """`true` or `false`."""
 
     value: bool
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Comparison(Node):
     """`VARIABLE is VALUE`."""
 
     variable: Name
     value: Name
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Execution(Node):
     """`executing ACTION`."""
 
     action: Name
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Reference(Node):
     """An alias, by name."""
 
     name: Name
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Negation(Node):
     """`NOT p`."""
 
     operand: Predicate
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Conjunction(Node):
     """`p AND q AND …`: two operands or more."""
 
     operands: tuple[Predicate, ...]
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Disjunction(Node):
     """`p OR q OR …`: two operands or more."""
 
     operands: tuple[Predicate, ...]
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Implication(Node):
     """`IF p THEN q`."""
 
     condition: Predicate
     consequence: Predicate
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Equivalence(Node):
     """`p IFONLYIF q`."""
 
     left: Predicate
     right: Predicate
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
 Predicate: TypeAlias = (
@@ -113,205 +124,205 @@ Predicate: TypeAlias = (
 )
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class VariableDeclaration(Node):
     """`state NAME can be VALUE, …`: one value or more."""
 
     name: Name
     values: tuple[Name, ...]
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class AliasDefinition(Node):
     """`define NAME as PREDICATE`."""
 
     name: Name
     predicate: Predicate
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class ResourceDeclaration(Node):
     """`resource NAME`."""
 
     name: Name
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Duration(Node):
     """`duration: N`, or `cost: N` in older files."""
 
     value: int
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class ControlledResources(Node):
     """`controlled resources: R, …`; none at all is written `none`."""
 
     names: tuple[Name, ...]
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Preconditions(Node):
     """`preconditions: PREDICATE, …`; none at all is written `none`."""
 
     predicates: tuple[Predicate, ...]
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class NominalEffects(Node):
     """`nominal effects: PREDICATE, …`, or `effects:` in older files; no change at all is written `none`."""
 
     predicates: tuple[Predicate, ...]
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class AlternativeEffects(Node):
     """`alternative effects: PREDICATE, …`; no change at all is written `none`."""
 
     predicates: tuple[Predicate, ...]
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
 Field: TypeAlias = Duration | ControlledResources | Preconditions | NominalEffects | AlternativeEffects
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class ActionDeclaration(Node):
     """`action NAME` and its fields, as they stand."""
 
     name: Name
     fields: tuple[Field, ...]
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
 Declaration: TypeAlias = VariableDeclaration | AliasDefinition | ResourceDeclaration | ActionDeclaration
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class SimpleGoal(Node):
     """`goal: PREDICATE`."""
 
     predicate: Predicate
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class ConditionalGoal(Node):
     """`when PREDICATE then` and a goal or a list of goals."""
 
     condition: Predicate
     goal: SimpleGoal | GoalList
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class GoalList(Node):
     """`BEGIN GOALS goal type: … END GOALS`. The kind is None in a block that holds nothing."""
 
     kind: Literal["priority", "constraint"] | None
     members: tuple[Goal, ...]
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
 Goal: TypeAlias = SimpleGoal | ConditionalGoal | GoalList
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class MaxPlanLength(Node):
     """`max_plan_length: N`."""
 
     value: int
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class EffectOrdering(Node):
     """`effect_ordering: any` or `first`."""
 
     value: Literal["any", "first"]
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
 Setting: TypeAlias = MaxPlanLength | EffectOrdering
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class StateVector(Node):
     """`BEGIN STATE VECTOR`."""
 
     variables: tuple[VariableDeclaration, ...]
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Aliases(Node):
     """`BEGIN ALIASES`."""
 
     definitions: tuple[AliasDefinition, ...]
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Resources(Node):
     """`BEGIN RESOURCES`."""
 
     resources: tuple[ResourceDeclaration, ...]
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Actions(Node):
     """`BEGIN ACTIONS`."""
 
     actions: tuple[ActionDeclaration, ...]
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class ReactionRules(Node):
     """`BEGIN REACTION RULES`."""
 
     rules: tuple[Predicate, ...]
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class StateRules(Node):
     """`BEGIN STATE RULES`."""
 
     rules: tuple[Predicate, ...]
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Assumptions(Node):
     """`BEGIN ASSUMPTIONS`."""
 
     assumptions: tuple[Predicate, ...]
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Goals(Node):
     """The outermost `BEGIN GOALS`."""
 
     goals: GoalList
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Config(Node):
     """`BEGIN CONFIG`."""
 
     settings: tuple[Setting, ...]
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE
 
 
 Block: TypeAlias = (
@@ -319,9 +330,9 @@ Block: TypeAlias = (
 )
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Specification(Node):
     """A whole text: its blocks, in the order in which they stand."""
 
     blocks: tuple[Block, ...]
-    span: Span = field(default=NOWHERE, compare=False)
+    span: Span = NOWHERE

@@ -1,17 +1,16 @@
-"""Bottom-up construction of the tree: one method per rule of the grammar."""
+"""Bottom-up construction of the tree: one function per rule of the grammar, called by its name. See `Rule.node`."""
 
-# The methods are named and explained by the rules; what they are given depends on the rule.
-# ruff: noqa: D102, N802, ANN401
+# The functions are named and explained by the rules; what they are given depends on the rule.
+# ruff: noqa: D103, ANN401
 
 from __future__ import annotations
 
 from dataclasses import replace
 from typing import Any, TypeAlias
 
-from lark import Token, Transformer
-
 from tumato_symbolic.diagnostics import Span
 from tumato_symbolic.syntax import ast
+from tumato_symbolic.syntax.tokens import Token
 
 Children: TypeAlias = list[Any]
 """What stands for the right side of a rule: keyword tokens, names, and nodes that are already built."""
@@ -19,9 +18,6 @@ Children: TypeAlias = list[Any]
 
 def span_of(part: Any) -> Span:
     """The range of a token or a node."""
-    if isinstance(part, Token):
-        line, column = part.line or 1, part.column or 1
-        return Span(line, column, line, column + len(part))
     span: Span = part.span
     return span
 
@@ -37,131 +33,161 @@ def _nodes(children: Children) -> tuple[Any, ...]:
     return tuple(child for child in children if not isinstance(child, Token))
 
 
-class Builder(Transformer[Token, Any]):
-    """Turns what the parser reduces into nodes of the tree. Stateless."""
+def specification(children: Children) -> ast.Specification:
+    return ast.Specification(tuple(children), _span(children))
 
-    def NAME(self, token: Token) -> ast.Name:
-        return ast.Name(str(token), span_of(token))
 
-    def specification(self, children: Children) -> ast.Specification:
-        return ast.Specification(tuple(children), _span(children))
+def state_vector(children: Children) -> ast.StateVector:
+    return ast.StateVector(_nodes(children), _span(children))
 
-    def state_vector(self, children: Children) -> ast.StateVector:
-        return ast.StateVector(_nodes(children), _span(children))
 
-    def aliases(self, children: Children) -> ast.Aliases:
-        return ast.Aliases(_nodes(children), _span(children))
+def aliases(children: Children) -> ast.Aliases:
+    return ast.Aliases(_nodes(children), _span(children))
 
-    def resources(self, children: Children) -> ast.Resources:
-        return ast.Resources(_nodes(children), _span(children))
 
-    def actions(self, children: Children) -> ast.Actions:
-        return ast.Actions(_nodes(children), _span(children))
+def resources(children: Children) -> ast.Resources:
+    return ast.Resources(_nodes(children), _span(children))
 
-    def reaction_rules(self, children: Children) -> ast.ReactionRules:
-        return ast.ReactionRules(_nodes(children), _span(children))
 
-    def state_rules(self, children: Children) -> ast.StateRules:
-        return ast.StateRules(_nodes(children), _span(children))
+def actions(children: Children) -> ast.Actions:
+    return ast.Actions(_nodes(children), _span(children))
 
-    def assumptions(self, children: Children) -> ast.Assumptions:
-        return ast.Assumptions(_nodes(children), _span(children))
 
-    def goals(self, children: Children) -> ast.Goals:
-        return ast.Goals(children[0], _span(children))
+def reaction_rules(children: Children) -> ast.ReactionRules:
+    return ast.ReactionRules(_nodes(children), _span(children))
 
-    def config(self, children: Children) -> ast.Config:
-        return ast.Config(_nodes(children), _span(children))
 
-    def variable(self, children: Children) -> ast.VariableDeclaration:
-        name, *values = _nodes(children)
-        return ast.VariableDeclaration(name, tuple(values), _span(children))
+def state_rules(children: Children) -> ast.StateRules:
+    return ast.StateRules(_nodes(children), _span(children))
 
-    def alias(self, children: Children) -> ast.AliasDefinition:
-        name, predicate = _nodes(children)
-        return ast.AliasDefinition(name, predicate, _span(children))
 
-    def resource(self, children: Children) -> ast.ResourceDeclaration:
-        return ast.ResourceDeclaration(children[1], _span(children))
+def assumptions(children: Children) -> ast.Assumptions:
+    return ast.Assumptions(_nodes(children), _span(children))
 
-    def action(self, children: Children) -> ast.ActionDeclaration:
-        name, *fields = _nodes(children)
-        return ast.ActionDeclaration(name, tuple(fields), _span(children))
 
-    def duration(self, children: Children) -> ast.Duration:
-        return ast.Duration(int(children[-1]), _span(children))
+def goals(children: Children) -> ast.Goals:
+    return ast.Goals(children[0], _span(children))
 
-    def controlled_resources(self, children: Children) -> ast.ControlledResources:
-        return ast.ControlledResources(_nodes(children), _span(children))
 
-    def preconditions(self, children: Children) -> ast.Preconditions:
-        return ast.Preconditions(_nodes(children), _span(children))
+def config(children: Children) -> ast.Config:
+    return ast.Config(_nodes(children), _span(children))
 
-    def nominal_effects(self, children: Children) -> ast.NominalEffects:
-        return ast.NominalEffects(_nodes(children), _span(children))
 
-    def alternative_effects(self, children: Children) -> ast.AlternativeEffects:
-        return ast.AlternativeEffects(_nodes(children), _span(children))
+def variable(children: Children) -> ast.VariableDeclaration:
+    name, *values = _nodes(children)
+    return ast.VariableDeclaration(name, tuple(values), _span(children))
 
-    def rule(self, children: Children) -> ast.Predicate:
-        predicate: ast.Predicate = children[-1]
-        return predicate
 
-    assumption = rule
+def alias(children: Children) -> ast.AliasDefinition:
+    name, predicate = _nodes(children)
+    return ast.AliasDefinition(name, predicate, _span(children))
 
-    def goal_list(self, children: Children) -> ast.GoalList:
-        if len(children) == len(("BEGIN", "GOALS", "END", "GOALS")):
-            return ast.GoalList(None, (), _span(children))
-        kind = children[len(("BEGIN", "GOALS", "goal", "type", ":"))]
-        return ast.GoalList("priority" if kind == "priority" else "constraint", _nodes(children), _span(children))
 
-    def simple_goal(self, children: Children) -> ast.SimpleGoal:
-        return ast.SimpleGoal(children[-1], _span(children))
+def resource(children: Children) -> ast.ResourceDeclaration:
+    return ast.ResourceDeclaration(children[1], _span(children))
 
-    def conditional_goal(self, children: Children) -> ast.ConditionalGoal:
-        condition, goal = _nodes(children)
-        return ast.ConditionalGoal(condition, goal, _span(children))
 
-    def max_plan_length(self, children: Children) -> ast.MaxPlanLength:
-        return ast.MaxPlanLength(int(children[-1]), _span(children))
+def action(children: Children) -> ast.ActionDeclaration:
+    name, *fields = _nodes(children)
+    return ast.ActionDeclaration(name, tuple(fields), _span(children))
 
-    def effect_ordering(self, children: Children) -> ast.EffectOrdering:
-        return ast.EffectOrdering("any" if children[-1] == "any" else "first", _span(children))
 
-    def equivalence(self, children: Children) -> ast.Equivalence:
-        left, right = _nodes(children)
-        return ast.Equivalence(left, right, _span(children))
+def duration(children: Children) -> ast.Duration:
+    return ast.Duration(int(children[-1].text), _span(children))
 
-    def implies(self, children: Children) -> ast.Implication:
-        condition, consequence = _nodes(children)
-        return ast.Implication(condition, consequence, _span(children))
 
-    def disjunction(self, children: Children) -> ast.Disjunction:
-        return ast.Disjunction(_nodes(children), _span(children))
+def controlled_resources(children: Children) -> ast.ControlledResources:
+    return ast.ControlledResources(_nodes(children), _span(children))
 
-    def conjunction(self, children: Children) -> ast.Conjunction:
-        return ast.Conjunction(_nodes(children), _span(children))
 
-    def denied(self, children: Children) -> ast.Negation:
-        return ast.Negation(children[-1], _span(children))
+def preconditions(children: Children) -> ast.Preconditions:
+    return ast.Preconditions(_nodes(children), _span(children))
 
-    def group(self, children: Children) -> ast.Predicate:
-        """A predicate in parentheses is the predicate; its span takes the parentheses in."""
-        inner: ast.Predicate = replace(children[1], span=_span(children))
-        return inner
 
-    def comparison(self, children: Children) -> ast.Comparison:
-        variable, value = _nodes(children)
-        return ast.Comparison(variable, value, _span(children))
+def nominal_effects(children: Children) -> ast.NominalEffects:
+    return ast.NominalEffects(_nodes(children), _span(children))
 
-    def execution(self, children: Children) -> ast.Execution:
-        return ast.Execution(children[-1], _span(children))
 
-    def reference(self, children: Children) -> ast.Reference:
-        return ast.Reference(children[0], _span(children))
+def alternative_effects(children: Children) -> ast.AlternativeEffects:
+    return ast.AlternativeEffects(_nodes(children), _span(children))
 
-    def true(self, children: Children) -> ast.Truth:
-        return ast.Truth(True, _span(children))
 
-    def false(self, children: Children) -> ast.Truth:
-        return ast.Truth(False, _span(children))
+def rule(children: Children) -> ast.Predicate:
+    predicate: ast.Predicate = children[-1]
+    return predicate
+
+
+assumption = rule
+
+
+def goal_list(children: Children) -> ast.GoalList:
+    if len(children) == len(("BEGIN", "GOALS", "END", "GOALS")):
+        return ast.GoalList(None, (), _span(children))
+    kind = children[len(("BEGIN", "GOALS", "goal", "type", ":"))]
+    return ast.GoalList("priority" if kind.text == "priority" else "constraint", _nodes(children), _span(children))
+
+
+def simple_goal(children: Children) -> ast.SimpleGoal:
+    return ast.SimpleGoal(children[-1], _span(children))
+
+
+def conditional_goal(children: Children) -> ast.ConditionalGoal:
+    condition, goal = _nodes(children)
+    return ast.ConditionalGoal(condition, goal, _span(children))
+
+
+def max_plan_length(children: Children) -> ast.MaxPlanLength:
+    return ast.MaxPlanLength(int(children[-1].text), _span(children))
+
+
+def effect_ordering(children: Children) -> ast.EffectOrdering:
+    return ast.EffectOrdering("any" if children[-1].text == "any" else "first", _span(children))
+
+
+def equivalence(children: Children) -> ast.Equivalence:
+    left, right = _nodes(children)
+    return ast.Equivalence(left, right, _span(children))
+
+
+def implies(children: Children) -> ast.Implication:
+    condition, consequence = _nodes(children)
+    return ast.Implication(condition, consequence, _span(children))
+
+
+def disjunction(children: Children) -> ast.Disjunction:
+    return ast.Disjunction(_nodes(children), _span(children))
+
+
+def conjunction(children: Children) -> ast.Conjunction:
+    return ast.Conjunction(_nodes(children), _span(children))
+
+
+def denied(children: Children) -> ast.Negation:
+    return ast.Negation(children[-1], _span(children))
+
+
+def group(children: Children) -> ast.Predicate:
+    """A predicate in parentheses is the predicate; its span takes the parentheses in."""
+    inner: ast.Predicate = replace(children[1], span=_span(children))
+    return inner
+
+
+def comparison(children: Children) -> ast.Comparison:
+    variable, value = _nodes(children)
+    return ast.Comparison(variable, value, _span(children))
+
+
+def execution(children: Children) -> ast.Execution:
+    return ast.Execution(children[-1], _span(children))
+
+
+def reference(children: Children) -> ast.Reference:
+    return ast.Reference(children[0], _span(children))
+
+
+def true(children: Children) -> ast.Truth:
+    return ast.Truth(True, _span(children))
+
+
+def false(children: Children) -> ast.Truth:
+    return ast.Truth(False, _span(children))

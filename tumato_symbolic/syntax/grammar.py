@@ -1,38 +1,26 @@
-"""The grammar file, compiled once per process."""
+"""The grammar, ready for the parser, once per process."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
-from lark import Lark, Token
-from lark.lexer import Lexer
-
-from tumato_symbolic.syntax.builder import Builder
+from tumato_symbolic.syntax.table import Table, read
 from tumato_symbolic.syntax.tokens import pattern
 
+TABLE_PATH = Path(__file__).with_name("tumato.table.json")
+"""The parse table of the grammar, compiled beforehand."""
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, slots=True)
 class Grammar:
-    """A parser that is fed with tokens, the terminal of every keyword and symbol, and the pattern of a token."""
+    """A parse table, the words and symbols that the grammar spells out, and the pattern of a token."""
 
-    parser: Lark
-    terminals: Mapping[str, str]
-    spellings: Mapping[str, str]
+    table: Table
+    keywords: frozenset[str]
     token_pattern: re.Pattern[str]
-
-
-class _Fed(Lexer):
-    """In place of a lexer: tokens are fed one by one, and the patterns of lark's own lexer need not be compiled."""
-
-    def __init__(self, lexer_conf: object) -> None:
-        pass
-
-    def lex(self, lexer_state: object, parser_state: object) -> Iterator[Token]:
-        return iter(())
 
 
 def grammar_path() -> Path:
@@ -44,21 +32,16 @@ def grammar_path() -> Path:
 
 @lru_cache(maxsize=1)
 def grammar() -> Grammar:
-    """Read and compile the grammar."""
-    parser = Lark(
-        grammar_path().read_text(encoding="utf-8"),
-        start="specification",
-        parser="lalr",
-        lexer=_Fed,
-        keep_all_tokens=True,
-        maybe_placeholders=False,
-        transformer=Builder(),
-    )
-    literal = {each.pattern.value: each.name for each in parser.terminals if each.pattern.type == "str"}
-    regular = {each.name: each.pattern.value for each in parser.terminals if each.pattern.type == "re"}
+    """The grammar with the table in the file, or, where it was edited since, with one that is compiled now."""
+    text = grammar_path().read_text(encoding="utf-8")
+    table = read(TABLE_PATH.read_text(encoding="utf-8"), text)
+    if table is None:
+        from tumato_symbolic.syntax.compiling import compile_table
+
+        table = compile_table(text)
+    patterns = table.patterns
     return Grammar(
-        parser,
-        literal,
-        {terminal: text for text, terminal in literal.items()},
-        pattern(regular["SPACE"], regular["COMMENT"], regular["NAME"], regular["NUMBER"]),
+        table,
+        frozenset().union(*table.actions) - patterns.keys() - {"$END"},
+        pattern(patterns["SPACE"], patterns["COMMENT"], patterns["NAME"], patterns["NUMBER"]),
     )

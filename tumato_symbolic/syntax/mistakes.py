@@ -7,8 +7,8 @@ from collections.abc import Callable
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Note, Span
 from tumato_symbolic.diagnostics.wording import MAX_QUOTED, listed, quoted
-from tumato_symbolic.syntax.situation import BLOCKS, Situation
-from tumato_symbolic.syntax.tokens import HARD, MAX_DIGITS, Token
+from tumato_symbolic.syntax.situation import Situation
+from tumato_symbolic.syntax.tokens import BLOCKS, HARD, MAX_DIGITS, Token
 
 _OPERATORS = ("AND", "OR", "IFONLYIF", "THEN")
 _FORMS = {

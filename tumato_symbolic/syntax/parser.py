@@ -5,17 +5,18 @@ Keywords are soft: which words are keywords is decided here, by what the parser 
 
 from __future__ import annotations
 
-from lark import Token as Fed
+from typing import TYPE_CHECKING
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source, Span
 from tumato_symbolic.syntax import ast
 from tumato_symbolic.syntax.grammar import Grammar, grammar
-from tumato_symbolic.syntax.mistakes import explain
 from tumato_symbolic.syntax.model import Parsed
 from tumato_symbolic.syntax.nesting import MAX_NESTING, deepest
-from tumato_symbolic.syntax.situation import BLOCKS, TITLES, Situation
 from tumato_symbolic.syntax.stack import Row, Stack
-from tumato_symbolic.syntax.tokens import HARD, Token, tokenize
+from tumato_symbolic.syntax.tokens import BLOCKS, HARD, TITLES, Token, tokenize
+
+if TYPE_CHECKING:
+    from tumato_symbolic.syntax.situation import Situation
 
 MAX_SYNTAX_ERRORS = 100
 """Reading stops after so many mistakes in the syntax."""
@@ -57,7 +58,7 @@ class _Run:
     def __init__(self, compiled: Grammar, tokens: tuple[Token, ...]) -> None:
         self.grammar = compiled
         self.tokens = tokens
-        self.stack = Stack(compiled.parser)
+        self.stack = Stack(compiled.table)
         self.index = 0
         self.found: list[Diagnostic] = []
         self.lost: set[str] = set()
@@ -75,7 +76,7 @@ class _Run:
             if not self.stack.fits(terminal):
                 self._recover()
                 continue
-            result = self.stack.feed(_fed(terminal, token))
+            result = self.stack.feed(terminal, token)
             if token.kind == "end":
                 return self._checked(result)
             self.index += 1
@@ -118,17 +119,16 @@ class _Run:
         """The terminal that a token is, in a state with this row of the parse table."""
         token = self.tokens[index]
         if token.kind == "word":
-            keyword = self.grammar.terminals.get(token.text)
-            if keyword is None:
+            if token.text not in self.grammar.keywords:
                 return "NAME"
             if token.text in HARD:
-                return keyword
-            possible = keyword in row
-            if "NAME" in row and (possible or "LPAR" in row):
+                return token.text
+            possible = token.text in row
+            if "NAME" in row and (possible or "(" in row):
                 possible = self._confirmed(index, possible)
-            return keyword if possible else "NAME"
+            return token.text if possible else "NAME"
         if token.kind == "symbol":
-            return self.grammar.terminals[token.text]
+            return token.text
         return {"number": "NUMBER", "end": "$END"}.get(token.kind, "OTHER")
 
     def _confirmed(self, index: int, possible: bool) -> bool:
@@ -142,6 +142,8 @@ class _Run:
 
     def _recover(self) -> None:
         """Report the token at `index`, and make the parser ready to go on with the token at the new `index`."""
+        from tumato_symbolic.syntax.mistakes import explain
+
         situation = self._situation()
         self.found.append(explain(situation))
         if not self._mend(situation):
@@ -166,7 +168,7 @@ class _Run:
             return self._replace(1, "priority")
         if situation.lacks_goal_type and situation.token.text == "when":
             return self._supply("goal", "type", ":", "priority")
-        if situation.lacks_goal_type and situation.token.text == ":" and self.stack.fits("TYPE"):
+        if situation.lacks_goal_type and situation.token.text == ":" and self.stack.fits("type"):
             return self._replace(-1, "type", ":", "priority")
         return False
 
@@ -176,6 +178,8 @@ class _Run:
         A keyword that was taken for a name is put back, and so is the BEGIN of a block that begins while a list of
         goals is open: it was taken for a nested list.
         """
+        from tumato_symbolic.syntax.situation import Situation
+
         if self._was_keyword():
             self.stack.cut(len(self.stack.values) - 1)
             self.index -= 1
@@ -187,8 +191,7 @@ class _Run:
             self.stack.cut(len(self.stack.values) - 1)
             opened = opened[:-1]
             self.index -= 1
-        expected = frozenset(self.grammar.spellings.get(each, each) for each in self.stack.accepted())
-        return Situation(self.tokens, self.index, expected, opened, unclosed)
+        return Situation(self.tokens, self.index, self.stack.accepted(), opened, unclosed)
 
     def _was_keyword(self) -> bool:
         """Whether the token before `index` was taken for a name, but something complete can begin with it."""
@@ -208,10 +211,9 @@ class _Run:
         """Feed words that are missing from the text, as far as they fit; whether they all do."""
         here = self.tokens[self.index]
         for word in words:
-            terminal = self.grammar.terminals[word]
-            if not self.stack.fits(terminal):
+            if not self.stack.fits(word):
                 return False
-            self.stack.feed(_fed(terminal, here, word))
+            self.stack.feed(word, Token("word", word, here.line, here.column))
         return True
 
     def _panic(self) -> None:
@@ -244,15 +246,9 @@ class _Run:
         self.open.clear()
 
 
-def _fed(terminal: str, token: Token, text: str | None = None) -> Fed:
-    return Fed(terminal, token.text if text is None else text, line=token.line, column=token.column)
-
-
 def _open_tokens(values: list[object]) -> tuple[Token, ...]:
     """The tokens that are read and not yet part of something complete."""
-    return tuple(
-        Token("word", str(value), value.line or 1, value.column or 1) for value in values if isinstance(value, Fed)
-    )
+    return tuple(value for value in values if isinstance(value, Token))
 
 
 def _without_closed(opened: tuple[Token, ...]) -> tuple[Token, ...]:

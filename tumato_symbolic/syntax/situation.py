@@ -6,20 +6,7 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 
 from tumato_symbolic.diagnostics.wording import MAX_QUOTED
-from tumato_symbolic.syntax.tokens import HARD, Token
-
-BLOCKS = (
-    ("STATE", "VECTOR"),
-    ("ALIASES",),
-    ("RESOURCES",),
-    ("ACTIONS",),
-    ("REACTION", "RULES"),
-    ("STATE", "RULES"),
-    ("ASSUMPTIONS",),
-    ("GOALS",),
-    ("CONFIG",),
-)
-TITLES = frozenset(word for title in BLOCKS for word in title)
+from tumato_symbolic.syntax.tokens import BLOCKS, HARD, Token
 
 _PREDICATE = frozenset({"NAME", "(", "executing", "true", "false"})
 

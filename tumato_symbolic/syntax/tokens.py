@@ -14,6 +14,21 @@ from tumato_symbolic.diagnostics import Code, Diagnostic, Source, Span
 HARD = frozenset({"AND", "OR", "NOT", "IF", "THEN", "IFONLYIF", "BEGIN", "END"})
 """Words that are keywords everywhere."""
 
+BLOCKS = (
+    ("STATE", "VECTOR"),
+    ("ALIASES",),
+    ("RESOURCES",),
+    ("ACTIONS",),
+    ("REACTION", "RULES"),
+    ("STATE", "RULES"),
+    ("ASSUMPTIONS",),
+    ("GOALS",),
+    ("CONFIG",),
+)
+"""The titles of blocks."""
+TITLES = frozenset(word for title in BLOCKS for word in title)
+"""The words in titles."""
+
 MAX_DIGITS = 18
 """The most digits a number may have; every sensible bound is far below."""
 

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from tumato_symbolic.diagnostics import Diagnostic
 from tumato_symbolic.policy.model import Policy
-from tumato_symbolic.policy.unrealizable import Unrealizability
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Ordering
+
+if TYPE_CHECKING:
+    from tumato_symbolic.policy.unrealizable import Unrealizability
 
 FailureKind: TypeAlias = Literal["no-allowed-set", "no-plan", "conflict"]
 

@@ -12,7 +12,6 @@ from tumato_symbolic.semantics import count_states
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.symbolic import NO_LIMITS, Backend, Bdd, LimitReachedError, Limits, available_backend
 from tumato_symbolic.synthesis.certificate import policy_diagram
-from tumato_symbolic.synthesis.disproof import certified, conflict, no_allowed_set, no_plan
 from tumato_symbolic.synthesis.fixpoints import Layers, course, distances
 from tumato_symbolic.synthesis.judging import Evaluation, Judge, in_time, served
 from tumato_symbolic.synthesis.lint import suspicions
@@ -89,6 +88,8 @@ def _solve(
         apart = distances(problem)
         helpless = problem.steps.valid & ~stuck & ~served(problem, apart, problem.steps.allowed)
         if (stuck | helpless) != problem.false:
+            from tumato_symbolic.synthesis.disproof import certified, no_allowed_set, no_plan
+
             failures = (_failure(problem, "no-allowed-set", stuck), _failure(problem, "no-plan", helpless))
             found = tuple(failure for failure in failures if failure is not None)
             reason = no_allowed_set if stuck != problem.false else no_plan
@@ -145,6 +146,8 @@ def _resolve(
         except RoundsExhaustedError:
             return Undecided(f"{ROUNDS:,} rounds of repair did not settle how the goals interact", statistics)
         if isinstance(repaired, Impossible):
+            from tumato_symbolic.synthesis.disproof import certified, conflict
+
             states = repaired.states
             failure = Failure("conflict", len(states), states[0], states)
             return Unrealizable((failure,), statistics, certified(problem, conflict(problem, apart, repaired)))

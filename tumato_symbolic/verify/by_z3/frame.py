@@ -24,7 +24,7 @@ from tumato_symbolic.verify.by_z3.encoding import (
 )
 from tumato_symbolic.verify.by_z3.goal_terms import GoalTerms
 from tumato_symbolic.verify.by_z3.solver import Solver, UndecidedError
-from tumato_symbolic.verify.by_z3.terms import Term, conjunction, disjunction, negation
+from tumato_symbolic.verify.by_z3.terms import Term, conjunction, disjunction, negation, same
 
 
 class Frame:
@@ -65,7 +65,7 @@ class Frame:
             return term
         self._names += 1
         name = z3.Bool(f"{hint}!{self._names}")
-        self.assume(name == term)
+        self.assume(same(name, term))
         return name
 
     def new_solver(self) -> Solver:

@@ -1,11 +1,13 @@
 """Z3 terms with constants folded: a term is a Python bool or a Z3 Boolean.
 
-Folding keeps what a constant effect makes of a rule as small as it is on paper.
+Folding keeps what a constant effect makes of a rule as small as it is on paper. Terms are made by the functions of
+Z3's C interface, because `z3.And` and its like look at the sort of every part anew, which takes longer than the proof
+of a small policy.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any, TypeAlias
 
 import z3
@@ -18,7 +20,7 @@ Number: TypeAlias = Any
 
 def negation(term: Term) -> Term:
     """Not `term`."""
-    return not term if isinstance(term, bool) else z3.Not(term)
+    return not term if isinstance(term, bool) else z3.BoolRef(z3.Z3_mk_not(term.ctx_ref(), term.as_ast()), term.ctx)
 
 
 def conjunction(terms: Iterable[Term]) -> Term:
@@ -31,7 +33,7 @@ def conjunction(terms: Iterable[Term]) -> Term:
             kept.append(term)
     if not kept:
         return True
-    return kept[0] if len(kept) == 1 else z3.And(kept)
+    return kept[0] if len(kept) == 1 else _joined(z3.Z3_mk_and, kept)
 
 
 def disjunction(terms: Iterable[Term]) -> Term:
@@ -44,7 +46,7 @@ def disjunction(terms: Iterable[Term]) -> Term:
             kept.append(term)
     if not kept:
         return False
-    return kept[0] if len(kept) == 1 else z3.Or(kept)
+    return kept[0] if len(kept) == 1 else _joined(z3.Z3_mk_or, kept)
 
 
 def implies(left: Term, right: Term) -> Term:
@@ -58,7 +60,7 @@ def same(left: Term, right: Term) -> Term:
         return right if left else negation(right)
     if isinstance(right, bool):
         return left if right else negation(left)
-    return left == right
+    return z3.BoolRef(z3.Z3_mk_eq(left.ctx_ref(), left.as_ast(), right.as_ast()), left.ctx)
 
 
 def either(condition: Term, then: Term, otherwise: Term) -> Term:
@@ -71,7 +73,8 @@ def either(condition: Term, then: Term, otherwise: Term) -> Term:
         return disjunction((condition, otherwise)) if then else conjunction((negation(condition), otherwise))
     if isinstance(otherwise, bool):
         return disjunction((negation(condition), then)) if otherwise else conjunction((condition, then))
-    return z3.If(condition, then, otherwise)
+    made = z3.Z3_mk_ite(condition.ctx_ref(), condition.as_ast(), then.as_ast(), otherwise.as_ast())
+    return (z3.BoolRef if isinstance(then, z3.BoolRef) else z3.BitVecRef)(made, condition.ctx)
 
 
 def at_most_one(terms: Iterable[Term]) -> Term:
@@ -87,6 +90,11 @@ def code_at_most(bits: Sequence[Term], largest: int) -> Term:
         zero = negation(bit)
         term = disjunction((zero, term)) if largest >> place & 1 else conjunction((zero, term))
     return term
+
+
+def _joined(make: Callable[..., Any], terms: list[Term]) -> Term:
+    parts = (z3.Ast * len(terms))(*(term.as_ast() for term in terms))
+    return z3.BoolRef(make(terms[0].ctx_ref(), len(parts), parts), terms[0].ctx)
 
 
 def z3_term(term: Term) -> Any:  # noqa: ANN401 - z3 has no types

@@ -1,0 +1,31 @@
+"""What `verify` is given."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from tumato_symbolic.diagnostics import Source, UserError
+from tumato_symbolic.policy.files import read_text
+from tumato_symbolic.policy.model import Policy
+from tumato_symbolic.policy.read import UNREALIZABLE, policy_of
+from tumato_symbolic.policy.shape import as_object, parse_json
+
+if TYPE_CHECKING:
+    from tumato_symbolic.policy.unrealizable import Unrealizability
+
+
+def load_claim(path: str) -> Policy | Unrealizability:
+    """The policy in the file at `path` (`-` is standard input), or the certificate that there is none.
+
+    Raises `UserError` (TUM501 to TUM508).
+    """
+    text, name = read_text(path)
+    try:
+        document = as_object(parse_json(text, name), "the file")
+        if document.get("Type") != UNREALIZABLE:
+            return policy_of(document)
+        from tumato_symbolic.policy.unrealizable_read import unrealizability_of
+
+        return unrealizability_of(document)
+    except UserError as error:
+        raise UserError(error.diagnostics, error.source or Source(name, "")) from None
