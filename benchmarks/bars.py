@@ -30,6 +30,8 @@ BARS = {
 }
 HELP = 0.35
 """Units for `--help`."""
+PURE_PYTHON = 30
+"""How many times as long as with CUDD the search may take in pure Python, on small sizes."""
 
 
 def judged(result: Mapping[str, Any]) -> str:
@@ -38,6 +40,8 @@ def judged(result: Mapping[str, Any]) -> str:
     for case in result["cases"]:
         if bar := BARS.get(case["case"]):
             lines += _of(case, bar, case["unit"])
+        if "pure_python" in case:
+            lines.append(_line(case["case"], "pure Python", case["pure_python"], PURE_PYTHON))
     return "\n".join(lines)
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from random import Random
+
 from benchmarks.writing import Text, all_of
 
 WALL_EVERY = 16
@@ -67,7 +69,7 @@ def grid(size: int, realizable: bool) -> str:
 LOADS = 5
 
 
-def plant(stations: int, realizable: bool) -> str:
+def plant(stations: int, realizable: bool, shuffle: Random | None = None) -> str:
     """A robot with five load places in a plant of many stations (6 · 2^10 · 8^n states; n = 10 is 6.6 · 10^12).
 
     Three goals interact: who is to load everything must pass states in which everything is to be delivered. About 1 %
@@ -85,7 +87,14 @@ def plant(stations: int, realizable: bool) -> str:
     text.goal("S_Battery is ok", when="S_Battery is low")
     text.goal(f"{loaded} AND {closed}", when=free)
     text.goal(free)
+    if shuffle is not None:
+        shuffle.shuffle(text.states)
     return text.render()
+
+
+def strewn(stations: int, realizable: bool) -> str:
+    """`plant`, its variables declared in a random order: what is related stands far apart."""
+    return plant(stations, realizable, Random(stations))
 
 
 def _plant_robot(text: Text) -> None:

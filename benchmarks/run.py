@@ -93,6 +93,8 @@ def measured(family: Family, size: int, limit: float, repeats: int) -> Record:
         if stages.code != 0:
             return record | {"verdict": "over the limit" if stages.code is None else f"exit {stages.code}"}
         record |= json.loads(stages.output)
+        if size in family.quick and not family.limit:
+            record["pure_python"] = _pure_python(spec, Path(folder) / "slowly.json", limit)
         if record["verdict"] == "realizable":
             record |= _commands(spec, policy, limit, repeats)
             same = policy.exists() and policy.read_bytes() == staged.read_bytes()
@@ -101,6 +103,18 @@ def measured(family: Family, size: int, limit: float, repeats: int) -> Record:
         twin = best((*COMMAND, "synth", str(spec), "--output-format", "json", "-o", str(policy)), limit, 1)
         record["twin"] = twin.record()
     return record
+
+
+def _pure_python(spec: Path, policy: Path, limit: float) -> float | None:
+    """How many times as long the search takes in pure Python as with CUDD; None where it does not end."""
+    seconds = []
+    for backend in ("cudd", "autoref"):
+        ran = run((sys.executable, "-m", "benchmarks.stages", str(spec), str(policy), backend), limit)
+        if ran.code != 0:
+            return None
+        stages = json.loads(ran.output)["stages"]
+        seconds.append(sum(stages.values()) - stages["parse"] - stages.get("write", 0.0))
+    return round(seconds[1] / seconds[0], 2)
 
 
 def _commands(spec: Path, policy: Path, limit: float, repeats: int) -> Record:

@@ -1,4 +1,7 @@
-"""One synthesis in a process of its own: `python -m benchmarks.stages SPEC POLICY` prints what it took as JSON."""
+"""One synthesis in a process of its own: `python -m benchmarks.stages SPEC POLICY [BACKEND]` tells what it took.
+
+The backend is `cudd` or `autoref`, which is pure Python; without one it is the one that `synth` takes.
+"""
 
 from __future__ import annotations
 
@@ -12,22 +15,25 @@ from pathlib import Path
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.policy import Policy, as_diagram, dumps
 from tumato_symbolic.spec import Spec, load
+from tumato_symbolic.symbolic import Backend
 from tumato_symbolic.synthesis import Outcome, Realizable, Undecided, Unrealizable, synthesize
 
 STAGES = {
     "encoding": "encode",
+    "finding": "predecessor",
     "solving": "own region",
     "measuring": "interaction",
     "routing": "interaction",
     "overriding": "interaction",
     "repairing": "interaction",
+    "giving": "interaction",
     "choosing": "restoring",
     "extracting": "extraction",
 }
 """Columns of the table by the first word of what `synthesize` announces."""
 
 COUNTED_UP_TO = 2.0
-"""Allowed sets are counted where encoding takes no more seconds than this."""
+"""Allowed sets are counted where finding them takes no more seconds than this."""
 
 
 class Stopwatch:
@@ -50,11 +56,12 @@ class Stopwatch:
 def main() -> None:
     """Measure one synthesis, write its policy, and print the record."""
     source, target = Path(sys.argv[1]), Path(sys.argv[2])
+    backend: Backend | None = "autoref" if "autoref" in sys.argv[3:] else "cudd" if "cudd" in sys.argv[3:] else None
     watch = Stopwatch()
     watch("parse")
     spec = load(Source(source.name, source.read_text(encoding="utf-8"))).spec
     assert spec is not None, "benchmarks are correct specifications"
-    outcome = synthesize(spec, progress=watch)
+    outcome = synthesize(spec, backend=backend, progress=watch)
     record = _outcome(spec, outcome)
     if isinstance(outcome, Realizable):
         watch("write")
@@ -65,7 +72,7 @@ def main() -> None:
     watch(None)
     record["stages"] = {stage: round(seconds, 4) for stage, seconds in watch.seconds.items()}
     record["peak_mb"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024
-    record["allowed_sets"] = _allowed_sets(spec) if watch.seconds.get("encode", 0.0) <= COUNTED_UP_TO else None
+    record["allowed_sets"] = _allowed_sets(spec) if watch.seconds.get("predecessor", 0.0) <= COUNTED_UP_TO else None
     print(json.dumps(record))
 
 

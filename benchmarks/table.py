@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, TypeVar
 
 Case = Mapping[str, Any]
+Number = TypeVar("Number", int, float)
 
 COLUMNS = (
     "case", "states", "valid", "actions", "sets",
-    "parse", "encode", "own region", "interaction", "restoring", "extraction", "verification",
-    "MB", "nodes", "ranks", "bytes", "proved by", "synth", "verify", "no policy",
+    "parse", "encode", "predecessor", "own region", "interaction", "restoring", "extraction", "verification",
+    "MB", "nodes", "ranks", "bytes", "proved by", "synth", "verify", "no policy", "Python",
 )  # fmt: skip
 
-_STAGES = COLUMNS[5:11]
+_STAGES = COLUMNS[5:12]
 
 
 def table(result: Mapping[str, Any]) -> str:
-    """One line per case. Stages are seconds, whole processes (`synth`, `verify`, `no policy`) are units."""
+    """One line per case. Stages are seconds, whole processes (`synth`, `verify`, `no policy`) are units.
+
+    `Python` is how many times as long the search takes in pure Python as with CUDD.
+    """
     rows = [COLUMNS, *(_row(case) for case in result["cases"])]
     widths = [max(len(row[column]) for row in rows) for column in range(len(COLUMNS))]
     lines = []
@@ -66,6 +70,7 @@ def _row(case: Case) -> tuple[str, ...]:
         units(case.get("synth"), unit),
         units(case.get("verify"), unit),
         units(case["twin"], unit),
+        known(case.get("pure_python"), "{:.1f}".format),
     )
 
 
@@ -76,7 +81,7 @@ def peak(case: Case) -> int:
     return max(found)
 
 
-def known(value: int | None, show: Callable[[int], str]) -> str:
+def known(value: Number | None, show: Callable[[Number], str]) -> str:
     """A number where there is one."""
     return "–" if value is None else show(value)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from tumato_symbolic.spec import Ordering, Spec
@@ -50,10 +51,18 @@ class Problem:
         return None if self.spec.max_plan_length is None else self.spec.max_plan_length - 1
 
 
-def pose(spec: Spec, ordering: Ordering, backend: Backend, limits: Limits = NO_LIMITS) -> Problem:
-    """Encode a specification and compute its steps, regions and targets."""
+def pose(
+    spec: Spec,
+    ordering: Ordering,
+    backend: Backend,
+    limits: Limits = NO_LIMITS,
+    tell: Callable[[str], None] = lambda _: None,
+) -> Problem:
+    """Encode a specification and compute its steps, regions and targets; `tell` is told what is being done."""
+    tell("encoding states and actions")
     encoding = encode(spec, backend, limits)
     with encoding.manager.within_memory():
+        tell("finding the allowed steps")
         steps = build_steps(encoding, ordering)
         active = regions(encoding, steps.valid)
         return Problem(spec, steps, active, tuple(targets(steps, active)))

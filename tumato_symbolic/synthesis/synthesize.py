@@ -56,8 +56,7 @@ def synthesize(
     tell = progress or (lambda _: None)
     known: list[Statistics] = []
     try:
-        tell("encoding states and steps")
-        problem = pose(spec, ordering or spec.effect_ordering or "any", backend or available_backend(), limits)
+        problem = pose(spec, ordering or spec.effect_ordering or "any", backend or available_backend(), limits, tell)
         with problem.encoding.manager.within_memory():
             return _solve(problem, policy_format, known, tell)
     except LimitReachedError as limit:
