@@ -46,3 +46,13 @@ def test_colour_only_marks_the_verdict() -> None:
     """Colours add no text."""
     plain, coloured = as_text(GIVEN_UP, colour=False), as_text(GIVEN_UP, colour=True)
     assert coloured.replace("\x1b[33;1m", "").replace("\x1b[0m", "") == plain
+
+
+def test_pure_python_is_said_once() -> None:
+    """Who waits for diagrams in pure Python learns why; with CUDD nothing is said."""
+    assert isinstance(OUTCOME, Unrealizable)
+    slow = replace(OUTCOME, statistics=replace(OUTCOME.statistics, backend="autoref"))
+    for outcome in (slow, Undecided("too many goals", slow.statistics)):
+        assert as_text(replace(GIVEN_UP, outcome=outcome), colour=False).count("pure Python") == 1
+    fast = replace(OUTCOME, statistics=replace(OUTCOME.statistics, backend="cudd"))
+    assert "pure Python" not in as_text(replace(GIVEN_UP, outcome=fast), colour=False)

@@ -59,7 +59,7 @@ def as_text(done: Synthesized, colour: bool) -> str:
         case Undecided(limit, statistics):
             parts = [
                 f"{done.source.name}: {paint.doubt('undecided')}: {limit}.",
-                *([_states(statistics)] if statistics else []),
+                *(["\n".join((_states(statistics), *_engine(statistics)))] if statistics else []),
                 "No policy was written.",
             ]
     return "\n\n".join(parts)
@@ -69,6 +69,16 @@ def _states(statistics: Statistics) -> str:
     excluded = statistics.total - statistics.valid
     assumed = f", {excluded:,} excluded by assumptions" if excluded else ", all valid"
     return f"  {count(statistics.total, 'state')}{assumed}: {statistics.safe:,} safe, {statistics.unsafe:,} unsafe"
+
+
+def _engine(statistics: Statistics) -> list[str]:
+    """That the diagrams were those of pure Python, where that is so."""
+    if statistics.backend == "cudd":
+        return []
+    return [
+        "  diagrams: in pure Python, for want of CUDD, which is many times faster; the answer is the same",
+        "            (dd brings CUDD for Linux on x86-64 and Python 3.11 to 3.13)",
+    ]
 
 
 def _realizable(done: Synthesized, outcome: Realizable, paint: Paint) -> list[str]:
@@ -84,6 +94,7 @@ def _realizable(done: Synthesized, outcome: Realizable, paint: Paint) -> list[st
         _states(statistics),
         longest,
         f"  effects: {ORDERINGS[statistics.ordering]}",
+        *_engine(statistics),
     ]
     parts = ["\n".join(head), *_drawn(done, outcome)]
     if done.proof is None:
@@ -125,7 +136,8 @@ def _unrealizable(done: Synthesized, outcome: Unrealizable, paint: Paint) -> lis
     else:
         verdict += ": each state alone has a plan, but no policy serves all of them."
     verdict += f" Found in {seconds(done.solved_in)}."
-    head = [verdict, _states(outcome.statistics), f"  effects: {ORDERINGS[outcome.statistics.ordering]}"]
+    effects = f"  effects: {ORDERINGS[outcome.statistics.ordering]}"
+    head = [verdict, _states(outcome.statistics), effects, *_engine(outcome.statistics)]
     ordering = outcome.statistics.ordering
     shown = [failure_text(done.place, failure, ordering) for failure in outcome.failures]
     kept = "" if done.output == "-" else f" {done.output}, if it exists, is what it was."
