@@ -1,6 +1,7 @@
 """*No plan*: any layers that hold the runs and avoid the goal are a proof, whoever made or checks them."""
 
 from dataclasses import replace
+from itertools import pairwise
 from random import Random
 
 import pytest
@@ -157,6 +158,45 @@ def test_a_closed_set_must_be_closed(walking, monkeypatch):
     assert "the state x=c of layer 1 meets" in refuted("e", "abcde")
 
 
+@pytest.mark.parametrize("walking", [False, True])
+def test_layers_come_one_after_the_other(walking, monkeypatch):
+    """Against a plan of three steps, layers that a step skips prove nothing, nor do those that meet the goal."""
+    if walking:
+        walk_first(monkeypatch)
+    build = Build({"x": "abcd"})
+    for here, there in ("ab", "bc", "cd"):
+        build.action(f"x={there}", when=[build.atom(f"x={here}")])
+    goals = priority(build.goal(build.atom("x=d")))
+    harder, spec = build.spec(goals, bound=2), build.spec(goals, bound=3)
+    goal = World(spec, "any").options[(0,)][0].goal
+
+    def refuted(*layers: str) -> str:
+        sets = [{build.state(letter) for letter in layer} for layer in layers]
+        verdict = verify_unrealizable(certificate_of(harder, "any", (0,), {goal: sets}), spec)
+        assert verdict.verdict == "refuted"
+        return verdict.reason
+
+    assert "from layer 1, in x=b, {act1} is allowed, leads to x=c, which is not in layers 1 to 2" in refuted(
+        "ab", "ab", "abc"
+    )
+    assert "the state x=d of layer 3 meets" in refuted("ab", "abc", "abcd")
+
+
+@pytest.mark.parametrize("walking", [False, True])
+def test_what_layers_say_of_unsafe_states_means_nothing(walking, monkeypatch):
+    """A layer may hold an unsafe state from where a step reaches the goal; so the diagram need not tell it apart."""
+    if walking:
+        walk_first(monkeypatch)
+    build = Build({"x": "ab", "y": "ny"})
+    build.action("x=b y=n", when=[build.atom("y=y")])
+    spec = build.spec(priority(build.goal(build.atom("x=b"))), state_rules=[build.atom("y=n")])
+    certificate = certified(spec, "any")
+    (goal,) = certificate.reason.goals
+    assert len(certificate.reason.diagram.nodes) == 1
+    assert certificate.reason.diagram.evaluate(goal.roots[0], build.state("ay"))
+    assert verify_unrealizable(certificate, spec).verdict == "proved"
+
+
 @pytest.mark.parametrize("bound", [None, 2])
 @pytest.mark.parametrize("walking", [False, True])
 def test_a_state_with_several_residual_goals(bound, walking, monkeypatch):
@@ -178,13 +218,15 @@ def test_a_state_with_several_residual_goals(bound, walking, monkeypatch):
 
 
 def targets(count: int, bound: int, stranded: str = "") -> Spec:
-    """A robot visits `count` places, each from `a`: two steps for each. It cannot do anything at a `stranded` place."""
+    """A robot visits `count` places, each from `a`: two steps for each. `stranded` ones only lead on to the next."""
     places = stranded + "abcdefghijklmno"[: count + 1]
     build = Build({"x": places, **dict.fromkeys(TARGETS[:count], "nd")}, ["body"])
     for n, target in enumerate(TARGETS[:count]):
         place = f"x={chr(98 + n)}"
         build.action(place, when=[build.atom("x=a")], needs=["body"])
         build.action(f"{target}=d x=a", when=[build.atom(place)], needs=["body"])
+    for here, there in pairwise(stranded):
+        build.action(f"x={there}", when=[build.atom(f"x={here}")], needs=["body"])
     done = tuple(build.atom(f"{target}=d") for target in TARGETS[:count])
     return build.spec(priority(build.goal(And((build.atom("x=a"), *done)))), bound=bound)
 
@@ -204,9 +246,9 @@ def test_layers_that_count_are_left_to_the_walk(monkeypatch):
 
 
 def test_what_the_runs_reach_is_written_where_it_is_smaller(monkeypatch):
-    """From where nothing can be done, one set with one state is enough, whatever the way to the goal is elsewhere."""
+    """From where only three states can be reached, these are enough, whatever the way to the goal is elsewhere."""
     monkeypatch.setattr(disproof, "FEW_NODES", 50)
-    spec = targets(10, 19, "z")
+    spec = targets(10, 19, "zyx")
     certificate = certified(spec, "any")
     assert (certificate.reason.state, len(certificate.reason.goals[0].roots)) == ((0,) * 11, 1)
     monkeypatch.undo()
@@ -216,14 +258,15 @@ def test_what_the_runs_reach_is_written_where_it_is_smaller(monkeypatch):
         assert verify_unrealizable(each, spec).verdict == "proved"
 
 
-def test_z3_has_the_last_word(monkeypatch):
+@pytest.mark.parametrize("over", [BudgetError("tired"), RecursionError()])
+def test_z3_has_the_last_word(over, monkeypatch):
     """The walk is asked where Z3 does not answer soon, and Z3 again where the walk gives up."""
     spec = targets(3, 5)
     certificate, asked = certified(spec, "any"), []
 
     def given_up(*_):
         asked.append(True)
-        raise BudgetError("tired")
+        raise over
 
     monkeypatch.setattr(no_plan, "SOON", -1.0)
     walked = verify_unrealizable(certificate, spec)

@@ -98,7 +98,7 @@ def _step_out(reason: NoPlan, layers: Layers, step: AllowedStep, leaving: Term) 
             pass
     try:
         state = first_left(step.spec, step.ordering, reason.diagram, layers.roots, step.deadline())
-    except BudgetError:
+    except (BudgetError, RecursionError):
         return step.some_step(_HELD, step.safe, leaving)
     if state is None:
         step.walked += 1
