@@ -39,8 +39,8 @@ from tumato_symbolic.synthesis.repair import Impossible
 MOST_CUBES = 2_000
 """A certificate with more cubes leaves the claim to a prover."""
 
-FEW_NODES = 500
-"""Layers with so few nodes are taken as they are."""
+FEW_NODES = 1000
+"""Layers with so few nodes are taken as they are: Z3 is quick with them."""
 
 
 def certified(problem: Problem, reason: NoAllowedSet | NoPlan | Conflict) -> Unrealizability:

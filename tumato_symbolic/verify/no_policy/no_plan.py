@@ -17,7 +17,7 @@ from tumato_symbolic.verify.no_policy.named_goals import goal_text, named_goal, 
 MANY_NODES = 1000
 """Layers with more nodes tend to count, and then Z3 takes long."""
 
-SOON = 2.0
+SOON = 5.0
 """How many seconds Z3 may think about fewer before the walk is tried."""
 
 _HELD = "the next layers hold all successors of a layer"
