@@ -148,8 +148,8 @@ def _changed_cubes(reason: NoAllowedSet, vocabulary: Vocabulary, dice: Random) -
 
 
 def _changed_layers(reason: NoPlan, vocabulary: Vocabulary, dice: Random) -> NoPlan:
-    goals = reason.goals
-    match dice.randrange(5) if goals else 4:
+    goals, references = reason.goals, 2 + len(reason.diagram.nodes)
+    match dice.randrange(6) if goals else 5:
         case 0:
             return replace(reason, goals=_without(goals, dice))
         case 1:
@@ -169,6 +169,10 @@ def _changed_layers(reason: NoPlan, vocabulary: Vocabulary, dice: Random) -> NoP
             turned = (level, _exchanged(below, dice, lambda child: 1 - child if child < 2 else dice.randrange(2)))
             nodes = (*reason.diagram.nodes[:node], turned, *reason.diagram.nodes[node + 1 :])
             return replace(reason, diagram=replace(reason.diagram, nodes=nodes))
+        case 4:
+            place = dice.randrange(len(reason.roots))
+            roots = [*reason.roots[:place], dice.randrange(references), *reason.roots[place + 1 :]]
+            return reason.drawn(reason.diagram, roots)
         case _:
             return replace(reason, state=_any_state(vocabulary, dice))
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.conftest import Cli
-from tumato_symbolic.verify.no_policy import unrealizable
+from tumato_symbolic.verify.no_policy import no_plan, unrealizable
 
 
 def files(folder: Path) -> set[str]:
@@ -74,6 +74,21 @@ def test_time_that_runs_out_is_3(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> N
     again = cli("synth", "conflict.tum")
     assert again.code == 1
     assert "could not be proved" in again.out
+
+
+def test_the_report_names_whoever_was_needed(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Z3 alone, with the walk where layers were left to it, or the explicit meaning."""
+
+    def proved_by(spec: str) -> tuple[str, str]:
+        cli("synth", spec)
+        told = cli("verify", "policy.unrealizable.json", spec)
+        asked = cli("verify", "policy.unrealizable.json", spec, "--output-format", "json")
+        return told.out.strip().rpartition(" proved by ")[2], json.loads(asked.out)["proved_by"]
+
+    assert proved_by("two_robots.tum") == ("the explicit meaning", "meaning")
+    assert proved_by("no_plan.tum") == ("Z3", "z3")
+    monkeypatch.setattr(no_plan, "MANY_NODES", -1)
+    assert proved_by("no_plan.tum") == ("Z3 and the walk", "z3, walk")
 
 
 def test_another_ordering_than_the_written_one(cli: Cli, tmp_path: Path) -> None:

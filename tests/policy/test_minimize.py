@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 
 from tests.policy.strategies import QUICK, policies
 from tumato_symbolic.policy import Certificate, DecisionDiagram, DiagramBuilder, Policy, RankedGoal, as_table
-from tumato_symbolic.policy.minimize import minimized_decisions, minimized_ranks
+from tumato_symbolic.policy.minimize import minimized_decisions, minimized_layers, minimized_ranks
+from tumato_symbolic.policy.unrealizable import Layers, NoPlan
 
 
 @QUICK
@@ -36,6 +37,21 @@ def test_ranks_stay_where_they_matter(policy, data):
             if care[0].evaluate(care[1], state):
                 assert found.ranks.evaluate(after.root, state) == given_ranks.ranks.evaluate(before.root, state)
     assert len(found.ranks.nodes) <= len(given_ranks.ranks.nodes)
+
+
+@QUICK
+@given(st.lists(st.frozensets(st.sampled_from(list(product(range(2), range(3), range(2))))), min_size=2, max_size=5))
+def test_layers_stay_where_they_matter(sets):
+    """Every layer keeps the states of the first set that it has, and there are no more nodes."""
+    sizes, builder = (2, 3, 2), DiagramBuilder((2, 0, 1), (False, True))
+    care, *roots = [builder.from_table(sizes, dict.fromkeys(sorted(each), True), False) for each in sets]
+    goals = (Layers(("a",), (), tuple(roots[:2])), Layers(("b",), ("go",), tuple(roots[2:])))
+    reason = NoPlan((0, 0, 0), builder.finish(), goals)
+    found = minimized_layers(reason, sizes, care)
+    assert [(goal.bodies, len(goal.roots)) for goal in found.goals] == [(g.bodies, len(g.roots)) for g in goals]
+    for before, after in zip(reason.roots, found.roots, strict=True):
+        assert all(found.diagram.evaluate(after, s) == reason.diagram.evaluate(before, s) for s in sets[0])
+    assert len(found.diagram.nodes) <= len(reason.diagram.nodes)
 
 
 def test_undefined_states_are_used():

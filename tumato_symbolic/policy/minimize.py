@@ -8,6 +8,7 @@ from tumato_symbolic.policy.deep import room_for
 from tumato_symbolic.policy.diagram import Diagram, Leaf, Reference, rebuild
 from tumato_symbolic.policy.model import Certificate, DecisionDiagram, RankedGoal
 from tumato_symbolic.policy.sets import EVERYTHING, LEAVES, NOTHING, Sets
+from tumato_symbolic.policy.unrealizable import NoPlan
 
 
 def minimized_decisions(decisions: DecisionDiagram, sizes: Sequence[int]) -> DecisionDiagram:
@@ -25,6 +26,12 @@ def minimized_ranks(
     ranks, roots = _smallest(certificate.ranks, [goal.root for goal in certificate.goals], sizes, states)
     goals = zip(certificate.goals, roots, strict=True)
     return Certificate(ranks, tuple(RankedGoal(goal.bodies, goal.executed, root) for goal, root in goals))
+
+
+def minimized_layers(reason: NoPlan, sizes: Sequence[int], states: Reference) -> NoPlan:
+    """The same layers in all `states`, a root of the same diagram; elsewhere they mean nothing."""
+    diagram = reason.diagram
+    return reason.drawn(*_smallest(diagram, reason.roots, sizes, (diagram, states)))
 
 
 def _smallest(

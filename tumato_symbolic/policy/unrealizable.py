@@ -6,7 +6,8 @@ States, values and actions are numbers of the vocabulary; rules are named by the
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 from tumato_symbolic.policy.diagram import Diagram, Reference
@@ -57,11 +58,11 @@ class NoAllowedSet:
 
 @dataclass(frozen=True, slots=True)
 class Layers:
-    """Where the runs from a state go that owe one residual goal (named as in `RankedGoal`).
+    """Sets of states that hold the runs from a state that owe one residual goal (named as in `RankedGoal`).
 
-    `roots` lead to sets of states: the first holds every first successor, each next one every allowed successor of the
-    one before that is in no earlier layer. None meets the goal. There are as many as the plan bound allows, or the
-    successors of the last are all in earlier layers.
+    `roots` lead to the sets: the first holds every first successor; every allowed successor of a state in one is in it,
+    in an earlier one or in the next. None meets the goal. There are as many as the plan bound allows, or the successors
+    of the last are in none but these. One set that no step leaves is enough, where there is one.
     """
 
     bodies: tuple[str, ...]
@@ -76,6 +77,17 @@ class NoPlan:
     state: State
     diagram: Diagram[bool]
     goals: tuple[Layers, ...]
+
+    @property
+    def roots(self) -> list[Reference]:
+        """The layers of all goals, one after the other."""
+        return [root for goal in self.goals for root in goal.roots]
+
+    def drawn(self, diagram: Diagram[bool], roots: Sequence[Reference]) -> NoPlan:
+        """The same goals with as many layers as before, which are now these roots of another diagram."""
+        left = iter(roots)
+        goals = (replace(goal, roots=tuple(next(left) for _ in goal.roots)) for goal in self.goals)
+        return NoPlan(self.state, diagram, tuple(goals))
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,7 +20,6 @@ from tumato_symbolic.policy.unrealizable import (
     Conflict,
     Cube,
     Cut,
-    Layers,
     NoAllowedSet,
     NoPlan,
     Unrealizability,
@@ -209,10 +208,7 @@ def _bound_cube(cube: Cube, by: Renumbering) -> Cube:
 
 
 def _bound_plan(reason: NoPlan, by: Renumbering) -> NoPlan:
-    diagram, kept = by.diagram(reason.diagram, [root for goal in reason.goals for root in goal.roots])
-    roots = iter(kept)
-    goals = tuple(Layers(goal.bodies, goal.executed, tuple(next(roots) for _ in goal.roots)) for goal in reason.goals)
-    return NoPlan(by.state(reason.state), diagram, goals)
+    return replace(reason, state=by.state(reason.state)).drawn(*by.diagram(reason.diagram, reason.roots))
 
 
 def _bound_conflict(reason: Conflict, by: Renumbering) -> Conflict:

@@ -130,10 +130,8 @@ class _Reader:
 
         goals = _each(member(section, "Goals", "`Reason`"), "Goals", "goal", goal)
         found: Diagram[bool] = Diagram(order, tuple(leaves), nodes)
-        diagram, roots = rebuild(found, [root for each in goals for root in each.roots])
-        left = iter(roots)
-        kept = tuple(Layers(each.bodies, each.executed, tuple(next(left) for _ in each.roots)) for each in goals)
-        return NoPlan(state, diagram, kept)
+        read = NoPlan(state, found, goals)
+        return read.drawn(*rebuild(found, read.roots))
 
     def _conflict(self, section: dict[str, Any]) -> Conflict:
         order, leaves, nodes = read_diagram(section, "Reason", self._vocabulary)

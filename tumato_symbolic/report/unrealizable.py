@@ -20,6 +20,8 @@ _REASONS: Final[dict[UnrealizabilityKind, str]] = {
     "conflict": "there are states that no policy serves together",
 }
 
+_PROVERS: Final = {"z3": "Z3", "walk": "the walk", "meaning": "the explicit meaning"}
+
 
 @dataclass(frozen=True, slots=True)
 class Disproved:
@@ -65,8 +67,13 @@ def as_text(done: Disproved, colour: bool) -> str:
 
 def proof_line(found: UnrealizabilityVerdict) -> str:
     """What a certificate that holds proves."""
-    by = "by Z3" if found.by_solver else "by the explicit meaning"
-    return f"{_REASONS[found.kind]} ({found.kind}): {count(found.obligations, 'obligation')} proved {by}"
+    by = " and ".join(_PROVERS[name] for name in _proved_by(found))
+    return f"{_REASONS[found.kind]} ({found.kind}): {count(found.obligations, 'obligation')} proved by {by}"
+
+
+def _proved_by(found: UnrealizabilityVerdict) -> list[str]:
+    """Who was needed for a proof; the explicit meaning where nobody else was."""
+    return [*(["z3"] if found.by_solver else []), *(["walk"] if found.by_walk else [])] or ["meaning"]
 
 
 def _verdict(done: Disproved, paint: Paint) -> str:
@@ -89,7 +96,7 @@ def verdict_json(spec: Spec, found: UnrealizabilityVerdict) -> dict[str, object]
         "verdict": found.verdict,
         "kind": found.kind,
         "obligations": found.obligations,
-        "proved_by": ("z3" if found.by_solver else "meaning") if found.verdict == "proved" else None,
+        "proved_by": ", ".join(_proved_by(found)) if found.verdict == "proved" else None,
         "reason": found.reason,
         "witness": witness,
     }

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations
 
 from tumato_symbolic.policy import DiagramBuilder, RankedGoal, Vocabulary
+from tumato_symbolic.policy.minimize import minimized_layers
 from tumato_symbolic.policy.unrealizable import (
     Choice,
     Conflict,
@@ -19,6 +20,7 @@ from tumato_symbolic.policy.unrealizable import (
 )
 from tumato_symbolic.semantics import (
     ActionSet,
+    Residual,
     State,
     holds,
     is_safe,
@@ -36,6 +38,9 @@ from tumato_symbolic.synthesis.repair import Impossible
 
 MOST_CUBES = 2_000
 """A certificate with more cubes leaves the claim to a prover."""
+
+FEW_NODES = 1000
+"""Layers with so few nodes are taken as they are: Z3 is quick with them."""
 
 
 def certified(problem: Problem, reason: NoAllowedSet | NoPlan | Conflict) -> Unrealizability:
@@ -90,31 +95,69 @@ def _name(spec: Spec, rule: Rule) -> str:
     return canonical_text(spec, rule.formula)
 
 
-def no_plan(problem: Problem, state: State) -> NoPlan:
-    """Layers of the runs from a state, for every residual goal that an allowed set in it owes."""
-    encoding, steps = problem.encoding, problem.steps
-    builder: DiagramBuilder[bool] = DiagramBuilder(encoding.order, (False, True))
-    extract = Extractor(encoding, builder, default=False)
-    here = encoding.state_cube(state)
-    goals = []
-    for target in problem.targets:
-        for residual, owed in target.residuals:
-            if (owed & here) != problem.false:
-                layers = _forward(problem, steps.successors(owed & here))
-                roots = tuple(extract.function([(True, layer)]) for layer in layers)
-                goals.append(Layers(*goal_names(problem.spec, residual), roots))
+def no_plan(problem: Problem, state: State, distances: Sequence[Ranks]) -> NoPlan:
+    """Sets that hold all runs from a state, for every residual goal that an allowed set in it owes.
+
+    They are those that are too far from the goal; or those that the runs reach, where that takes fewer nodes.
+    """
+    here = problem.encoding.state_cube(state)
+    owing = [
+        (residual, problem.steps.successors(owed & here), distances[number])
+        for number, target in enumerate(problem.targets)
+        for residual, owed in target.residuals
+        if (owed & here) != problem.false
+    ]
+    far = _drawn(problem, state, [(residual, _too_far(problem, ranks)) for residual, _, ranks in owing])
+    size, near = len(far.diagram.nodes), []
+    for residual, first, _ in owing if size > FEW_NODES else ():
+        layers = _reached(problem, first, size)
+        if layers is None:
+            return far
+        near.append((residual, layers))
+    return min((far, _drawn(problem, state, near)), key=lambda each: len(each.diagram.nodes)) if near else far
+
+
+def _drawn(problem: Problem, state: State, found: Sequence[tuple[Residual, Sequence[Bdd]]]) -> NoPlan:
+    """Layers as diagrams. What they say of states that are not safe is free, and chosen so that they are small."""
+    builder: DiagramBuilder[bool] = DiagramBuilder(problem.encoding.order, (False, True))
+    extract = Extractor(problem.encoding, builder, default=False)
+    goals = [
+        Layers(*goal_names(problem.spec, residual), tuple(extract.function([(True, layer)]) for layer in layers))
+        for residual, layers in found
+    ]
     goals.sort(key=lambda goal: (goal.bodies, goal.executed))
-    return NoPlan(state, builder.finish(), tuple(goals))
+    safe = extract.function([(True, problem.steps.safe)])
+    return minimized_layers(NoPlan(state, builder.finish(), tuple(goals)), Vocabulary.of(problem.spec).sizes, safe)
 
 
-def _forward(problem: Problem, first: Bdd) -> list[Bdd]:
-    """Disjoint layers of what can be reached by allowed steps, as many as the plan bound allows."""
+def _too_far(problem: Problem, ranks: Ranks) -> list[Bdd]:
+    """The safe states from where a goal is not reached in the `L - k` steps that are left after `k`, for `k` from 1 on.
+
+    Where no distance was cut off by the bound, those from where it is never reached, which no step leaves.
+    """
+    near, layers = problem.false, []
+    for rank in ranks:
+        near = near | rank
+        layers.append(problem.steps.safe & ~near)
+    return layers[-1:] if ranks[-1] == problem.false else layers[::-1]
+
+
+def _reached(problem: Problem, first: Bdd, most: int) -> list[Bdd] | None:
+    """What runs reach after their `first` states: one set that no step leaves, or a layer for every step to the bound.
+
+    None where that takes more than `most` nodes.
+    """
+    builder: DiagramBuilder[bool] = DiagramBuilder(problem.encoding.order, (False, True))
+    extract = Extractor(problem.encoding, builder, default=False)
     bound = problem.spec.max_plan_length
     layers, seen = [first], first
     while bound is None or len(layers) < bound:
+        extract.function([(True, layers[-1])])
+        if len(builder.finish().nodes) > most:
+            return None
         layer = problem.steps.successors(problem.steps.allowed & layers[-1]) & ~seen
         if layer == problem.false:
-            break
+            return [seen]
         layers.append(layer)
         seen = seen | layer
     return layers

@@ -91,9 +91,9 @@ def _solve(
 
             failures = (_failure(problem, "no-allowed-set", stuck), _failure(problem, "no-plan", helpless))
             found = tuple(failure for failure in failures if failure is not None)
-            reason = no_allowed_set if stuck != problem.false else no_plan
-            proof = certified(problem, reason(problem, found[0].example))
-            return Unrealizable(found, statistics, proof, warnings)
+            state = found[0].example
+            reason = no_plan(problem, state, apart) if stuck == problem.false else no_allowed_set(problem, state)
+            return Unrealizable(found, statistics, certified(problem, reason), warnings)
         resolved = _resolve(judge, policy, apart, statistics, tell)
         if isinstance(resolved, Undecided | Unrealizable):
             return replace(resolved, warnings=warnings)

@@ -83,7 +83,7 @@ class UnrealizabilityVerdict:
 
     `reason` tells which check failed, or why there is no verdict; `state` and `chosen` are the witness, where there is
     one: an allowed set that the certificate should have spoken of. `stale`: the certificate was made for another
-    specification, and was judged against this one all the same. `by_solver`: Z3 was needed.
+    specification, and was judged against this one all the same. `by_solver`: Z3 was needed; `by_walk`: the walk was.
     """
 
     verdict: Verdict
@@ -93,6 +93,7 @@ class UnrealizabilityVerdict:
     stale: bool
     obligations: int = 0
     by_solver: bool = False
+    by_walk: bool = False
     reason: str | None = None
     state: State | None = None
     chosen: ActionSet | None = None

@@ -1,1 +1,1 @@
-"""The answer that there is no policy, proved by Z3 (`docs/certificate.md`, "The answer no")."""
+"""The answer that there is no policy, proved by Z3 and the walk (`docs/certificate.md`, "The answer no")."""

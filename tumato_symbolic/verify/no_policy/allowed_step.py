@@ -35,13 +35,15 @@ class AllowedStep:
     """A state `s`, a set `A` with `Ok(s, A)`, and `t = δ(s, A)`, sought by lazy refinement.
 
     The solver proposes a set that meets every condition but one, which speaks of all outcomes. `semantics` checks it;
-    a proposal with an unsafe outcome teaches a lemma that holds in all states.
+    a proposal with an unsafe outcome teaches a lemma that holds in all states. `proved` counts the claims that the
+    solver proved, `walked` those that were left to the walk.
     """
 
     def __init__(self, spec: Spec, ordering: Ordering, budget: float | None) -> None:
         self.spec = spec
+        self.ordering: Ordering = ordering
         self.proved = 0
-        self._ordering: Ordering = ordering
+        self.walked = 0
         self._budget = budget
         self._names = 0
         self._states, self._steps = Solver(), Solver()
@@ -68,9 +70,9 @@ class AllowedStep:
         self._states.define(term)
         self._steps.define(term)
 
-    def deadline(self) -> float:
-        """When the time for an obligation that is begun now is over, on the monotonic clock."""
-        return math.inf if self._budget is None else time.monotonic() + self._budget
+    def deadline(self, within: float = math.inf) -> float:
+        """When the time for what is begun now is over, that of one obligation or `within` seconds; monotonic."""
+        return time.monotonic() + min(within, math.inf if self._budget is None else self._budget)
 
     def some_state(self, claim: str, *terms: Term) -> State | None:
         """A state that meets `terms`; None where there is none, which proves `claim`. Raises `UndecidedError`."""
@@ -82,15 +84,15 @@ class AllowedStep:
         self.proved += 1
         return None
 
-    def some_step(self, claim: str, *terms: Term) -> Step | None:
+    def some_step(self, claim: str, *terms: Term, within: float = math.inf) -> Step | None:
         """An allowed step that meets `terms`; None where there is none, which proves `claim`.
 
-        Raises `UndecidedError`.
+        Raises `UndecidedError`, also when it takes more than `within` seconds.
         """
-        deadline = self.deadline()
+        deadline = self.deadline(within)
         while (answer := self._steps.ask(*terms, deadline=deadline)) == "sat":
             state, chosen = self.state.read(self._steps.model), self._choice.read(self._steps.model)
-            failed = objections_to(self.spec, state, chosen, self._ordering, deadline)
+            failed = objections_to(self.spec, state, chosen, self.ordering, deadline)
             if not failed:
                 return state, chosen, successor(self.spec, state, chosen)
             if not chosen:

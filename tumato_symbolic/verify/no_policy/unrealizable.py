@@ -65,7 +65,8 @@ def verify_unrealizable(
         return replace(found, verdict="refuted", reason=false.reason, state=false.state, chosen=false.chosen)
     except UndecidedError as undecided:
         return replace(found, verdict="undecided", reason=str(undecided))
-    return replace(found, obligations=checked + step.proved, by_solver=step.proved > 0)
+    proved = checked + step.proved + step.walked
+    return replace(found, obligations=proved, by_solver=step.proved > 0, by_walk=step.walked > 0)
 
 
 def _kind(certificate: Unrealizability) -> UnrealizabilityKind:
