@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from tumato_symbolic.policy.deep import room_for
 from tumato_symbolic.policy.diagram import Diagram, Leaf, Reference, rebuild
 from tumato_symbolic.policy.model import Certificate, DecisionDiagram, RankedGoal
 from tumato_symbolic.policy.sets import EVERYTHING, LEAVES, NOTHING, Sets
-from tumato_symbolic.policy.unrealizable import NoPlan
+
+if TYPE_CHECKING:
+    from tumato_symbolic.policy.unrealizable import NoPlan
 
 
 def minimized_decisions(decisions: DecisionDiagram, sizes: Sequence[int]) -> DecisionDiagram:
