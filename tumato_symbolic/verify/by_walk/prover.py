@@ -214,8 +214,8 @@ class WalkProver:
     def _minimal(self) -> PropertyResult:
         model, walk = self._model, self._model.walk
         unsafe = walk.without(model.decided, model.safe)
-        shorter = walk.combine(operator.lt, model.duration(model.chosen), model.duration(model.policy))
-        cheaper = walk.all_of((unsafe, shorter))
+        takes = walk.select(unsafe, (FALSE, model.duration(model.policy)))  # nothing is shorter than 0
+        cheaper = walk.combine(operator.lt, model.duration(model.chosen), takes)
         if cheaper != FALSE:
             cheaper = walk.all_of((cheaper, model.allowed))
         owed = self._residual_goals.residuals(cheaper, model.chosen)

@@ -1,9 +1,9 @@
 """The walk: functions of finitely many variables as ordered diagrams, every function once. Plain Python.
 
 A function is a number. Two functions are equal exactly when their numbers are, so that a violation is impossible
-exactly when it is `FALSE`. All that is computed comes from three walks over diagrams, each remembering what it has
-done: `select` (cases), `combine` (any operation on two functions) and `substitute` (functions for variables; an
-effect is a constant for each variable that it writes).
+exactly when it is `FALSE`. All that is computed comes from four walks over diagrams, each remembering what it has
+done: `select` (cases), `combine` (any operation on two functions), `substitute` (functions for variables; an
+effect is a constant for each variable that it writes) and `assign` (values for variables where a predicate holds).
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ Substitution: TypeAlias = tuple[tuple[int, Function], ...]
 """Functions for variables, sorted by variable; every other variable stays."""
 
 Key = TypeVar("Key", bound=Hashable)
+Found = TypeVar("Found")
 
 FALSE: Function = 0
 TRUE: Function = 1
@@ -82,15 +83,15 @@ class Walk:
         cases = tuple(cases)
         if number in self._values:
             return cases[self._values[number]]
-        if all(case == cases[0] for case in cases):
+        if cases.count(cases[0]) == len(cases):
             return cases[0]
         if cases == (FALSE, TRUE):
             return number
         key = (number, cases)
         found = self._selected.get(key)
         if found is None:
-            level = min(self._levels[number], *(self._levels[case] for case in cases))
-            parts = zip(*(self._split(each, level) for each in key[1]), strict=True)
+            level = min([self._levels[each] for each in (number, *cases)])
+            parts = zip(*[self._split(each, level) for each in cases], strict=True)
             below = zip(self._split(number, level), parts, strict=True)
             found = self._node(level, tuple([self.select(part, rest) for part, rest in below]))
             self._remember(self._selected, key, found)
@@ -136,6 +137,30 @@ class Walk:
             self._remember(known, function, found)
         return found
 
+    def assign(self, where: Function, values: Mapping[int, int], function: Function, otherwise: Function) -> Function:
+        """Where a predicate holds, `function` with `values` for some of its variables; elsewhere `otherwise`."""
+        given = {self.level_of[variable]: value for variable, value in values.items()}
+        constants = {variable: self.constant(value) for variable, value in values.items()}
+        known: dict[tuple[Function, Function, Function], Function] = {}
+
+        def visit(where: Function, function: Function, otherwise: Function) -> Function:
+            if where == FALSE:
+                return otherwise
+            if where == TRUE:
+                return self.substitute(function, constants)
+            while self._levels[function] in given:
+                function = self._below[function][given[self._levels[function]]]
+            key = (where, function, otherwise)
+            found = known.get(key)
+            if found is None:
+                level = min([self._levels[each] for each in key])
+                parts = zip(*[self._split(each, level) for each in key], strict=True)
+                found = self._node(level, tuple([visit(*part) for part in parts]))
+                self._remember(known, key, found)
+            return found
+
+        return visit(where, function, otherwise)
+
     def all_of(self, functions: Iterable[Function]) -> Function:
         """All of these predicates."""
         found = TRUE
@@ -178,6 +203,24 @@ class Walk:
                 pending += fresh
         return sorted(found)
 
+    def parts(self, function: Function) -> dict[int, Function]:
+        """Where a function has which of its values, in ascending order."""
+        known: dict[Function, dict[int, Function]] = {}
+
+        def visit(here: Function) -> dict[int, Function]:
+            if here in self._values:
+                return {self._values[here]: TRUE}
+            if here not in known:
+                below = [visit(part) for part in self._below[here]]
+                found = {
+                    value: self._node(self._levels[here], tuple([part.get(value, FALSE) for part in below]))
+                    for value in sorted(set[int]().union(*below))
+                }
+                self._remember(known, here, found)
+            return known[here]
+
+        return visit(function)
+
     def count(self, predicate: Function) -> int:
         """For how many values of all variables together a predicate holds."""
         counts = {FALSE: 0, TRUE: 1}
@@ -201,7 +244,7 @@ class Walk:
         return self._below[function] if self._levels[function] == level else (function,) * self.sizes[level]
 
     def _node(self, level: int, below: tuple[Function, ...]) -> Function:
-        return below[0] if all(each == below[0] for each in below) else self._make(level, below)
+        return below[0] if below.count(below[0]) == len(below) else self._make(level, below)
 
     def _make(self, level: int, below: tuple[Function, ...]) -> Function:
         found = self._known.setdefault((level, below), len(self._levels))
@@ -210,7 +253,7 @@ class Walk:
             self._below.append(below)
         return found
 
-    def _remember(self, known: dict[Key, Function], key: Key, found: Function) -> None:
+    def _remember(self, known: dict[Key, Found], key: Key, found: Found) -> None:
         known[key] = found
         self._left -= 1
         if self._left < 0:
