@@ -189,15 +189,20 @@ class Model:
                 walk.without(self.decided, self.formula(rule.formula, policy)),
             )
         apart = walk.without(self.decided, conflict)
-        as_decided = {}
-        for group, actions in enumerate(self.groups):
-            number = FALSE
-            for place, member in enumerate(actions, 1):
-                number = walk.select(policy[member], (number, walk.constant(place)))
-            as_decided[len(spec.variables) + group] = number
-        yield "every outcome is safe", walk.without(apart, walk.substitute(self.outcomes_safe, as_decided))
+        yield "every outcome is safe", walk.without(apart, self._as_decided(self.outcomes_safe))
         if self._ordering == "first":
             yield "δ is safe", walk.without(apart, self.next(self.safe))
+
+    def _as_decided(self, function: Function) -> Function:
+        """`function` of `(s, π(s))`, where no two actions of `π(s)` are in conflict."""
+        walk, policy = self.walk, self.policy
+        for group, actions in enumerate(self.groups):
+            variable = len(self.spec.variables) + group
+            found = walk.substitute(function, {variable: FALSE})
+            for place, member in enumerate(actions, 1):
+                found = walk.assign(policy[member], {variable: place}, function, found)
+            function = found
+        return function
 
     @cached_property
     def allowed(self) -> Function:
@@ -214,18 +219,16 @@ class Model:
 
     def duration(self, executed: Sequence[Function]) -> Function:
         """The sum of the durations of the executed actions."""
-        walk, total = self.walk, FALSE
-        for number, action in enumerate(self.spec.actions):
-            amount = walk.select(executed[number], (FALSE, walk.constant(action.duration)))
-            total = walk.combine(operator.add, total, amount)
-        return total
+        amounts = [self.walk.constant(action.duration) for action in self.spec.actions]
+        each = zip(executed, amounts, strict=True)
+        return self._total([self.walk.select(predicate, (FALSE, amount)) for predicate, amount in each])
 
     def size(self, executed: Sequence[Function]) -> Function:
         """The number of executed actions."""
-        total = FALSE
-        for each in executed:
-            total = self.walk.combine(operator.add, total, each)
-        return total
+        return self._total(executed)
+
+    def _total(self, numbers: Sequence[Function]) -> Function:
+        return self.walk.combine_all(operator.add, [FALSE, *numbers])
 
     def least(self, where: Function, measure: Function) -> Function:
         """That part of `where`, which is not empty, in which `measure` is smallest."""

@@ -30,22 +30,37 @@ MOST_STEPS = 3_000_000
 """How many results are remembered at most, up to 1 GB; a proof that needs more is given up."""
 
 
+TOO_LARGE = "the diagrams of the walk grow too large"
+
+
 class BudgetError(Exception):
     """The walk was given up: it took too many steps or too much time."""
+
+
+class FullError(BudgetError):
+    """It remembered more than it may."""
+
+
+def given_up(error: BudgetError | RecursionError) -> str:
+    """Why the walk was given up."""
+    return str(error) if isinstance(error, BudgetError) else "there are too many variables for the walk"
 
 
 class Walk:
     """Diagrams over variables of these `sizes`, which are tested in this `order`. Leaves are integers.
 
-    Every operation raises `BudgetError` when `deadline` (monotonic) has passed or memory is used up.
+    Every operation raises `BudgetError` when `deadline` (monotonic) has passed or more than `most` results are
+    `remembered`. From time to time `watch` is called, which may raise it as well.
     """
 
     def __init__(self, order: Sequence[int], sizes: Sequence[int], most_steps: int = MOST_STEPS) -> None:
         self.sizes = [sizes[variable] for variable in order]
         self.level_of = {variable: level for level, variable in enumerate(order)}
         self.deadline: float | None = None
+        self.watch: Callable[[], None] | None = None
+        self.most = most_steps
+        self.remembered = 0
         self._bottom = len(order)
-        self._left = most_steps
         self._levels: list[int] = []  # of every function, the level that it tests first; `_bottom` for a constant
         self._below: list[tuple[Function, ...]] = []  # what is left of it for every value of that variable
         self._values: dict[Function, int] = {}
@@ -56,10 +71,17 @@ class Walk:
         self.constant(0)
         self.constant(1)
 
+    @property
+    def is_full(self) -> bool:
+        """Whether more results were remembered than may be."""
+        return self.remembered > self.most
+
     def check_time(self) -> None:
-        """Raises `BudgetError` when the deadline has passed."""
+        """Raises `BudgetError` when the deadline has passed, or whoever watches says so."""
         if self.deadline is not None and time.monotonic() >= self.deadline:
             raise BudgetError("the walk did not end within the time limit")
+        if self.watch is not None:
+            self.watch()
 
     def constant(self, value: int) -> Function:
         """The function that is `value` everywhere; 0 and 1 are `FALSE` and `TRUE`."""
@@ -112,10 +134,12 @@ class Walk:
 
     def substitute(self, function: Function, given: Mapping[int, Function]) -> Function:
         """`function` with other functions for some of its variables, all at once."""
-        key = tuple(sorted(given.items()))
-        deepest = max((self.level_of[variable] for variable in given), default=-1)
-        by_level = {self.level_of[variable]: replacement for variable, replacement in key}
-        return self._substitute(function, by_level, deepest, self._substituted.setdefault(key, {}))
+        return self._substitute(function, *self._substitution(given))
+
+    def _substitution(self, given: Mapping[int, Function]) -> tuple[dict[int, Function], int, dict[Function, Function]]:
+        """What is given by level, the deepest level, and what is known of this substitution."""
+        by_level = {self.level_of[variable]: replacement for variable, replacement in given.items()}
+        return by_level, max(by_level, default=-1), self._substituted.setdefault(tuple(sorted(given.items())), {})
 
     def _substitute(
         self, function: Function, given: Mapping[int, Function], deepest: int, known: dict[Function, Function]
@@ -140,14 +164,14 @@ class Walk:
     def assign(self, where: Function, values: Mapping[int, int], function: Function, otherwise: Function) -> Function:
         """Where a predicate holds, `function` with `values` for some of its variables; elsewhere `otherwise`."""
         given = {self.level_of[variable]: value for variable, value in values.items()}
-        constants = {variable: self.constant(value) for variable, value in values.items()}
+        everywhere = self._substitution({variable: self.constant(value) for variable, value in values.items()})
         known: dict[tuple[Function, Function, Function], Function] = {}
 
         def visit(where: Function, function: Function, otherwise: Function) -> Function:
             if where == FALSE:
                 return otherwise
             if where == TRUE:
-                return self.substitute(function, constants)
+                return self._substitute(function, *everywhere)
             while self._levels[function] in given:
                 function = self._below[function][given[self._levels[function]]]
             key = (where, function, otherwise)
@@ -160,6 +184,13 @@ class Walk:
             return found
 
         return visit(where, function, otherwise)
+
+    def combine_all(self, operation: Callable[[int, int], int], functions: Sequence[Function]) -> Function:
+        """All of these functions, of which there are some, by an operation that is associative: neighbours first."""
+        while len(functions) > 1:
+            pairs = zip(functions[::2], functions[1::2], strict=False)
+            functions = [*(self.combine(operation, *pair) for pair in pairs), *functions[len(functions) & ~1 :]]
+        return functions[0]
 
     def all_of(self, functions: Iterable[Function]) -> Function:
         """All of these predicates."""
@@ -255,8 +286,8 @@ class Walk:
 
     def _remember(self, known: dict[Key, Found], key: Key, found: Found) -> None:
         known[key] = found
-        self._left -= 1
-        if self._left < 0:
-            raise BudgetError("the diagrams of the walk grow too large")
-        if self._left % 1024 == 0:
+        self.remembered += 1
+        if self.is_full:
+            raise FullError(TOO_LARGE)
+        if self.remembered % 1024 == 0:
             self.check_time()
