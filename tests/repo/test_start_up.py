@@ -15,7 +15,7 @@ from contextlib import redirect_stdout, redirect_stderr
 with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
     from tumato_symbolic.cli.main import main
     code = main(sys.argv[1:])
-print(json.dumps([code, [name for name in ("lark", "z3", "dd") if name in sys.modules]]))
+print(json.dumps([code, [name for name in ("lark", "z3", "dd", "multiprocessing") if name in sys.modules]]))
 """
 
 
@@ -54,6 +54,13 @@ def test_the_walk_does_without_z3() -> None:
     """`verify --prover walk` imports neither dd nor z3."""
     files = (str(ROOT / "proofs" / "amr.policy.json"), str(ROOT / "examples" / "amr.tum"))
     assert _loaded("verify", *files, "--prover", "walk") == (0, {"lark"})
+
+
+def test_a_small_proof_loads_nothing_for_processes() -> None:
+    """`verify` imports what makes processes only where it makes some, whatever `--jobs` says."""
+    files = (str(ROOT / "proofs" / "amr.policy.json"), str(ROOT / "examples" / "amr.tum"))
+    assert _loaded("verify", *files, "--prover", "walk", "--jobs", "4") == (0, {"lark"})
+    assert _loaded("verify", *files, "--jobs", "4") == (0, {"lark", "z3"})
 
 
 def test_importing_the_package_loads_nothing_heavy(tmp_path: Path) -> None:

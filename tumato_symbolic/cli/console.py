@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import os
+import signal
 import sys
 import threading
 import time
@@ -111,6 +112,8 @@ class Progress:
             self._thread.join()
 
     def _draw(self) -> None:
+        if hasattr(signal, "pthread_sigmask"):
+            signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # Ctrl-C is for the thread that works
         if self._done.wait(_PATIENCE):
             return
         while not self._done.wait(0.1):
