@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import os
-import signal
 import sys
 import threading
 import time
@@ -112,6 +111,8 @@ class Progress:
             self._thread.join()
 
     def _draw(self) -> None:
+        import signal
+
         if hasattr(signal, "pthread_sigmask"):
             signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # Ctrl-C is for the thread that works
         if self._done.wait(_PATIENCE):

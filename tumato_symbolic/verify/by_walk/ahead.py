@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import mmap
 import os
 import time
 from collections.abc import Callable, Hashable, Iterator, Sequence
@@ -69,6 +68,8 @@ class Ahead:
         Together they may remember as many results as one process: where they need more, no answer counts. Raises
         `BudgetError` where a task cannot be prepared, and `OSError` where there is no room for another process.
         """
+        import mmap
+
         began: dict[PropertyName, float] = {}
         counts = memoryview(mmap.mmap(-1, 8 * len(tasks))).cast("q")
 
