@@ -147,7 +147,13 @@ class Model:
         pairs = sorted({pair for action in actions for pair in action.nominal})
         masks = [sum(1 << pairs.index(pair) for pair in action.nominal) for action in actions]
         each = zip(self.policy, masks, strict=True)
-        written = [FALSE, *(walk.select(executed, (FALSE, walk.constant(mask))) for executed, mask in each)]
+        written = [
+            FALSE,
+            *(
+                walk.select(walk.all_of((self.acting, executed)), (FALSE, walk.constant(mask)))
+                for executed, mask in each
+            ),
+        ]
         while len(written) > 1:
             halves = zip(written[::2], written[1::2], strict=False)
             written = [walk.combine(operator.or_, *both) for both in halves] + written[len(written) & ~1 :]
