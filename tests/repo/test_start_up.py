@@ -15,7 +15,8 @@ from contextlib import redirect_stdout, redirect_stderr
 with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
     from tumato_symbolic.cli.main import main
     code = main(sys.argv[1:])
-asked = ("lark", "z3", "dd", "tumato_symbolic.policy.unrealizable", "tumato_symbolic.syntax.mistakes")
+asked = ["lark", "z3", "dd", "multiprocessing"]
+asked += ["tumato_symbolic.policy.unrealizable", "tumato_symbolic.syntax.mistakes"]
 print(json.dumps([code, [name for name in asked if name in sys.modules]]))
 """
 """Runs a command; shows its exit code, and what it loaded of the heavy packages and of what other answers need."""
@@ -61,6 +62,13 @@ def test_the_walk_does_without_z3() -> None:
     """`verify --prover walk` imports none of dd, z3 and lark."""
     files = (str(ROOT / "proofs" / "amr.policy.json"), str(ROOT / "examples" / "amr.tum"))
     assert _loaded("verify", *files, "--prover", "walk") == (0, set())
+
+
+def test_a_small_proof_loads_nothing_for_processes() -> None:
+    """`verify` imports what makes processes only where it makes some, whatever `--jobs` says."""
+    files = (str(ROOT / "proofs" / "amr.policy.json"), str(ROOT / "examples" / "amr.tum"))
+    assert _loaded("verify", *files, "--prover", "walk", "--jobs", "4") == (0, set())
+    assert _loaded("verify", *files, "--jobs", "4") == (0, {"z3"})
 
 
 def test_importing_the_package_loads_nothing_heavy(tmp_path: Path) -> None:

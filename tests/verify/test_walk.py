@@ -44,7 +44,7 @@ def _table(walk: Walk, function: int) -> dict[State, int]:
 
 @pytest.mark.parametrize("order", [(0, 1, 2, 3), (3, 1, 0, 2)])
 def test_operations_do_what_they_say(order: tuple[int, ...]) -> None:
-    """`select`, `combine`, `substitute` and the predicates agree with evaluation at every point, in any order."""
+    """`select`, `combine`, `substitute`, `assign` and the predicates agree with evaluation at every point."""
     random = Random(0)
     for _ in range(20):
         walk = Walk(order, SIZES)
@@ -61,6 +61,14 @@ def test_operations_do_what_they_say(order: tuple[int, ...]) -> None:
         assert _table(walk, moved) == {
             point: cases[0][1][one[1][point], numbers[point], point[2], 2] for point in POINTS
         }
+        written = walk.assign(one[0], {1: 2, 3: 0}, cases[0][0], number)
+        assert _table(walk, written) == {
+            point: cases[0][1][point[0], 2, point[2], 0] if one[1][point] else numbers[point] for point in POINTS
+        }
+        parts = walk.parts(number)
+        assert list(parts) == walk.values_of(number)
+        for value, where in parts.items():
+            assert _table(walk, where) == {point: int(numbers[point] == value) for point in POINTS}
         both, either = walk.all_of((one[0], other[0])), walk.any_of((one[0], other[0]))
         assert _table(walk, both) == {point: one[1][point] & other[1][point] for point in POINTS}
         assert _table(walk, either) == {point: one[1][point] | other[1][point] for point in POINTS}

@@ -16,7 +16,9 @@ from tumato_symbolic.report.unrealizable import Disproved, as_github, as_json, a
 
 def run_certificate(certificate: Unrealizability, options: Options) -> int:
     """Exit with 0 only when it is proved that there is no policy, and the certificate passes `--strict`."""
-    done = judge_certificate(certificate, options.policy, options.specs[0], options)
+    with Progress() as progress:
+        done = judge_certificate(certificate, options.policy, options.specs[0], options, progress)
+    show_warnings(done.warnings, done.source, options)
     match options.output_format:
         case "json":
             write(dump(as_json(done)))
@@ -27,8 +29,10 @@ def run_certificate(certificate: Unrealizability, options: Options) -> int:
     return certificate_exit_code(done)
 
 
-def judge_certificate(certificate: Unrealizability, path: str, spec_path: str, options: Options) -> Disproved:
-    """The certificate read from `path` against the specification at `spec_path`, whose warnings are shown.
+def judge_certificate(
+    certificate: Unrealizability, path: str, spec_path: str, options: Options, progress: Progress
+) -> Disproved:
+    """The certificate read from `path` against the specification at `spec_path`.
 
     Raises `UserError` where the specification cannot be used, or the certificate does not fit it.
     """
@@ -36,10 +40,9 @@ def judge_certificate(certificate: Unrealizability, path: str, spec_path: str, o
 
     source, spec, warnings = read_spec(spec_path)
     started = time.perf_counter()
-    with errors_in(source), Progress() as progress:
+    with errors_in(source):
         found = verify_unrealizable(certificate, spec, ordering=options.effect_ordering, progress=progress)
     took = time.perf_counter() - started
-    show_warnings(warnings, source, options)
     return Disproved(source, spec, path, found, warnings, took, options.strict)
 
 

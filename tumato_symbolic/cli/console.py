@@ -111,6 +111,10 @@ class Progress:
             self._thread.join()
 
     def _draw(self) -> None:
+        import signal
+
+        if hasattr(signal, "pthread_sigmask"):
+            signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # Ctrl-C is for the thread that works
         if self._done.wait(_PATIENCE):
             return
         while not self._done.wait(0.1):

@@ -5,24 +5,31 @@ from __future__ import annotations
 import os
 import sys
 import time
+from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 from tumato_symbolic.cli.certificate import certificate_exit_code, judge_certificate
-from tumato_symbolic.cli.console import wants_colour, write
+from tumato_symbolic.cli.console import Progress, wants_colour, write
 from tumato_symbolic.cli.exits import NO, UNDECIDED, USAGE, YES
+from tumato_symbolic.cli.inputs import show_warnings
 from tumato_symbolic.cli.parser import Options
-from tumato_symbolic.cli.verify import exit_code, judge
+from tumato_symbolic.cli.verify import exit_code, judge, wanted_jobs
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.policy.claim import load_claim
 from tumato_symbolic.policy.unrealizable import Unrealizability
 from tumato_symbolic.report.folder import Entry, Folder, as_github, as_json, as_text
 from tumato_symbolic.report.layout import dump
+from tumato_symbolic.verify.children import Lost, can_fork, in_children
 
 SUFFIXES = (".policy.json", ".unrealizable.json")
 """How the names of files end that are verified by folder."""
 
 EXAMPLES = Path("..", "examples")
 """Where a specification is looked for last, seen from the folder of its policy."""
+
+FEWEST_BYTES = 100_000
+"""Smaller folders are verified sooner than children are made."""
 
 _WORST_FIRST = (USAGE, NO, UNDECIDED, YES)
 
@@ -39,7 +46,11 @@ def run_folder(options: Options) -> int:
             f"there is nothing to verify in the folder {folder}: no file is called NAME{' or NAME'.join(SUFFIXES)}"
         )
         raise UserError((Diagnostic(Code.TUM501, message, help="write one with `tumato-sym synth SPEC -o FILE`"),))
-    entries = [_entry(path, options) for path in paths]
+    with Progress() as progress:
+        entries = _entries(paths, options, progress)
+    for entry, _ in entries:
+        if entry.done is not None:
+            show_warnings(entry.done.warnings, entry.done.source, options)
     done = Folder(str(folder), tuple(entry for entry, _ in entries), options.strict, time.perf_counter() - started)
     match options.output_format:
         case "json":
@@ -51,13 +62,49 @@ def run_folder(options: Options) -> int:
     return min((code for _, code in entries), key=_WORST_FIRST.index)
 
 
-def _entry(path: Path, options: Options) -> tuple[Entry, int]:
+def _entries(paths: Sequence[Path], options: Options, progress: Progress) -> list[tuple[Entry, int]]:
+    """All files, in their order, each with its exit code; by several processes where that pays."""
+    jobs = wanted_jobs(options)
+    parts = _parts(paths, jobs) if jobs > 1 and can_fork() else []
+    if len(parts) < 2:
+        return [_entry(path, options, progress, jobs) for path in paths]
+    progress(f"verifying {len(paths)} files")
+    answers = in_children([partial(_part, part, options, progress) for part in parts], jobs)
+    found: dict[Path, tuple[Entry, int]] = {}
+    for part, answer in zip(parts, answers, strict=True):
+        found.update(zip(part, _kept(answer), strict=True))
+    return [found[path] for path in paths]
+
+
+def _kept(answer: list[tuple[Entry, int]] | Lost) -> list[tuple[Entry, int]]:
+    """What a child has found. Raises `MemoryError` where it was ended: most likely for want of memory."""
+    if not isinstance(answer, Lost):
+        return answer
+    raise MemoryError(answer.reason)
+
+
+def _part(paths: Sequence[Path], options: Options, progress: Progress) -> list[tuple[Entry, int]]:
+    return [_entry(path, options, progress, 1) for path in paths]
+
+
+def _parts(paths: Sequence[Path], jobs: int) -> list[list[Path]]:
+    """The files, divided so that every process gets about as many bytes; undivided where there are few."""
+    sizes = {path: path.stat().st_size for path in paths}
+    if sum(sizes.values()) < FEWEST_BYTES:
+        return [list(paths)]
+    parts: list[list[Path]] = [[] for _ in range(min(jobs, len(paths)))]
+    for path in sorted(paths, key=sizes.__getitem__, reverse=True):
+        min(parts, key=lambda part: sum(sizes[each] for each in part)).append(path)
+    return parts
+
+
+def _entry(path: Path, options: Options, progress: Progress, jobs: int) -> tuple[Entry, int]:
     try:
         spec, claim = str(_specification(path, options)), load_claim(str(path))
         if isinstance(claim, Unrealizability):
-            disproved = judge_certificate(claim, str(path), spec, options)
+            disproved = judge_certificate(claim, str(path), spec, options, progress)
             return Entry(str(path), disproved), certificate_exit_code(disproved)
-        done = judge(claim, str(path), spec, options)
+        done = judge(claim, str(path), spec, options, progress, jobs=jobs)
     except UserError as error:
         return Entry(str(path), error=error), USAGE
     return Entry(str(path), done), exit_code(done)

@@ -45,8 +45,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         close_quietly()
         return BROKEN_PIPE
-    except MemoryError:
-        note("tumato-sym: undecided: out of memory")
+    except MemoryError as error:
+        note(f"tumato-sym: undecided: {str(error) or 'out of memory'}")
         return UNDECIDED
     except Exception:  # whatever comes here is our bug, and must not exit with 1
         import traceback

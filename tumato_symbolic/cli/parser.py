@@ -34,6 +34,7 @@ class Options:
     prove: bool = True
     properties: tuple[str, ...] = PROPERTIES
     prover: ProverName = "auto"
+    jobs: int | None = None
     strict: bool = False
     spec_folders: tuple[str, ...] = ()
     assignments: tuple[str, ...] = ()
@@ -274,6 +275,7 @@ def _synth(parser: argparse.ArgumentParser) -> None:
         "no limit; CUDD only)",
     )
     _prover(parser)
+    _jobs(parser, "the proof of a large policy")
     _format(parser)
 
 
@@ -297,6 +299,7 @@ def _verify(parser: argparse.ArgumentParser) -> None:
         help="where the specifications of a folder of policies are looked for first; may be given several times",
     )
     _prover(parser)
+    _jobs(parser, "a large proof, or a folder")
     parser.add_argument(
         "--strict",
         action="store_true",
@@ -385,6 +388,22 @@ def _prover(parser: argparse.ArgumentParser) -> None:
         "which must agree; or Z3 for what it answers soon and the walk for the rest (default: auto). That there is no "
         "policy is proved by Z3",
     )
+
+
+def _jobs(parser: argparse.ArgumentParser, what: str) -> None:
+    parser.add_argument(
+        "--jobs",
+        type=_number_of_jobs,
+        metavar="N",
+        help=f"how many processes may work at {what}; the answer is the same (default: one on every processor)",
+    )
+
+
+def _number_of_jobs(text: str) -> int:
+    jobs = int(text) if text.isdecimal() else 0
+    if jobs < 1:
+        raise argparse.ArgumentTypeError(f"{text} is not a positive number of processes")
+    return jobs
 
 
 def _format(parser: argparse.ArgumentParser, *more: str) -> None:

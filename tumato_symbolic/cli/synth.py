@@ -20,7 +20,7 @@ from tumato_symbolic.spec import Spec
 from tumato_symbolic.synthesis import Limits, Realizable, Unrealizable, synthesize
 
 if TYPE_CHECKING:
-    from tumato_symbolic.verify import ProverName, UnrealizabilityVerdict, Verification
+    from tumato_symbolic.verify import UnrealizabilityVerdict, Verification
 
 TO_STANDARD_OUTPUT = "-"
 
@@ -41,7 +41,7 @@ def run(options: Options) -> int:
         )
         solved = time.perf_counter()
         if isinstance(outcome, Realizable) and options.prove:
-            proof = _prove(outcome, spec, options.prover, progress)
+            proof = _prove(outcome, spec, options, progress)
         if isinstance(outcome, Unrealizable) and options.prove:
             disproof = _disprove(outcome, spec, progress)
     proved = time.perf_counter()
@@ -70,11 +70,19 @@ def run(options: Options) -> int:
     return NO if isinstance(outcome, Unrealizable) else UNDECIDED
 
 
-def _prove(outcome: Realizable, spec: Spec, prover: ProverName, progress: Progress) -> Verification:
+def _prove(outcome: Realizable, spec: Spec, options: Options, progress: Progress) -> Verification:
     """The verdict on our own policy. A refutation would be a bug of this program, and must not pass as a verdict."""
     from tumato_symbolic.verify import verify
+    from tumato_symbolic.verify.children import cores
 
-    proof = verify(outcome.policy, spec, ordering=outcome.statistics.ordering, prover=prover, progress=progress)
+    proof = verify(
+        outcome.policy,
+        spec,
+        ordering=outcome.statistics.ordering,
+        prover=options.prover,
+        jobs=options.jobs or cores(),
+        progress=progress,
+    )
     if proof.verdict == "refuted":
         raise AssertionError(f"the synthesized policy is refuted: {proof}")
     return proof

@@ -14,6 +14,7 @@ from tumato_symbolic.policy.claim import load_claim
 from tumato_symbolic.report.layout import dump
 from tumato_symbolic.report.verified import Verified, as_github, as_json, as_text
 from tumato_symbolic.verify import verify
+from tumato_symbolic.verify.children import cores
 
 
 def run(options: Options) -> int:
@@ -27,7 +28,9 @@ def run(options: Options) -> int:
         from tumato_symbolic.cli.certificate import run_certificate
 
         return run_certificate(claim, options)
-    done = judge(claim, options.policy, options.specs[0], options)
+    with Progress() as progress:
+        done = judge(claim, options.policy, options.specs[0], options, progress, jobs=wanted_jobs(options))
+    show_warnings(done.warnings, done.source, options)
     match options.output_format:
         case "json":
             write(dump(as_json(done)))
@@ -38,24 +41,29 @@ def run(options: Options) -> int:
     return exit_code(done)
 
 
-def judge(policy: Policy, path: str, spec_path: str, options: Options) -> Verified:
-    """The policy read from `path` against the specification at `spec_path`, whose warnings are shown.
+def wanted_jobs(options: Options) -> int:
+    """How many processes may work at a time: as many as the user says, else one on every processor."""
+    return options.jobs or cores()
+
+
+def judge(policy: Policy, path: str, spec_path: str, options: Options, progress: Progress, *, jobs: int) -> Verified:
+    """The policy read from `path` against the specification at `spec_path`.
 
     Raises `UserError` where the specification cannot be used, or the policy does not fit it.
     """
     source, spec, warnings = read_spec(spec_path)
     started = time.perf_counter()
-    with errors_in(source), Progress() as progress:
+    with errors_in(source):
         verification = verify(
             policy,
             spec,
             ordering=options.effect_ordering,
             properties=options.properties,
             prover=options.prover,
+            jobs=jobs,
             progress=progress,
         )
     took = time.perf_counter() - started
-    show_warnings(warnings, source, options)
     return Verified(source, spec, path, verification, warnings, took, options.strict)
 
 

@@ -65,3 +65,7 @@ class UserError(Exception):
         super().__init__("; ".join(f"{d.code.name}: {d.message}" for d in diagnostics))
         self.diagnostics = diagnostics
         self.source = source
+
+    def __reduce__(self) -> tuple[type[UserError], tuple[tuple[Diagnostic, ...], Source | None]]:
+        """Exceptions are copied between processes by how they were made."""
+        return UserError, (self.diagnostics, self.source)

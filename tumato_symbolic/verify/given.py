@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from tumato_symbolic.policy.diagram import Reference
 from tumato_symbolic.policy.model import Certificate, Policy
 from tumato_symbolic.semantics import Residual, State, action_names, named
@@ -17,7 +19,7 @@ class GivenRanks:
     `roots` is empty where there are none, or they were set aside.
     """
 
-    def __init__(self, spec: Spec, policy: Policy, policy_is_safe: bool) -> None:
+    def __init__(self, spec: Spec, policy: Policy, policy_is_safe: Callable[[], bool]) -> None:
         self._spec = spec
         self._policy_is_safe = policy_is_safe
         self.roots: dict[Residual, Reference] = {}
@@ -62,14 +64,21 @@ class GivenRanks:
     def reject(self, reason: str) -> None:
         """Set the certificate aside: it is wrong, unless that may be the fault of an unsafe policy."""
         self.roots = {}
-        self.use = CertificateUse("wrong" if self._policy_is_safe else "set aside", reason)
+        self.use = CertificateUse("wrong" if self._policy_is_safe() else "set aside", reason)
+
+    def join(self, use: CertificateUse) -> None:
+        """Heed what became of the same certificate in a part of the proof that was done apart."""
+        if use.status == "used":
+            self.serve()
+        elif use.status == "incomplete":
+            self.fall_short(use.reason)
 
     def serve(self) -> None:
         """The ranks carried a proof."""
         if self.use == UNNEEDED:
             self.use = CertificateUse("used")
 
-    def fall_short(self, reason: str) -> None:
+    def fall_short(self, reason: str | None) -> None:
         """Some ranks had to be recomputed."""
         if self.use.status in ("used", "unneeded"):
             self.use = CertificateUse("incomplete", reason)

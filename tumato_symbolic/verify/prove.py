@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.policy.bind import bind
 from tumato_symbolic.policy.model import Policy
 from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.verify.children import can_fork
 from tumato_symbolic.verify.provers import make_prover
 from tumato_symbolic.verify.result import (
     PROPERTIES,
@@ -34,6 +35,7 @@ def verify(
     properties: Sequence[str] = PROPERTIES,
     prover: ProverName = "auto",
     timeout: float | None = OBLIGATION_BUDGET,
+    jobs: int = 1,
     progress: Callable[[str], None] | None = None,
 ) -> Verification:
     """Prove `policy` for all valid states of `spec`, or refute it with a witness.
@@ -41,8 +43,9 @@ def verify(
     `ordering` overrules what policy and specification say of the order of effects. `properties` are some of `total`,
     `safe`, `goals` and `minimal`. `prover` is `z3`; `walk`, which does without Z3; `both`, which must agree; or `auto`:
     Z3 for what it answers soon, the walk for the rest. `timeout` limits the time, in seconds, of each obligation of Z3
-    and of each property of the walk (None: no limit); what is not proved in time is undecided. `progress` is told
-    what is being proved.
+    and of each property of the walk (None: no limit); what is not proved in time is undecided. Up to `jobs`
+    processes work at a time, where the proof is large and the platform can fork; the answer is the same. `progress` is
+    told what is being proved.
 
     Raises `UserError` when the names of the policy do not fit the specification, or no state is valid.
     """
@@ -56,12 +59,20 @@ def verify(
     results: list[PropertyResult] = []
     if source == "policy" and judged == "first" and spec.effect_ordering == "any":
         results.append(PropertyResult("ordering", "refuted", refutation=Refutation("ordering")))
-    for name in asked:
+    ahead: Mapping[PropertyName, float] = {}
+
+    def begin(name: PropertyName) -> None:
         if progress is not None:
             progress(f"proving {name}")
+
+    together = [name for name in asked if name != "total"]
+    for name in asked:
+        if name in together[:1]:
+            ahead = chosen.ahead(together, jobs if can_fork() else 1, begin)
+        begin(name)
         started = time.perf_counter()
         result = chosen.prove(name)
-        results.append(replace(result, seconds=time.perf_counter() - started))
+        results.append(replace(result, seconds=ahead.get(name, 0.0) + time.perf_counter() - started))
     verdict = _overall([result.verdict for result in results])
     return Verification(verdict, tuple(results), judged, source, chosen.use, chosen.valid_states())
 

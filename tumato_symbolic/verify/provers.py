@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from functools import cached_property
+from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Protocol
 
 from tumato_symbolic.policy.model import Policy, Table
@@ -15,6 +16,9 @@ if TYPE_CHECKING:
 
 SOON = 2.0
 """How many seconds Z3 may think about a property before the walk is tried."""
+
+SOON_REMEMBERED = 300_000
+"""How many results the walk may remember for `safe` before Z3 is tried, which does not mind many orders of effects."""
 
 MANY_RANK_NODES = 500
 """Ranks with more nodes than that tend to count, and then Z3 takes long."""
@@ -29,6 +33,15 @@ class Prover(Protocol):
 
     def has_valid_state(self) -> bool:
         """Whether some state is valid, as far as can be told."""
+
+    def ahead(
+        self, names: Sequence[PropertyName], jobs: int, started: Callable[[PropertyName], None]
+    ) -> Mapping[PropertyName, float]:
+        """Prepare for properties that will be asked; have up to `jobs` child processes prove parts of them, if it pays.
+
+        Verdicts do not depend on `jobs`; 1 makes no child. `started` is told whenever a part is begun. Returns how many
+        seconds each property took.
+        """
 
     def prove(self, name: PropertyName) -> PropertyResult:
         """The verdict on one property."""
@@ -57,25 +70,45 @@ def _z3(spec: Spec, policy: Policy, ordering: Ordering, timeout: float | None) -
 
 
 class _Pair:
-    """Z3 and the walk for one policy."""
+    """Z3 and the walk for one policy; Z3 is loaded when it is asked."""
 
     def __init__(self, spec: Spec, policy: Policy, ordering: Ordering, timeout: float | None) -> None:
         self._policy = policy
-        self._z3 = _z3(spec, policy, ordering, timeout)
         self._walk = WalkProver(spec, policy, ordering, timeout)
+        self._make_z3 = partial(_z3, spec, policy, ordering, timeout)
+
+    @cached_property
+    def _z3(self) -> Z3Prover:
+        prover = self._make_z3()
+        prover.policy_is_safe = self._walk.policy_is_safe
+        return prover
+
+    @property
+    def _asked(self) -> list[Z3Prover | WalkProver]:
+        return [self._z3, self._walk] if "_z3" in self.__dict__ else [self._walk]
 
     @property
     def use(self) -> CertificateUse:
         """The worse of what became of the certificate."""
-        return min((self._z3.use, self._walk.use), key=lambda use: _WORST_FIRST.index(use.status))
+        return min((prover.use for prover in self._asked), key=lambda use: _WORST_FIRST.index(use.status))
 
     def has_valid_state(self) -> bool:
-        """Whether some state is valid, as far as Z3 can tell."""
-        return self._z3.has_valid_state()
+        """Whether some state is valid, as far as the first who is asked can tell."""
+        return self._first.has_valid_state()
 
     def valid_states(self) -> int | None:
-        """How many states are valid, where Z3 can tell."""
-        return self._z3.valid_states()
+        """How many states are valid, where the first who is asked can tell."""
+        return self._first.valid_states()
+
+    def ahead(
+        self, names: Sequence[PropertyName], jobs: int, started: Callable[[PropertyName], None]
+    ) -> Mapping[PropertyName, float]:
+        """What the walk has children do."""
+        return self._walk.ahead(names, jobs, started)
+
+    @property
+    def _first(self) -> Z3Prover | WalkProver:
+        return self._z3
 
 
 _WORST_FIRST = ("wrong", "set aside", "stale", "absent", "incomplete", "used", "unneeded")
@@ -100,26 +133,42 @@ class _Both(_Pair):
 
 
 class _Auto(_Pair):
-    """Z3 where it answers soon, otherwise the walk, otherwise Z3 after all."""
+    """Z3 where it answers soon, otherwise the walk, otherwise Z3 after all; the walk first where ranks are large."""
 
     def prove(self, name: PropertyName) -> PropertyResult:
         """The verdict of whoever reaches one."""
-        if not self._walk_first(name):
+        result = self._prove(name)
+        if name == "safe" and result.verdict == "proved":
+            for prover in self._asked:
+                prover.policy_is_safe = True
+        return result
+
+    def _prove(self, name: PropertyName) -> PropertyResult:
+        if self._is_large and name == "safe":
+            soon = self._walk.prove(name, SOON_REMEMBERED)
+            if soon.verdict != "undecided":
+                return soon
+        if name == "safe" or not self._is_large:
             soon = self._z3.prove(name, within=SOON)
             if soon.verdict != "undecided":
-                self._walk.policy_is_safe |= name == "safe" and soon.verdict == "proved"
                 return soon
         walked = self._walk.prove(name)
         if walked.verdict != "undecided":
-            self._z3.policy_is_safe |= name == "safe" and walked.verdict == "proved"
             return walked
         last = self._z3.prove(name)
         if last.verdict == "undecided":
             return PropertyResult(name, "undecided", reason=f"{last.reason}; {walked.reason}")
         return last
 
-    def _walk_first(self, name: PropertyName) -> bool:
-        return name in ("goals", "minimal") and self._is_large
+    def ahead(
+        self, names: Sequence[PropertyName], jobs: int, started: Callable[[PropertyName], None]
+    ) -> Mapping[PropertyName, float]:
+        """What the walk has children do, where it is asked first."""
+        return self._walk.ahead(names, jobs, started, SOON_REMEMBERED) if self._is_large else {}
+
+    @property
+    def _first(self) -> Z3Prover | WalkProver:
+        return self._walk if self._is_large else self._z3
 
     @cached_property
     def _is_large(self) -> bool:

@@ -13,7 +13,7 @@ from functools import cached_property
 
 from tumato_symbolic.policy.model import DecisionDiagram
 from tumato_symbolic.semantics import ActionSet, State
-from tumato_symbolic.spec import And, Assignment, Constant, Executing, Formula, Iff, Is, Not, Or, Ordering, Spec
+from tumato_symbolic.spec import And, Constant, Executing, Formula, Iff, Is, Not, Or, Ordering, Spec
 from tumato_symbolic.verify.by_walk.order import conflicting, disagreeing, exclusive_groups, walk_order
 from tumato_symbolic.verify.by_walk.walk import FALSE, TRUE, Function, Walk
 
@@ -49,6 +49,7 @@ class Model:
         self.valid = walk.all_of(self.formula(rule.formula) for rule in spec.assumptions)
         self.safe = walk.all_of((self.valid, *(self.formula(rule.formula) for rule in spec.state_rules)))
         self.decided = walk.all_of((self.valid, taken[decisions.defined]))
+        self._next: dict[Function, Function] = {}
 
     def group_variable(self, action: int) -> int:
         """The variable that tells which action of its group is chosen."""
@@ -86,8 +87,10 @@ class Model:
 
     def together(self, pairs: Sequence[tuple[int, int]], executed: Sequence[Function]) -> Function:
         """Two actions of one of these pairs are both executed."""
-        walk = self.walk
-        return walk.any_of(walk.all_of((executed[one], executed[other])) for one, other in pairs)
+        walk, others = self.walk, dict[int, list[Function]]()
+        for one, other in pairs:
+            others.setdefault(other, []).append(executed[one])
+        return walk.any_of(walk.all_of((executed[other], walk.any_of(ones))) for other, ones in others.items())
 
     @cached_property
     def acting(self) -> Function:
@@ -138,32 +141,43 @@ class Model:
         return found
 
     @cached_property
-    def _steps(self) -> list[tuple[Function, dict[int, Function]]] | None:
+    def _steps(self) -> list[tuple[Function, dict[int, int]]] | None:
         """The acting states by what the policy nominally writes there; None where that is too many cases."""
-        walk = self.walk
-        parts: dict[Assignment, Function] = {(): self.acting}
-        for number, action in enumerate(self.spec.actions):
-            split: dict[Assignment, Function] = {}
-            for writes, part in parts.items():
-                both = tuple(sorted({*writes, *action.nominal}))
-                executed = walk.all_of((part, self.policy[number]))
-                for key, case in ((both, executed), (writes, walk.without(part, self.policy[number]))):
-                    if case != FALSE:
-                        split[key] = walk.any_of((split.get(key, FALSE), case))
-            parts = split
-            if len(parts) > MOST_CASES:
+        walk, actions = self.walk, self.spec.actions
+        pairs = sorted({pair for action in actions for pair in action.nominal})
+        masks = [sum(1 << pairs.index(pair) for pair in action.nominal) for action in actions]
+        each = zip(self.policy, masks, strict=True)
+        written = [
+            FALSE,
+            *(
+                walk.select(walk.all_of((self.acting, executed)), (FALSE, walk.constant(mask)))
+                for executed, mask in each
+            ),
+        ]
+        while len(written) > 1:
+            halves = zip(written[::2], written[1::2], strict=False)
+            written = [walk.combine(operator.or_, *both) for both in halves] + written[len(written) & ~1 :]
+            if any(len(walk.values_of(each)) > MOST_CASES for each in written):
                 return None
+        cases = walk.parts(walk.select(self.acting, (walk.constant(-1), *written)))
         return [
-            (part, {variable: walk.constant(value) for variable, value in writes}) for writes, part in parts.items()
+            (where, dict(pair for place, pair in enumerate(pairs) if mask >> place & 1))
+            for mask, where in cases.items()
+            if mask >= 0
         ]
 
     def next(self, function: Function) -> Function:
-        """`function` in `δ(s, π(s))`, where the policy acts."""
+        """`function` in `δ(s, π(s))` where the policy acts; elsewhere it means nothing."""
+        if function not in self._next:
+            self._next[function] = self._after_step(function)
+        return self._next[function]
+
+    def _after_step(self, function: Function) -> Function:
         if self._steps is None:
             return self.walk.substitute(function, self.successor(self.policy))
         found = FALSE
-        for part, writes in self._steps:
-            found = self.walk.select(part, (found, self.walk.substitute(function, writes)))
+        for where, writes in self._steps:
+            found = self.walk.assign(where, writes, function, found)
         return found
 
     def obligations(self) -> Iterator[tuple[str, Function]]:
@@ -181,15 +195,20 @@ class Model:
                 walk.without(self.decided, self.formula(rule.formula, policy)),
             )
         apart = walk.without(self.decided, conflict)
-        as_decided = {}
-        for group, actions in enumerate(self.groups):
-            number = FALSE
-            for place, member in enumerate(actions, 1):
-                number = walk.select(policy[member], (number, walk.constant(place)))
-            as_decided[len(spec.variables) + group] = number
-        yield "every outcome is safe", walk.without(apart, walk.substitute(self.outcomes_safe, as_decided))
+        yield "every outcome is safe", walk.without(apart, self._as_decided(self.outcomes_safe))
         if self._ordering == "first":
             yield "δ is safe", walk.without(apart, self.next(self.safe))
+
+    def _as_decided(self, function: Function) -> Function:
+        """`function` of `(s, π(s))`, where no two actions of `π(s)` are in conflict."""
+        walk, policy = self.walk, self.policy
+        for group, actions in enumerate(self.groups):
+            variable = len(self.spec.variables) + group
+            found = walk.substitute(function, {variable: FALSE})
+            for place, member in enumerate(actions, 1):
+                found = walk.assign(policy[member], {variable: place}, function, found)
+            function = found
+        return function
 
     @cached_property
     def allowed(self) -> Function:
@@ -206,18 +225,16 @@ class Model:
 
     def duration(self, executed: Sequence[Function]) -> Function:
         """The sum of the durations of the executed actions."""
-        walk, total = self.walk, FALSE
-        for number, action in enumerate(self.spec.actions):
-            amount = walk.select(executed[number], (FALSE, walk.constant(action.duration)))
-            total = walk.combine(operator.add, total, amount)
-        return total
+        amounts = [self.walk.constant(action.duration) for action in self.spec.actions]
+        each = zip(executed, amounts, strict=True)
+        return self._total([self.walk.select(predicate, (FALSE, amount)) for predicate, amount in each])
 
     def size(self, executed: Sequence[Function]) -> Function:
         """The number of executed actions."""
-        total = FALSE
-        for each in executed:
-            total = self.walk.combine(operator.add, total, each)
-        return total
+        return self._total(executed)
+
+    def _total(self, numbers: Sequence[Function]) -> Function:
+        return self.walk.combine_all(operator.add, [FALSE, *numbers])
 
     def least(self, where: Function, measure: Function) -> Function:
         """That part of `where`, which is not empty, in which `measure` is smallest."""

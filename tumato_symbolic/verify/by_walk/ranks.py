@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+from collections.abc import Callable
 from functools import cached_property
 
 from tumato_symbolic.policy.model import Policy
@@ -24,7 +25,7 @@ class WalkRanks(GivenRanks):
     Given ranks speak of safe states; those computed here of all.
     """
 
-    def __init__(self, model: Model, goals: WalkGoals, policy: Policy, policy_is_safe: bool) -> None:
+    def __init__(self, model: Model, goals: WalkGoals, policy: Policy, policy_is_safe: Callable[[], bool]) -> None:
         super().__init__(model.spec, policy, policy_is_safe)
         self._model = model
         self._goals = goals
@@ -50,12 +51,17 @@ class WalkRanks(GivenRanks):
         ranked = walk.combine(operator.lt, self._given(goal), walk.constant(self._never))
         return walk.without(ranked, self.given_near(goal))
 
-    def check_given(self) -> bool:
+    def prepare(self) -> None:
+        """Compute what given ranks have in common, whatever their goals."""
+        if self.roots:
+            self._taken, self._safe_after  # noqa: B018 - cached
+
+    def check_given(self, decreases: Callable[[Residual], bool]) -> bool:
         """Whether there is a certificate all of whose ranks decrease; a false one is set aside."""
         if self.use != UNNEEDED:
             return False
         for goal in self.roots:
-            if not self._decreases(goal):
+            if not decreases(goal):
                 self.reject(f"the ranks of {self.described(goal)} do not go down to it")
                 return False
         return True
@@ -92,7 +98,7 @@ class WalkRanks(GivenRanks):
     def _given(self, goal: Residual) -> Function:
         return self._taken[self.roots[goal]]
 
-    def _decreases(self, goal: Residual) -> bool:
+    def decreases(self, goal: Residual) -> bool:
         """`N = 0` only where the goal holds, and from `N = j > 0` a step to a safe state with a smaller rank."""
         model, walk = self._model, self._model.walk
         here = self._given(goal)

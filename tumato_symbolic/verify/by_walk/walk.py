@@ -1,9 +1,9 @@
 """The walk: functions of finitely many variables as ordered diagrams, every function once. Plain Python.
 
 A function is a number. Two functions are equal exactly when their numbers are, so that a violation is impossible
-exactly when it is `FALSE`. All that is computed comes from three walks over diagrams, each remembering what it has
-done: `select` (cases), `combine` (any operation on two functions) and `substitute` (functions for variables; an
-effect is a constant for each variable that it writes).
+exactly when it is `FALSE`. All that is computed comes from four walks over diagrams, each remembering what it has
+done: `select` (cases), `combine` (any operation on two functions), `substitute` (functions for variables; an
+effect is a constant for each variable that it writes) and `assign` (values for variables where a predicate holds).
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ Substitution: TypeAlias = tuple[tuple[int, Function], ...]
 """Functions for variables, sorted by variable; every other variable stays."""
 
 Key = TypeVar("Key", bound=Hashable)
+Found = TypeVar("Found")
 
 FALSE: Function = 0
 TRUE: Function = 1
@@ -29,22 +30,37 @@ MOST_STEPS = 3_000_000
 """How many results are remembered at most, up to 1 GB; a proof that needs more is given up."""
 
 
+TOO_LARGE = "the diagrams of the walk grow too large"
+
+
 class BudgetError(Exception):
     """The walk was given up: it took too many steps or too much time."""
+
+
+class FullError(BudgetError):
+    """It remembered more than it may."""
+
+
+def given_up(error: BudgetError | RecursionError) -> str:
+    """Why the walk was given up."""
+    return str(error) if isinstance(error, BudgetError) else "there are too many variables for the walk"
 
 
 class Walk:
     """Diagrams over variables of these `sizes`, which are tested in this `order`. Leaves are integers.
 
-    Every operation raises `BudgetError` when `deadline` (monotonic) has passed or memory is used up.
+    Every operation raises `BudgetError` when `deadline` (monotonic) has passed or more than `most` results are
+    `remembered`. From time to time `watch` is called, which may raise it as well.
     """
 
     def __init__(self, order: Sequence[int], sizes: Sequence[int], most_steps: int = MOST_STEPS) -> None:
         self.sizes = [sizes[variable] for variable in order]
         self.level_of = {variable: level for level, variable in enumerate(order)}
         self.deadline: float | None = None
+        self.watch: Callable[[], None] | None = None
+        self.most = most_steps
+        self.remembered = 0
         self._bottom = len(order)
-        self._left = most_steps
         self._levels: list[int] = []  # of every function, the level that it tests first; `_bottom` for a constant
         self._below: list[tuple[Function, ...]] = []  # what is left of it for every value of that variable
         self._values: dict[Function, int] = {}
@@ -55,10 +71,17 @@ class Walk:
         self.constant(0)
         self.constant(1)
 
+    @property
+    def is_full(self) -> bool:
+        """Whether more results were remembered than may be."""
+        return self.remembered > self.most
+
     def check_time(self) -> None:
-        """Raises `BudgetError` when the deadline has passed."""
+        """Raises `BudgetError` when the deadline has passed, or whoever watches says so."""
         if self.deadline is not None and time.monotonic() >= self.deadline:
             raise BudgetError("the walk did not end within the time limit")
+        if self.watch is not None:
+            self.watch()
 
     def constant(self, value: int) -> Function:
         """The function that is `value` everywhere; 0 and 1 are `FALSE` and `TRUE`."""
@@ -82,15 +105,15 @@ class Walk:
         cases = tuple(cases)
         if number in self._values:
             return cases[self._values[number]]
-        if all(case == cases[0] for case in cases):
+        if cases.count(cases[0]) == len(cases):
             return cases[0]
         if cases == (FALSE, TRUE):
             return number
         key = (number, cases)
         found = self._selected.get(key)
         if found is None:
-            level = min(self._levels[number], *(self._levels[case] for case in cases))
-            parts = zip(*(self._split(each, level) for each in key[1]), strict=True)
+            level = min([self._levels[each] for each in (number, *cases)])
+            parts = zip(*[self._split(each, level) for each in cases], strict=True)
             below = zip(self._split(number, level), parts, strict=True)
             found = self._node(level, tuple([self.select(part, rest) for part, rest in below]))
             self._remember(self._selected, key, found)
@@ -111,10 +134,12 @@ class Walk:
 
     def substitute(self, function: Function, given: Mapping[int, Function]) -> Function:
         """`function` with other functions for some of its variables, all at once."""
-        key = tuple(sorted(given.items()))
-        deepest = max((self.level_of[variable] for variable in given), default=-1)
-        by_level = {self.level_of[variable]: replacement for variable, replacement in key}
-        return self._substitute(function, by_level, deepest, self._substituted.setdefault(key, {}))
+        return self._substitute(function, *self._substitution(given))
+
+    def _substitution(self, given: Mapping[int, Function]) -> tuple[dict[int, Function], int, dict[Function, Function]]:
+        """What is given by level, the deepest level, and what is known of this substitution."""
+        by_level = {self.level_of[variable]: replacement for variable, replacement in given.items()}
+        return by_level, max(by_level, default=-1), self._substituted.setdefault(tuple(sorted(given.items())), {})
 
     def _substitute(
         self, function: Function, given: Mapping[int, Function], deepest: int, known: dict[Function, Function]
@@ -135,6 +160,37 @@ class Walk:
                     found = self.select(self._literal(level) if number < 0 else number, below)
             self._remember(known, function, found)
         return found
+
+    def assign(self, where: Function, values: Mapping[int, int], function: Function, otherwise: Function) -> Function:
+        """Where a predicate holds, `function` with `values` for some of its variables; elsewhere `otherwise`."""
+        given = {self.level_of[variable]: value for variable, value in values.items()}
+        everywhere = self._substitution({variable: self.constant(value) for variable, value in values.items()})
+        known: dict[tuple[Function, Function, Function], Function] = {}
+
+        def visit(where: Function, function: Function, otherwise: Function) -> Function:
+            if where == FALSE:
+                return otherwise
+            if where == TRUE:
+                return self._substitute(function, *everywhere)
+            while self._levels[function] in given:
+                function = self._below[function][given[self._levels[function]]]
+            key = (where, function, otherwise)
+            found = known.get(key)
+            if found is None:
+                level = min([self._levels[each] for each in key])
+                parts = zip(*[self._split(each, level) for each in key], strict=True)
+                found = self._node(level, tuple([visit(*part) for part in parts]))
+                self._remember(known, key, found)
+            return found
+
+        return visit(where, function, otherwise)
+
+    def combine_all(self, operation: Callable[[int, int], int], functions: Sequence[Function]) -> Function:
+        """All of these functions, of which there are some, by an operation that is associative: neighbours first."""
+        while len(functions) > 1:
+            pairs = zip(functions[::2], functions[1::2], strict=False)
+            functions = [*(self.combine(operation, *pair) for pair in pairs), *functions[len(functions) & ~1 :]]
+        return functions[0]
 
     def all_of(self, functions: Iterable[Function]) -> Function:
         """All of these predicates."""
@@ -178,6 +234,24 @@ class Walk:
                 pending += fresh
         return sorted(found)
 
+    def parts(self, function: Function) -> dict[int, Function]:
+        """Where a function has which of its values, in ascending order."""
+        known: dict[Function, dict[int, Function]] = {}
+
+        def visit(here: Function) -> dict[int, Function]:
+            if here in self._values:
+                return {self._values[here]: TRUE}
+            if here not in known:
+                below = [visit(part) for part in self._below[here]]
+                found = {
+                    value: self._node(self._levels[here], tuple([part.get(value, FALSE) for part in below]))
+                    for value in sorted(set[int]().union(*below))
+                }
+                self._remember(known, here, found)
+            return known[here]
+
+        return visit(function)
+
     def count(self, predicate: Function) -> int:
         """For how many values of all variables together a predicate holds."""
         counts = {FALSE: 0, TRUE: 1}
@@ -201,7 +275,7 @@ class Walk:
         return self._below[function] if self._levels[function] == level else (function,) * self.sizes[level]
 
     def _node(self, level: int, below: tuple[Function, ...]) -> Function:
-        return below[0] if all(each == below[0] for each in below) else self._make(level, below)
+        return below[0] if below.count(below[0]) == len(below) else self._make(level, below)
 
     def _make(self, level: int, below: tuple[Function, ...]) -> Function:
         found = self._known.setdefault((level, below), len(self._levels))
@@ -210,10 +284,10 @@ class Walk:
             self._below.append(below)
         return found
 
-    def _remember(self, known: dict[Key, Function], key: Key, found: Function) -> None:
+    def _remember(self, known: dict[Key, Found], key: Key, found: Found) -> None:
         known[key] = found
-        self._left -= 1
-        if self._left < 0:
-            raise BudgetError("the diagrams of the walk grow too large")
-        if self._left % 1024 == 0:
+        self.remembered += 1
+        if self.is_full:
+            raise FullError(TOO_LARGE)
+        if self.remembered % 1024 == 0:
             self.check_time()

@@ -23,7 +23,7 @@ def prove_goals(frame: Frame, source: RankSource) -> PropertyResult:
 
 
 def _residuals(frame: Frame) -> list[Residual]:
-    """The residual goals of all acting states."""
+    """The residual goals of all acting states, in an order that does not depend on which Z3 finds first."""
     executed = {
         action: frame.name(conjunction((frame.executed[action], spoken)), "x")
         for action, spoken in frame.goals.spoken_of().items()
@@ -43,7 +43,7 @@ def _residuals(frame: Frame) -> list[Residual]:
             frame.solver.add(negation(conjunction(terms)))
     if answer == "unknown":
         raise UndecidedError("there are no other residual goals")
-    return found
+    return sorted(found, key=lambda goal: (sorted(goal.bodies), sorted(goal.executed)))
 
 
 def _by_certificate(frame: Frame, source: RankSource, goals: list[Residual]) -> PropertyResult | None:

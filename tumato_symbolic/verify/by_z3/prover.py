@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import time
+from collections.abc import Callable, Sequence
 from functools import cached_property
 
 from tumato_symbolic.policy.convert import as_diagram
@@ -66,6 +67,12 @@ class Z3Prover:
         self._total |= name == "total" and result.verdict == "proved"
         self.policy_is_safe |= name == "safe" and result.verdict == "proved"
         return result
+
+    def ahead(
+        self, names: Sequence[PropertyName], jobs: int, started: Callable[[PropertyName], None]
+    ) -> dict[PropertyName, float]:
+        """Nothing: what Z3 answers depends on what it was asked before."""
+        return {}
 
     def valid_states(self) -> int | None:
         """How many states are valid: known where each of them is decided, and the others can be told apart."""

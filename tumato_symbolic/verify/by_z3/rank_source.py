@@ -17,7 +17,7 @@ class RankSource(GivenRanks):
     """The ranks of one policy; `use` tells what became of its certificate."""
 
     def __init__(self, frame: Frame, policy: Policy, ordering: Ordering, policy_is_safe: bool) -> None:
-        super().__init__(frame.spec, policy, policy_is_safe)
+        super().__init__(frame.spec, policy, lambda: policy_is_safe)
         self._frame = frame
         self._ordering = ordering
         self._certificate = policy.certificate
@@ -33,7 +33,7 @@ class RankSource(GivenRanks):
 
     def owes_a_run(self, state: State) -> bool:
         """Whether the decision for `state` owes a run: those that are not allowed are refuted without one."""
-        return self._policy_is_safe or not objections_to(
+        return self._policy_is_safe() or not objections_to(
             self._frame.spec, state, self.decisions[state], self._ordering, self._frame.deadline()
         )
 

@@ -1,0 +1,251 @@
+"""Proofs by several processes: the answer is that of one, whatever happens to the others."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import partial
+from importlib import import_module
+from random import Random
+
+import pytest
+
+from tests.generate import random_spec
+from tests.profiles import PROFILES
+from tests.repo.documents import ROOT
+from tests.verify.policies import certified, exact_ranks, near_policies, wrong_ranks
+from tumato_symbolic import Policy
+from tumato_symbolic.diagnostics import Source
+from tumato_symbolic.policy import policy_from_rows
+from tumato_symbolic.semantics import Residual
+from tumato_symbolic.spec import Ordering, Spec, load
+from tumato_symbolic.verify import ProverName, Verification, children, provers, verify
+from tumato_symbolic.verify.by_walk import ahead, prover
+from tumato_symbolic.verify.by_walk.ranks import WalkRanks
+from tumato_symbolic.verify.by_walk.walk import Walk
+
+TEST_PROCESS = os.getpid()
+
+
+@pytest.fixture
+def asked(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Have children work on the smallest proof; how many tasks they got each time."""
+    counts = []
+
+    def counting(tasks: Iterator[Callable[[], object]], jobs: int) -> list[object]:
+        found = children.in_children(tasks, jobs)
+        counts.append(len(found))
+        return found
+
+    monkeypatch.setattr(prover, "FEWEST_NODES", 0)
+    monkeypatch.setattr(provers, "MANY_RANK_NODES", -1)
+    monkeypatch.setattr(ahead, "in_children", counting)
+    return counts
+
+
+def _amr() -> tuple[Policy, Spec]:
+    path = ROOT / "examples" / "amr.tum"
+    spec = load(Source("amr.tum", path.read_text(encoding="utf-8"))).spec
+    assert spec is not None
+    return Policy.load(ROOT / "proofs" / "amr.policy.json"), spec
+
+
+def _timeless(answer: Verification) -> Verification:
+    return replace(answer, properties=tuple(replace(result, seconds=0.0) for result in answer.properties))
+
+
+def _policies(spec: Spec, ordering: Ordering, random: Random) -> Iterator[Policy]:
+    """Policies right and wrong, with certificates right and wrong."""
+    for rows in near_policies(spec, ordering, random, count=2):
+        ranks = exact_ranks(spec, rows, ordering)
+        yield certified(spec, rows, ranks)
+        if ranks:
+            yield certified(spec, rows, wrong_ranks(ranks, random))
+
+
+@pytest.mark.parametrize("profile", PROFILES)
+@pytest.mark.parametrize("ordering", ["any", "first"])
+def test_the_answer_does_not_depend_on_the_jobs(profile: str, ordering: Ordering, asked: list[int]) -> None:
+    """Verdicts, witnesses, numbers of obligations, provers and certificate are the same with 1, 2 and 3 processes."""
+    for seed in range(400, 404):
+        spec, random = random_spec(seed, PROFILES[profile]), Random(seed)
+        for policy in _policies(spec, ordering, random):
+            for name in ("walk", random.choice(("auto", "both"))):
+                ask = partial(_ask, policy, spec, ordering, name)
+                alone = ask(1)
+                assert [ask(2), ask(3)] == [alone, alone]
+    assert sum(asked) > 50, "children were asked"
+
+
+def _ask(policy: Policy, spec: Spec, ordering: Ordering, name: ProverName, jobs: int) -> Verification:
+    return _timeless(verify(policy, spec, ordering=ordering, prover=name, jobs=jobs))
+
+
+@pytest.mark.parametrize("name", ["walk", "auto"])
+def test_the_limit_on_memory_does_not_depend_on_the_jobs(
+    name: ProverName, asked: list[int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Children together may remember what one process may; where that is too little, the answer is that of one."""
+    policy, spec = _amr()
+    verdicts = set()
+    for most in range(200, 4000, 100):
+        monkeypatch.setattr(
+            import_module("tumato_symbolic.verify.by_walk.model"), "Walk", partial(Walk, most_steps=most)
+        )
+        alone = _ask(policy, spec, "any", name, 1)
+        assert _ask(policy, spec, "any", name, 2) == alone
+        verdicts |= {(result.name, result.verdict, result.proved_by) for result in alone.properties}
+    assert len(verdicts) == 7 if name == "walk" else 8
+    assert asked
+
+
+def test_no_time_is_undecided(asked: list[int]) -> None:
+    """The limit on time holds for what children do: nothing is proved in none."""
+    policy, spec = _amr()
+    answer = verify(policy, spec, prover="walk", timeout=1e-9, jobs=2)
+    assert [result.verdict for result in answer.properties] == ["undecided"] * 4
+
+
+def test_a_child_is_held_to_the_time_of_its_property(asked: list[int], monkeypatch: pytest.MonkeyPatch) -> None:
+    """A child that does not end in time leaves its property undecided, and no other."""
+
+    def never_ends(ranks: WalkRanks, _: Residual) -> bool:
+        while True:
+            ranks._model.walk.check_time()
+
+    monkeypatch.setattr(WalkRanks, "decreases", never_ends)
+    policy, spec = _amr()
+    answer = verify(policy, spec, prover="walk", timeout=0.3, jobs=2)
+    assert [result.verdict for result in answer.properties] == ["proved", "proved", "undecided", "proved"]
+    assert answer.properties[2].reason == "the walk did not end within the time limit"
+    assert 0.3 <= answer.properties[2].seconds < 5.0
+
+
+def test_progress_tells_what_is_proved(asked: list[int]) -> None:
+    """Each property is told when the first child begins with it."""
+    told: list[str] = []
+    verify(*_amr(), prover="walk", jobs=2, progress=told.append)
+    assert list(dict.fromkeys(told)) == ["proving total", "proving safe", "proving goals", "proving minimal"]
+
+
+def _only_in_children(act: Callable[[], object]) -> Callable[[WalkRanks, Residual], bool]:
+    original = WalkRanks.decreases
+
+    def decreases(ranks: WalkRanks, goal: Residual) -> bool:
+        if os.getpid() != TEST_PROCESS:
+            act()
+        return original(ranks, goal)
+
+    return decreases
+
+
+def test_a_killed_child_proves_nothing(asked: list[int], monkeypatch: pytest.MonkeyPatch) -> None:
+    """What a child was to prove that was killed is undecided, with the reason; the rest is proved."""
+    monkeypatch.setattr(WalkRanks, "decreases", _only_in_children(lambda: os.kill(os.getpid(), signal.SIGKILL)))
+    answer = verify(*_amr(), prover="walk", jobs=2)
+    assert [result.verdict for result in answer.properties] == ["proved", "proved", "undecided", "proved"]
+    assert answer.properties[2].reason == "a process that worked on it was ended, by signal 9"
+
+
+def test_an_exception_in_a_child_arrives(asked: list[int], monkeypatch: pytest.MonkeyPatch) -> None:
+    """An exception in a child is raised here, with the child's traceback; a lack of memory stays one."""
+
+    def fail(error: Exception) -> None:
+        raise error
+
+    monkeypatch.setattr(WalkRanks, "decreases", _only_in_children(partial(fail, ValueError("planted"))))
+    with pytest.raises(children.ChildError, match=r'(?s)File ".*test_jobs.py", line .*ValueError: planted'):
+        verify(*_amr(), prover="walk", jobs=2)
+    monkeypatch.setattr(WalkRanks, "decreases", _only_in_children(partial(fail, MemoryError())))
+    with pytest.raises(MemoryError):
+        verify(*_amr(), prover="walk", jobs=2)
+
+
+def _no_fork() -> int:
+    raise AssertionError("a process was forked")
+
+
+def test_one_job_forks_nothing(asked: list[int], monkeypatch: pytest.MonkeyPatch) -> None:
+    """`jobs=1` makes no process, however large the proof."""
+    monkeypatch.setattr(os, "fork", _no_fork)
+    assert verify(*_amr(), prover="walk", jobs=1).verdict == "proved"
+    with pytest.raises(AssertionError, match="forked"):
+        verify(*_amr(), prover="walk", jobs=2)
+
+
+@pytest.mark.parametrize("name", ["auto", "z3", "walk", "both"])
+def test_a_small_proof_forks_nothing(name: ProverName, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A small proof makes no process, however many it may."""
+    monkeypatch.setattr(os, "fork", _no_fork)
+    assert verify(*_amr(), prover=name, jobs=8).verdict == "proved"
+
+
+def test_without_fork_one_process_answers(asked: list[int], monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where there is no fork, or none that is safe, the answer is the same and comes from this process."""
+    policy, spec = _amr()
+    alone = _timeless(verify(policy, spec, prover="walk"))
+    with monkeypatch.context() as patched:
+        patched.setattr(sys, "platform", "darwin")
+        assert _timeless(verify(policy, spec, prover="walk", jobs=2)) == alone
+    with monkeypatch.context() as patched:
+        patched.delattr(os, "fork")
+        assert _timeless(verify(policy, spec, prover="walk", jobs=2)) == alone
+    assert not asked
+
+
+def test_no_room_for_a_process_is_no_error(asked: list[int], monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where the system makes no further process, this one does all."""
+
+    def refused() -> int:
+        raise BlockingIOError("no more processes")
+
+    monkeypatch.setattr(os, "fork", refused)
+    assert verify(*_amr(), prover="walk", jobs=2).verdict == "proved"
+
+
+def test_a_refused_certificate_leaves_minimal_to_be_asked_anew(asked: list[int]) -> None:
+    """What a child has proved by ranks that turn out false does not count."""
+    policy, spec = _amr()
+    certificate = policy.certificate
+    assert certificate is not None
+    leaves = tuple({1: 2, 2: 1}.get(leaf, leaf) if leaf is not None else None for leaf in certificate.ranks.leaves)
+    policy = replace(policy, certificate=replace(certificate, ranks=replace(certificate.ranks, leaves=leaves)))
+    answer = _ask(policy, spec, "any", "walk", 2)
+    assert (answer.verdict, answer.certificate.status) == ("proved", "wrong")
+    assert answer == _ask(policy, spec, "any", "walk", 1)
+
+
+def test_answers_come_in_the_order_of_the_tasks() -> None:
+    """Whoever comes first; and no more children than jobs work at a time."""
+    began = time.monotonic()
+
+    def task(number: int) -> tuple[int, float, float]:
+        since = time.monotonic() - began
+        time.sleep(0.2 if number == 0 else 0.05)
+        return number, since, time.monotonic() - began
+
+    found = children.in_children([partial(task, number) for number in range(5)], 2)
+    assert [answer[0] for answer in found if not isinstance(answer, children.Lost)] == list(range(5))
+    spans = [answer[1:] for answer in found if not isinstance(answer, children.Lost)]
+    assert max(sum(one[0] <= other[0] < one[1] for one in spans) for other in spans) == 2
+
+
+def test_every_processor_is_used(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The processors that this process may use are counted, where the system tells; else all."""
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: {1, 3, 4}, raising=False)
+    assert children.cores() == 3
+    monkeypatch.delattr(os, "sched_getaffinity")
+    monkeypatch.setattr(os, "cpu_count", lambda: 5)
+    assert children.cores() == 5
+
+
+def test_a_policy_without_rows_is_judged_by_many_as_by_one(asked: list[int]) -> None:
+    """Without a certificate there is nothing to divide."""
+    _, spec = _amr()
+    empty = policy_from_rows(spec, {})
+    assert _timeless(verify(empty, spec, prover="walk", jobs=2)) == _timeless(verify(empty, spec, prover="walk"))
+    assert not asked
