@@ -1,6 +1,7 @@
 """Progress on a terminal, silence elsewhere; Ctrl-C inside a solver."""
 
 import io
+import json
 import time
 from pathlib import Path
 
@@ -63,3 +64,29 @@ def test_ctrl_c_inside_z3_is_no_verdict(
     ran = cli(*command.split())
     assert (ran.code, ran.out, ran.err) == (130, "", "tumato-sym: interrupted\n")
     assert not (tmp_path / "policy.json").exists()
+
+
+@pytest.mark.parametrize(
+    ("command", "stage"),
+    [
+        (("synth", "amr.tum", "-o", "made.json"), "choosing restoring sets"),
+        (("verify", "amr.json", "amr.tum"), "proving goals"),
+    ],
+)
+def test_a_profile_stands_beside_the_report(cli: Cli, command: tuple[str, ...], stage: str) -> None:
+    """`--profile` lists the stages on the standard error stream, and leaves a report for a program as it is."""
+    ran = cli(*command, "--profile", "--output-format", "json")
+    assert json.loads(ran.out)["verdict"] in ("realizable", "proved")
+    assert "Where the time went:" in ran.err
+    assert any(line.endswith(stage) for line in ran.err.splitlines())
+    assert "Where the time went:" not in cli(*command).err
+
+
+def test_a_stage_counts_until_the_next_begins(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Seconds go to the message that stood; one that comes again goes on."""
+    clock = iter([0.0, 1.0, 3.0, 4.0, 9.0])
+    monkeypatch.setattr(console.time, "monotonic", lambda: next(clock))
+    with console.Progress() as progress:
+        for message in ("one", "other", "one"):
+            progress(message)
+    assert progress.stages() == {"one": 7.0, "other": 1.0}

@@ -17,7 +17,7 @@ import pytest
 from tests.cli.conftest import Cli, Ran
 from tests.repo.documents import ROOT
 from tumato_symbolic.cli import folder as folder_command
-from tumato_symbolic.cli import verify as verify_command
+from tumato_symbolic.cli import judging
 from tumato_symbolic.verify import children, provers
 from tumato_symbolic.verify.by_walk import prover
 from tumato_symbolic.verify.by_walk.ranks import WalkRanks
@@ -75,16 +75,16 @@ def test_jobs_is_a_positive_number(cli: Cli, jobs: str) -> None:
 def test_the_default_is_every_processor(cli: Cli, monkeypatch: pytest.MonkeyPatch, command: str) -> None:
     """Without `--jobs`, as many processes may work as there are processors; with it, as many as it says."""
     given: list[int] = []
-    original = verify_command.verify
+    original = judging.verify
 
     def recorded(*arguments: Any, jobs: int, **named: Any) -> Any:
         given.append(jobs)
         return original(*arguments, jobs=jobs, **named)
 
-    monkeypatch.setattr(verify_command, "verify", recorded)
+    monkeypatch.setattr(judging, "verify", recorded)
     monkeypatch.setattr(import_module("tumato_symbolic.verify"), "verify", recorded, raising=False)
     monkeypatch.setattr(children, "cores", lambda: 5)
-    monkeypatch.setattr(verify_command, "cores", lambda: 5)
+    monkeypatch.setattr(judging, "cores", lambda: 5)
     assert cli(*command.split()).code == 0
     assert cli(*command.split(), "--jobs", "3").code == 0
     assert given == [5, 3]

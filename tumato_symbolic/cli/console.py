@@ -89,14 +89,27 @@ class Progress:
 
     def __init__(self) -> None:
         self._message = ""
-        self._started = time.monotonic()
+        self._stages: dict[str, float] = {}
+        self._started = self._since = time.monotonic()
         self._done = threading.Event()
         shown = sys.stderr is not None and sys.stderr.isatty()
         self._thread = threading.Thread(target=self._draw, daemon=True) if shown else None
 
     def __call__(self, message: str) -> None:
         """Say what is being done now."""
+        self._clock()
         self._message = message
+
+    def stages(self) -> dict[str, float]:
+        """How many seconds each message stood, in the order in which they came first."""
+        return dict(self._stages)
+
+    def _clock(self) -> None:
+        """Count the time since the last message for what it said."""
+        now = time.monotonic()
+        if self._message:
+            self._stages[self._message] = self._stages.get(self._message, 0.0) + now - self._since
+        self._since = now
 
     def __enter__(self) -> Progress:
         if self._thread:
@@ -106,6 +119,7 @@ class Progress:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
+        self._clock()
         self._done.set()
         if self._thread:
             self._thread.join()

@@ -3,23 +3,21 @@
 from __future__ import annotations
 
 import os
-import sys
 import time
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 
-from tumato_symbolic.cli.certificate import certificate_exit_code, judge_certificate
-from tumato_symbolic.cli.console import Progress, wants_colour, write
+from tumato_symbolic.cli.console import Progress
 from tumato_symbolic.cli.exits import NO, UNDECIDED, USAGE, YES
 from tumato_symbolic.cli.inputs import show_warnings
+from tumato_symbolic.cli.judging import exit_code, judge, wanted_jobs
+from tumato_symbolic.cli.output import show, show_profile
 from tumato_symbolic.cli.parser import Options
-from tumato_symbolic.cli.verify import exit_code, judge, wanted_jobs
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.policy.claim import load_claim
-from tumato_symbolic.policy.unrealizable import Unrealizability
-from tumato_symbolic.report.folder import Entry, Folder, as_github, as_json, as_text
-from tumato_symbolic.report.layout import dump
+from tumato_symbolic.report import folder as report
+from tumato_symbolic.report.folder import Entry, Folder
 from tumato_symbolic.verify.children import Lost, can_fork, in_children
 
 SUFFIXES = (".policy.json", ".unrealizable.json")
@@ -52,13 +50,8 @@ def run_folder(options: Options) -> int:
         if entry.done is not None:
             show_warnings(entry.done.warnings, entry.done.source, options)
     done = Folder(str(folder), tuple(entry for entry, _ in entries), options.strict, time.perf_counter() - started)
-    match options.output_format:
-        case "json":
-            write(dump(as_json(done)))
-        case "github":
-            write(as_github(done))
-        case _:
-            write(as_text(done, wants_colour(sys.stdout)))
+    show(report, done, options)
+    show_profile(progress, options)
     return min((code for _, code in entries), key=_WORST_FIRST.index)
 
 
@@ -101,9 +94,6 @@ def _parts(paths: Sequence[Path], jobs: int) -> list[list[Path]]:
 def _entry(path: Path, options: Options, progress: Progress, jobs: int) -> tuple[Entry, int]:
     try:
         spec, claim = str(_specification(path, options)), load_claim(str(path))
-        if isinstance(claim, Unrealizability):
-            disproved = judge_certificate(claim, str(path), spec, options, progress)
-            return Entry(str(path), disproved), certificate_exit_code(disproved)
         done = judge(claim, str(path), spec, options, progress, jobs=jobs)
     except UserError as error:
         return Entry(str(path), error=error), USAGE

@@ -35,6 +35,7 @@ class Options:
     properties: tuple[str, ...] = PROPERTIES
     prover: ProverName = "auto"
     jobs: int | None = None
+    profile: bool = False
     strict: bool = False
     spec_folders: tuple[str, ...] = ()
     assignments: tuple[str, ...] = ()
@@ -276,6 +277,7 @@ def _synth(parser: argparse.ArgumentParser) -> None:
     )
     _prover(parser)
     _jobs(parser, "the proof of a large policy")
+    _profile(parser)
     _format(parser)
 
 
@@ -300,6 +302,7 @@ def _verify(parser: argparse.ArgumentParser) -> None:
     )
     _prover(parser)
     _jobs(parser, "a large proof, or a folder")
+    _profile(parser)
     parser.add_argument(
         "--strict",
         action="store_true",
@@ -396,6 +399,14 @@ def _jobs(parser: argparse.ArgumentParser, what: str) -> None:
         type=_number_of_jobs,
         metavar="N",
         help=f"how many processes may work at {what}; the answer is the same (default: one on every processor)",
+    )
+
+
+def _profile(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--profile",
+        action="store_true",
+        help="show on the standard error stream where the time went, and how much memory was taken",
     )
 
 

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import sys
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tumato_symbolic.cli.console import Progress, note, wants_colour, write
+from tumato_symbolic.cli.console import Progress, write
 from tumato_symbolic.cli.exits import NO, UNDECIDED, YES
 from tumato_symbolic.cli.inputs import errors_in, read_spec, show_warnings
-from tumato_symbolic.cli.output import check_writable
+from tumato_symbolic.cli.output import check_writable, show, show_profile
 from tumato_symbolic.cli.parser import Options
 from tumato_symbolic.diagnostics import Code, UserError
 from tumato_symbolic.policy import dumps, save
-from tumato_symbolic.report.layout import dump
-from tumato_symbolic.report.synthesized import Synthesized, as_github, as_json, as_text
+from tumato_symbolic.report import synthesized
+from tumato_symbolic.report.synthesized import Synthesized
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.synthesis import Limits, Realizable, Unrealizable, synthesize
 
@@ -28,22 +27,24 @@ TO_STANDARD_OUTPUT = "-"
 def run(options: Options) -> int:
     """Exit with 0 only when there is a policy, it is proved (unless that was declined), and it is written."""
     check_writable(options.output)
-    source, spec, warnings = read_spec(options.specs[0])
     proof = disproof = certificate = None
-    started = time.perf_counter()
-    with errors_in(source), Progress() as progress:
-        outcome = synthesize(
-            spec,
-            options.effect_ordering,
-            policy_format=options.policy_format,
-            limits=Limits(options.timeout, options.memory),
-            progress=progress,
-        )
-        solved = time.perf_counter()
-        if isinstance(outcome, Realizable) and options.prove:
-            proof = _prove(outcome, spec, options, progress)
-        if isinstance(outcome, Unrealizable) and options.prove:
-            disproof = _disprove(outcome, spec, progress)
+    with Progress() as progress:
+        progress("reading the specification")
+        source, spec, warnings = read_spec(options.specs[0])
+        started = time.perf_counter()
+        with errors_in(source):
+            outcome = synthesize(
+                spec,
+                options.effect_ordering,
+                policy_format=options.policy_format,
+                limits=Limits(options.timeout, options.memory),
+                progress=progress,
+            )
+            solved = time.perf_counter()
+            if isinstance(outcome, Realizable) and options.prove:
+                proof = _prove(outcome, spec, options, progress)
+            if isinstance(outcome, Unrealizable) and options.prove:
+                disproof = _disprove(outcome, spec, progress)
     proved = time.perf_counter()
     written = isinstance(outcome, Realizable) and (proof is None or proof.verdict == "proved")
     if isinstance(outcome, Unrealizable):
@@ -64,7 +65,8 @@ def run(options: Options) -> int:
     if isinstance(outcome, Realizable) and written:
         _write_policy(outcome, options.output)
     show_warnings(done.warnings, source, options)
-    _report(done, options)
+    show(synthesized, done, options, to_stderr=options.output == TO_STANDARD_OUTPUT)
+    show_profile(progress, options)
     if written:
         return YES
     return NO if isinstance(outcome, Unrealizable) else UNDECIDED
@@ -127,16 +129,3 @@ def _write_policy(outcome: Realizable, output: str) -> None:
         write(dumps(outcome.policy))
     else:
         save(outcome.policy, Path(output))
-
-
-def _report(done: Synthesized, options: Options) -> None:
-    """On the standard output, or beside it where the policy is written there."""
-    to_stderr = options.output == TO_STANDARD_OUTPUT
-    match options.output_format:
-        case "json":
-            text = dump(as_json(done))
-        case "github":
-            text = as_github(done)
-        case _:
-            text = as_text(done, wants_colour(sys.stderr if to_stderr else sys.stdout))
-    (note if to_stderr else write)(text)

@@ -12,6 +12,7 @@ from tumato_symbolic.report.findings import finding_json, github_command, github
 from tumato_symbolic.report.layout import Paint, count, seconds
 from tumato_symbolic.report.unrealizable import Disproved
 from tumato_symbolic.report.verified import Verified
+from tumato_symbolic.verify.result import Verdict
 
 Outcome = Literal["error", "refuted", "not accepted", "undecided", "proved"]
 
@@ -27,14 +28,10 @@ class Entry:
     @property
     def outcome(self) -> Outcome:
         """The verdict; *not accepted* is what is not refuted, with a certificate that fails."""
-        match self.done:
-            case None:
-                return "error"
-            case Verified():
-                verdict, fails = self.done.verification.verdict, self.done.certificate_fails
-            case Disproved():
-                verdict, fails = self.done.found.verdict, self.done.not_accepted
-        return "not accepted" if fails and verdict != "refuted" else verdict
+        if self.done is None:
+            return "error"
+        verdict: Verdict = self.done.verdict
+        return "not accepted" if self.done.not_accepted and verdict != "refuted" else verdict
 
 
 @dataclass(frozen=True, slots=True)

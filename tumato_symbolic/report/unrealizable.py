@@ -12,7 +12,7 @@ from tumato_symbolic.report.layout import Paint, count, seconds
 from tumato_symbolic.report.proof import ORDERINGS
 from tumato_symbolic.semantics import action_names, named
 from tumato_symbolic.spec import Spec
-from tumato_symbolic.verify.result import UnrealizabilityKind, UnrealizabilityVerdict
+from tumato_symbolic.verify.result import UnrealizabilityKind, UnrealizabilityVerdict, Verdict
 
 _REASONS: Final[dict[UnrealizabilityKind, str]] = {
     "no-allowed-set": "there is a state in which no set of actions is allowed",
@@ -37,6 +37,11 @@ class Disproved:
     warnings: tuple[Diagnostic, ...]
     took: float
     strict: bool = False
+
+    @property
+    def verdict(self) -> Verdict:
+        """The verdict on the certificate."""
+        return self.found.verdict
 
     @property
     def not_accepted(self) -> bool:

@@ -11,7 +11,7 @@ from tumato_symbolic.report.layout import Paint, enumeration, seconds
 from tumato_symbolic.report.proof import ORDERINGS, proof_json, property_line, provers, refutation_text
 from tumato_symbolic.report.reasons import Place
 from tumato_symbolic.spec import Spec
-from tumato_symbolic.verify.result import PROPERTIES, CertificateUse, Verification
+from tumato_symbolic.verify.result import PROPERTIES, CertificateUse, Verdict, Verification
 
 _CERTIFICATES = {
     "used": "its ranks carry the proof",
@@ -40,7 +40,12 @@ class Verified:
     strict: bool = False
 
     @property
-    def certificate_fails(self) -> bool:
+    def verdict(self) -> Verdict:
+        """The verdict on the policy."""
+        return self.verification.verdict
+
+    @property
+    def not_accepted(self) -> bool:
         """Whether the certificate alone is a reason to fail."""
         return self.strict and self.verification.certificate.status in ("stale", "wrong")
 
@@ -66,7 +71,7 @@ def as_text(done: Verified, colour: bool) -> str:
     left = [name for name in PROPERTIES if name not in {result.name for result in found.properties}]
     if left:
         lines.append(f"Not asked: {enumeration(left)}.")
-    if done.certificate_fails:
+    if done.not_accepted:
         lines += ["", f"{paint.bad('Not accepted')} (--strict): the certificate is {found.certificate.status}."]
     if found.verdict == "refuted":
         lines += ["", f"Next: mend the policy, or let `tumato-sym synth {shlex.quote(done.source.name)}` make one."]
@@ -100,7 +105,7 @@ def as_json(done: Verified) -> dict[str, object]:
         "policy": done.policy,
         "specification": done.source.name,
         "strict": done.strict,
-        "accepted": done.verification.verdict == "proved" and not done.certificate_fails,
+        "accepted": done.verification.verdict == "proved" and not done.not_accepted,
         "seconds": round(done.took, 3),
         "warnings": [finding_json(warning, done.source.name) for warning in done.warnings],
     }
@@ -119,7 +124,7 @@ def as_github(done: Verified) -> str:
             if result.refutation.objection is not None and result.refutation.objection.rule is not None:
                 span, file = result.refutation.objection.rule.span, done.source.name
         commands.append(github_command("error", message, file, span, f"{result.name} {result.verdict}"))
-    if done.certificate_fails:
+    if done.not_accepted:
         use = done.verification.certificate
         commands.append(github_command("error", f"certificate: {_certificate(use)}", done.policy, None, use.status))
     elif not open_results:

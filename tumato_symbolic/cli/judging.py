@@ -1,0 +1,63 @@
+"""A claim, a policy or that there is none, against its specification: what `verify` does with one file."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING, TypeAlias
+
+from tumato_symbolic.cli.console import Progress
+from tumato_symbolic.cli.exits import NO, UNDECIDED, YES
+from tumato_symbolic.cli.inputs import errors_in, read_spec
+from tumato_symbolic.cli.parser import Options
+from tumato_symbolic.policy import Policy
+from tumato_symbolic.report.verified import Verified
+from tumato_symbolic.verify import verify
+from tumato_symbolic.verify.children import cores
+
+if TYPE_CHECKING:
+    from tumato_symbolic.policy.unrealizable import Unrealizability
+    from tumato_symbolic.report.unrealizable import Disproved
+
+    Judged: TypeAlias = Verified | Disproved
+
+
+def wanted_jobs(options: Options) -> int:
+    """How many processes may work at a time: as many as the user says, else one on every processor."""
+    return options.jobs or cores()
+
+
+def judge(
+    claim: Policy | Unrealizability, path: str, spec_path: str, options: Options, progress: Progress, *, jobs: int
+) -> Judged:
+    """The claim read from `path` against the specification at `spec_path`.
+
+    Raises `UserError` where the specification cannot be used, or the claim does not fit it.
+    """
+    progress("reading the specification")
+    source, spec, warnings = read_spec(spec_path)
+    started = time.perf_counter()
+    with errors_in(source):
+        if isinstance(claim, Policy):
+            verification = verify(
+                claim,
+                spec,
+                ordering=options.effect_ordering,
+                properties=options.properties,
+                prover=options.prover,
+                jobs=jobs,
+                progress=progress,
+            )
+            took = time.perf_counter() - started
+            return Verified(source, spec, path, verification, warnings, took, options.strict)
+        from tumato_symbolic.report.unrealizable import Disproved
+        from tumato_symbolic.verify import verify_unrealizable  # loads Z3, which --prover walk does without
+
+        found = verify_unrealizable(claim, spec, ordering=options.effect_ordering, progress=progress)
+        return Disproved(source, spec, path, found, warnings, time.perf_counter() - started, options.strict)
+
+
+def exit_code(done: Judged) -> int:
+    """What a script may conclude: 0 only where all is proved, and the certificate passes `--strict`."""
+    if done.not_accepted:
+        return NO
+    return {"proved": YES, "refuted": NO, "undecided": UNDECIDED}[done.verdict]
