@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TypeAlias
 
 from tumato_symbolic.spec import Assignment
@@ -76,14 +77,17 @@ class Course:
     moves: Mapping[Assignment, Bdd] | None
     following: Mapping[str, Bdd]
 
+    @cached_property
+    def _cofactors(self) -> list[tuple[Mapping[str, bool], Bdd]]:
+        moves = self.moves or {}
+        return [(self.problem.encoding.assignment_bits(effect), acting) for effect, acting in moves.items()]
+
     def predecessor(self, states: Bdd, target: Bdd) -> Bdd:
         """Those of some states that the policy leads into a set in one step."""
-        encoding, manager = self.problem.encoding, self.problem.encoding.manager
+        manager = self.problem.encoding.manager
         if self.moves is None:
             return states & self.decided & manager.compose(target, self.following)
-        return states & manager.union(
-            acting & manager.cofactor(target, encoding.assignment_bits(effect)) for effect, acting in self.moves.items()
-        )
+        return states & manager.union(acting & manager.cofactor(target, effect) for effect, acting in self._cofactors)
 
 
 def course(problem: Problem, policy: Bdd, most: int = MOST_MOVES) -> Course:
@@ -95,16 +99,8 @@ def course(problem: Problem, policy: Bdd, most: int = MOST_MOVES) -> Course:
     return Course(problem, policy, steps.states_of(policy), owing, moves, following)
 
 
-def alike(problem: Problem, policies: Sequence[Bdd]) -> list[Course]:
-    """The courses of some policies, all with `moves` or none, so that they can be mixed."""
-    courses = [course(problem, policy) for policy in policies]
-    if all(each.moves is not None for each in courses):
-        return courses
-    return [each if each.moves is None else course(problem, each.policy, 0) for each in courses]
-
-
 def mixed(one: Course, other: Course, states: Bdd) -> Course:
-    """The course of the policy that follows `other` in some states and `one` elsewhere; both are `alike`."""
+    """The course of the policy that follows `other` in some states, else `one`; both have `moves`, or neither."""
     problem, manager = one.problem, one.problem.encoding.manager
 
     def spliced(elsewhere: Bdd, there: Bdd) -> Bdd:
