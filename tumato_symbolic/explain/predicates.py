@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from tumato_symbolic.explain.cubes import StateCube, shortest_cubes
-from tumato_symbolic.spec import FALSE, TRUE, And, Constant, Executing, Formula, Iff, Is, Not, Or, Spec
+from tumato_symbolic.spec import FALSE, TRUE, And, Constant, Executing, Formula, Iff, Is, Not, Or, Spec, canonical_text
 from tumato_symbolic.symbolic import Bdd, Encoding
 
 MANY_CUBES = 500
@@ -71,12 +71,8 @@ _LEVELS: dict[type, int] = {Iff: 0, Or: 2, And: 3, Not: 4}
 
 def _text(spec: Spec, formula: Formula, level: int) -> str:
     match formula:
-        case Constant(value):
-            return "true" if value else "false"
-        case Is(variable, value):
-            return f"{spec.variables[variable].name} is {spec.variables[variable].values[value]}"
-        case Executing(action):
-            return f"executing {spec.actions[action].name}"
+        case Constant() | Is() | Executing():
+            return canonical_text(spec, formula)
         case Not(operand):
             return f"NOT {_text(spec, operand, 5)}"
         case And(operands):
