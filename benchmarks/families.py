@@ -42,7 +42,7 @@ FAMILIES = {
         Family("random", "generated from seed n", arbitrary, (1,), (1,)),
         Family("plant", "a robot among n stations", plant, (1, 4, 7, 10), (1,)),
         Family("strewn", "the plant, declared in a random order", strewn, (4, 10), ()),
-        Family("shelves", "n boxes with names on n shelves", shelves, (4, 6, 8), (4,), limit=True),
+        Family("shelves", "n boxes with names on n shelves", shelves, (4, 6, 8, 10), (4,), limit=True),
         Family("shelf_counts", "n boxes, all alike, on n shelves", shelf_counts, (4, 6, 8, 10), (), limit=True),
         Family("pairs", "n drives, then their n brakes", pairs, (4, 6, 8, 10), (4,), limit=True),
         Family("paired", "n drives, each with its brake", paired, (4, 6, 8, 10), (), limit=True),
