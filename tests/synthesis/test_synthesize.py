@@ -15,6 +15,8 @@ from tumato_symbolic.semantics import ActionSet, State, judge
 from tumato_symbolic.spec import FALSE, And, Is, Not, Or, Spec
 from tumato_symbolic.symbolic import Backend, Limits, available_backend
 from tumato_symbolic.synthesis import Outcome, Realizable, Undecided, Unrealizable, synthesize
+from tumato_symbolic.synthesis.fixpoints import attractor
+from tumato_symbolic.synthesis.problem import pose
 
 pipeline = import_module("tumato_symbolic.synthesis.synthesize")
 
@@ -259,6 +261,17 @@ def test_a_time_limit_ends_in_undecided(backend: Backend) -> None:
     assert "time limit of 0 s" in outcome.limit
     assert outcome.statistics is not None
     assert outcome.statistics.valid == 4
+
+
+def test_every_step_of_a_fixpoint_heeds_the_time_limit(monkeypatch: pytest.MonkeyPatch) -> None:
+    """However a step is computed, time is looked at before each: a long plan cannot overrun it."""
+    _, spec = line()
+    problem = pose(spec, "any", available_backend())
+    asked: list[int] = []
+    monkeypatch.setattr(problem.encoding.manager, "seconds_left", lambda: asked.append(1))
+    steps = problem.steps
+    layers = attractor(problem, problem.targets[0].states, lambda states, _: states & steps.safe, steps.safe, None)
+    assert len(asked) == len(layers) - 1 > 0
 
 
 @pytest.mark.skipif(available_backend() == "autoref", reason="only CUDD bounds its memory")

@@ -37,7 +37,11 @@ class Extractor(Generic[Value]):
         self._known: dict[tuple[Reference, ...], dict[tuple[Bdd, ...], Reference]] = {}
 
     def function(self, parts: Sequence[tuple[Value, Bdd]]) -> Reference:
-        """The reference of the function that has each part's value in that part and the default elsewhere."""
+        """The reference of the function that has each part's value in that part and the default elsewhere.
+
+        Raises `LimitReachedError` when time is up.
+        """
+        self._manager.seconds_left()
         leaves = (self._leaf(self._default), *(self._leaf(value) for value, _ in parts))
         digits = tuple(
             self._manager.union(states for number, (_, states) in enumerate(parts, 1) if number >> digit & 1)

@@ -25,10 +25,12 @@ def attractor(problem: Problem, target: Bdd, predecessor: Predecessor, within: B
     """Backward layers of `target`: `μ Z. target ∪ (within ∩ pre(Z))`, at most `limit` steps deep.
 
     With a policy's predecessor these are the exact ranks of its runs; with that of all allowed pairs, the distances.
+    Raises `LimitReachedError` when time is up.
     """
     layers = [target]
     left = within & ~target
     while layers[-1] != problem.false and (limit is None or len(layers) <= limit):
+        problem.encoding.manager.seconds_left()
         layer = predecessor(left, layers[-1])
         layers.append(layer)
         left = left & ~layer
