@@ -78,7 +78,7 @@ class Steps:
         return found
 
     def next_state(self, policy: Bdd) -> dict[str, Bdd]:
-        """`s ↦ δ(s, π(s))` for a functional relation, as one function for every bit that the policy changes somewhere.
+        """`s ↦ δ(s, π(s))` for a functional relation, as one function for every bit that some action writes.
 
         A state without a decision stays where it is.
         """

@@ -68,7 +68,7 @@ class Course:
 
     A policy that does few different things is taken move by move: `moves` has the states by what is written there, and
     the predecessor is a union of cofactors. Otherwise `moves` is None, and `following` has the next value of every bit
-    that changes somewhere: the predecessor is a composition. `owing` has, for every target, the states whose decision
+    that some action writes: the predecessor is a composition. `owing` has, for every target, the states whose decision
     owes it.
     """
 
@@ -103,7 +103,7 @@ def course(problem: Problem, policy: Bdd, most: int = MOST_MOVES) -> Course:
 
 def mixed(one: Course, other: Course, states: Bdd) -> Course:
     """The course of the policy that follows `other` in some states, else `one`; both have `moves`, or neither."""
-    problem, manager = one.problem, one.problem.encoding.manager
+    problem = one.problem
 
     def spliced(elsewhere: Bdd, there: Bdd) -> Bdd:
         return (elsewhere & ~states) | (there & states)
@@ -114,10 +114,7 @@ def mixed(one: Course, other: Course, states: Bdd) -> Course:
             effect: spliced(one.moves.get(effect, problem.false), other.moves.get(effect, problem.false))
             for effect in {**one.moves, **other.moves}
         }
-    following = {
-        bit: spliced(*(each.following.get(bit, manager.cube({bit: True})) for each in (one, other)))
-        for bit in {**one.following, **other.following}
-    }
+    following = {bit: spliced(function, other.following[bit]) for bit, function in one.following.items()}
     return Course(
         problem,
         spliced(one.policy, other.policy),
