@@ -85,3 +85,17 @@ def test_the_order_pays(monkeypatch: pytest.MonkeyPatch) -> None:
 def _nodes(spec: Spec) -> int:
     steps = build_steps(encode(spec, "autoref"), "any")
     return len(steps.encoding.manager.descending(steps.allowed))
+
+
+def test_choices_stand_above_what_they_write() -> None:
+    """The bits of a group stand just above the first variable, as it is tested, that one of its actions writes."""
+    spec = family("strewn", 4)
+    encoded = encode(spec, "autoref")
+    place = {bit: number for number, bit in enumerate(encoded.manager.bits)}
+    assert encoded.order != tuple(range(len(spec.variables)))
+    for group in encoded.groups:
+        written = {v for action in group.actions for effect in spec.actions[action].effects for v, _ in effect}
+        first = min(place[bit] for variable in written for bit in encoded.state_bits[variable])
+        between = encoded.manager.bits[place[group.bits[-1]] + 1 : first]
+        assert place[group.bits[0]] < first
+        assert all(bit.startswith("g") for bit in between)

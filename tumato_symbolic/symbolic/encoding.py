@@ -216,13 +216,14 @@ def encode(spec: Spec, backend: Backend, limits: Limits = NO_LIMITS) -> Encoding
         for number, variable in enumerate(spec.variables)
     )
     order = variable_order(spec)
+    place = {variable: number for number, variable in enumerate(order)}
     above: dict[int, list[Group]] = {}
     for group in groups:
-        written = (v for action in group.actions for effect in spec.actions[action].effects for v, _ in effect)
+        written = (place[v] for action in group.actions for effect in spec.actions[action].effects for v, _ in effect)
         above.setdefault(min(written, default=0), []).append(group)
     bits: list[str] = []
-    for variable in order:
-        bits += [bit for group in above.get(variable, ()) for bit in group.bits]
+    for number, variable in enumerate(order):
+        bits += [bit for group in above.get(number, ()) for bit in group.bits]
         bits += state_bits[variable]
     choice_of = {
         action: (number, choice)
