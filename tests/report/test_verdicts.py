@@ -1,12 +1,14 @@
 """Verdicts that no small example reaches."""
 
 from dataclasses import replace
+from pathlib import Path
 
 from tests.cli.inputs import CONFLICT
-from tumato_symbolic import Undecided, Unrealizable, parse, synthesize
+from tumato_symbolic import Realizable, Undecided, Unrealizable, parse, synthesize, verify
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.report.synthesized import Synthesized, as_github, as_json, as_text
 
+COIN = (Path(__file__).parents[2] / "examples" / "coin.tum").read_text(encoding="utf-8")
 SPEC = parse(CONFLICT)
 OUTCOME = synthesize(SPEC)
 assert isinstance(OUTCOME, Unrealizable)
@@ -31,6 +33,17 @@ def test_undecided_names_the_limit() -> None:
     report = as_json(GIVEN_UP)
     assert (report["verdict"], report["limit"], report["policy"]) == ("undecided", "too many goals", None)
     assert as_github(GIVEN_UP) == "::error file=big.tum::undecided: too many goals"
+
+
+def test_github_names_the_prover() -> None:
+    """The notice says who proved the policy, not who mostly does."""
+    spec = parse(COIN)
+    outcome = synthesize(spec)
+    assert isinstance(outcome, Realizable)
+    for prover, told in (("z3", "proved by Z3"), ("walk", "proved by the walk")):
+        proof = verify(outcome.policy, spec, prover=prover)
+        done = replace(GIVEN_UP, spec=spec, outcome=outcome, proof=proof, written=True)
+        assert as_github(done) == f"::notice file=big.tum::realizable, {told}"
 
 
 def test_a_long_conflict_is_cut() -> None:

@@ -11,7 +11,7 @@ from tumato_symbolic.report.failures import FAILURE_CODES, failure_json, failure
 from tumato_symbolic.report.findings import finding_json, github_command, github_commands
 from tumato_symbolic.report.layout import Paint, count, seconds
 from tumato_symbolic.report.picture import picture
-from tumato_symbolic.report.proof import ORDERINGS, proof_json, proof_text
+from tumato_symbolic.report.proof import ORDERINGS, proof_json, proof_text, provers
 from tumato_symbolic.report.reasons import Place
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.synthesis.outcome import Outcome, Realizable, Statistics, Undecided, Unrealizable
@@ -222,7 +222,7 @@ def as_github(done: Synthesized) -> str:
     file, outcome = done.source.name, done.outcome
     match _verdict(done):
         case "realizable":
-            proved = "not proved (--no-verify)" if done.proof is None else "proved by Z3"
+            proved = "not proved (--no-verify)" if done.proof is None else f"proved by {provers(done.proof)}"
             commands.append(github_command("notice", f"realizable, {proved}", file))
         case "undecided":
             commands.append(github_command("error", f"undecided: {_limit(done)}", file))
