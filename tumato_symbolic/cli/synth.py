@@ -74,15 +74,15 @@ def run(options: Options) -> int:
 
 def _prove(outcome: Realizable, spec: Spec, options: Options, progress: Progress) -> Verification:
     """The verdict on our own policy. A refutation would be a bug of this program, and must not pass as a verdict."""
+    from tumato_symbolic.cli.judging import wanted_jobs
     from tumato_symbolic.verify import verify
-    from tumato_symbolic.verify.children import cores
 
     proof = verify(
         outcome.policy,
         spec,
         ordering=outcome.statistics.ordering,
         prover=options.prover,
-        jobs=options.jobs or cores(),
+        jobs=wanted_jobs(options),
         progress=progress,
     )
     if proof.verdict == "refuted":

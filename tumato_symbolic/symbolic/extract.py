@@ -20,14 +20,13 @@ class Extractor(Generic[Value]):
     """
 
     def __init__(self, encoding: Encoding, builder: DiagramBuilder[Value], default: Value) -> None:
-        self._manager = encoding.manager
+        self._manager, variables = encoding.manager, encoding.spec.variables
         self._default = default
         self._node = builder.node
         self._leaf = builder.leaf
         self._values = [
-            [number_bits(encoding.state_bits[variable], number) for number in range(len(declared.values))]
+            [number_bits(encoding.state_bits[variable], number) for number in range(len(variables[variable].values))]
             for variable in encoding.order
-            for declared in (encoding.spec.variables[variable],)
         ]
         self._tested = {
             encoding.manager.level(bit): level

@@ -98,4 +98,4 @@ def _pulled(order: Sequence[int], scopes: Sequence[Scope]) -> Sequence[int]:
 
 def _spanned(order: Sequence[int], scopes: Sequence[Scope]) -> int:
     place = {variable: number for number, variable in enumerate(order)}
-    return sum(max(places) - min(places) for scope in scopes if (places := [place[each] for each in scope]))
+    return sum(max(map(place.__getitem__, scope)) - min(map(place.__getitem__, scope)) for scope in scopes)

@@ -45,7 +45,8 @@ def by_any_step(problem: Problem, relation: Bdd) -> Predecessor:
 def leading(problem: Problem, relation: Bdd) -> Callable[[Bdd], Bdd]:
     """Those pairs of a relation that lead into a set of states.
 
-    Where the pairs do few different things they are taken move by move: the predecessor under one is a cofactor.
+    Where the pairs do few different things they are taken move by move: the predecessor under one is a cofactor. So are
+    those of a single group, however many: taking them as a whole would try each of its moves as well.
     """
     steps, manager = problem.steps, problem.encoding.manager
     exclusive = max(map(len, problem.encoding.nominal_moves), default=0)

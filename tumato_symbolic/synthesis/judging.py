@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from tumato_symbolic.symbolic import Bdd
 from tumato_symbolic.synthesis.fixpoints import Course, Layers, attractor, course, leading
@@ -43,10 +44,12 @@ class Judge:
 
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
-        restoring = problem.steps.allowed & problem.steps.unsafe
-        self._restoring: list[Callable[[Bdd], Bdd]] = [
-            leading(problem, restoring & target.owed) for target in problem.targets
-        ]
+
+    @cached_property
+    def _restoring(self) -> list[Callable[[Bdd], Bdd]]:
+        """For every target, which pairs in unsafe states owe it and lead into a set."""
+        pairs = self.problem.steps.allowed & self.problem.steps.unsafe
+        return [leading(self.problem, pairs & target.owed) for target in self.problem.targets]
 
     def evaluate(self, policy: Bdd) -> Evaluation:
         """All that a policy achieves."""

@@ -9,7 +9,6 @@ from __future__ import annotations
 import gc
 import os
 import sys
-import traceback
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -94,6 +93,8 @@ def _work(writer: Connection, task: Callable[[], object]) -> None:
     except BrokenPipeError:
         return  # nobody waits for the answer any more
     except Exception as error:
+        import traceback
+
         writer.send(_Failed(traceback.format_exc(), isinstance(error, MemoryError)))
 
 
