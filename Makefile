@@ -23,6 +23,7 @@ test: $(VENV)/.development
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
+	$(BIN)/mypy --strict proofs/checker.py
 	$(BIN)/lint-imports
 	$(BIN)/python -m pytest
 

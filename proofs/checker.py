@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Judge a policy table against a specification by the explicit meaning. One file; nothing but Python (3.9 or newer).
+"""Judge a policy against a specification by the explicit meaning. One file; nothing but Python (3.9 or newer).
 
     python3 checker.py policy.json spec.tum [--effect-ordering any|first] [--strict]
 
 It is written from docs/semantics.md, language.md, policy.md and certificate.md and shares no code with the package: a
-second opinion that can be read in one sitting. It looks at every valid state and judges four properties:
+second opinion that can be read in one sitting. It looks at every valid state (of at most 2,000,000 states) and judges
+four properties of the policy, be it a table or a diagram:
 
     total    every valid state has a decision
     safe     every decision is allowed: Ok(s, A)
@@ -15,8 +16,8 @@ Exit codes: 0 all hold; 1 one fails; 2 unreadable input, or a specification with
 state; 70 this program is broken. A certificate (ranks) is judged as well: one that is wrong, or stale (made for another
 specification), counts only with `--strict`; one that is absent or incomplete never does.
 
-Not judged: policies of type `policy-diagram`; and whether the specification says what was meant. Of the limits on the
-size of a text (docs/language.md) only those on numbers are kept.
+Not judged: whether the specification says what was meant. Of the limits on the size of a text (docs/language.md) only
+those on numbers are kept.
 """
 # ruff: noqa: ANN401, D102, N818
 
@@ -32,6 +33,7 @@ import sys
 import traceback
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -476,12 +478,32 @@ class World:
     def __init__(self, spec: Specification, ordering: str) -> None:
         self.spec = spec
         self.ordering = ordering
-        if math.prod(map(len, spec.variables.values())) > LARGEST:
-            raise TooLarge(f"more than {LARGEST} states are too many to look at each of them")
-        every = itertools.product(*spec.variables.values())
-        self.valid = [state for state in every if self.broken(spec.assumptions, state) is None]
-        need(self.valid != [], "no state satisfies all assumptions")
-        self.safe = {state for state in self.valid if self.broken(spec.state_rules, state) is None}
+        self.known: dict[State, bool] = {}  # whether a state is safe
+
+    @cached_property
+    def valid(self) -> list[State]:
+        """`V`."""
+        count = math.prod(map(len, self.spec.variables.values()))
+        if count > LARGEST:
+            raise TooLarge(f"{count:,} states are too many to look at each of them, which is done up to {LARGEST:,}")
+        valid = [state for state in itertools.product(*self.spec.variables.values()) if self.is_valid(state)]
+        need(valid != [], "no state satisfies all assumptions")
+        return valid
+
+    @cached_property
+    def safe(self) -> list[State]:
+        """`S`."""
+        return [state for state in self.valid if self.is_safe(state)]
+
+    def is_valid(self, state: State) -> bool:
+        """Whether a state satisfies all assumptions."""
+        return self.broken(self.spec.assumptions, state) is None
+
+    def is_safe(self, state: State) -> bool:
+        """Whether a state is valid and satisfies all state rules."""
+        if state not in self.known:
+            self.known[state] = self.is_valid(state) and self.broken(self.spec.state_rules, state) is None
+        return self.known[state]
 
     def broken(self, rules: list[Located], state: State, executed: ActionSet = frozenset()) -> int | None:
         """The line of the first rule that does not hold."""
@@ -541,10 +563,10 @@ class World:
         if line is not None:
             return f"a reaction rule is broken: {self.quote(line)}"
         for after, way in self.outcomes(state, chosen):
-            if after not in self.safe:
+            if not self.is_safe(after):
                 return f"an outcome {self.fault(after)}; the effects lead to " + ", then ".join(map(self.show, way[1:]))
         after = self.successor(state, chosen)
-        if after not in self.safe:
+        if not self.is_safe(after):
             return f"the nominal successor {self.show(after)} {self.fault(after)}"
         return None
 
@@ -574,7 +596,7 @@ class World:
             self.duration(chosen) < limit
             and len(held) == len(set(held))
             and self.agree(chosen)
-            and all(after in self.safe for after, _ in self.outcomes(state, chosen))
+            and all(self.is_safe(after) for after, _ in self.outcomes(state, chosen))
         )
 
     # Words for reports.
@@ -638,31 +660,51 @@ def reached(goal: Residual, state: State) -> bool:
 
 @dataclass
 class Policy:
-    """A table; `States` and `Certificate` are needed again for the ranks."""
+    """What is decided in a state, if anything; `States` and `Certificate` are needed again for the ranks."""
 
-    rows: dict[State, ActionSet]
+    decide: Callable[[State], ActionSet | None]
     ordering: str | None
     document: dict[str, Any]
 
 
-def read_policy(text: str, spec: Specification) -> Policy:
-    """The policy, for this specification: the same variables and values, in whatever order."""
+def read_document(text: str) -> dict[str, Any]:
+    """The JSON object that a file holds."""
     try:
         document = json.loads(text, object_pairs_hook=distinct_keys, parse_constant=lambda word: need(False, word))
     except ValueError as problem:
-        raise Unreadable(f"the policy is not JSON: {problem}") from problem
-    need(isinstance(document, dict), "the policy is not a JSON object")
-    need(document.get("Type") != "policy-diagram", "this checker judges tables, not policies of type `policy-diagram`")
+        raise Unreadable(f"the file is not JSON: {problem}") from problem
+    need(isinstance(document, dict), "the file is not a JSON object")
+    return dict(document)
+
+
+def read_policy(document: dict[str, Any], spec: Specification) -> Policy:
+    """The policy, for this specification: the same variables and values, in whatever order."""
+    read_header(document, spec)
+    if document.get("Type") == "policy-diagram":
+        need("Policy" not in document, "a policy of type `policy-diagram` has no `Policy`")
+        return Policy(read_diagram_policy(document, spec), document.get("EffectOrdering"), document)
     need(document.get("Type") == "policy" and "Diagram" not in document, "the policy is not of type `policy`")
+    return Policy(read_table(document, spec).get, document.get("EffectOrdering"), document)
+
+
+def read_header(document: dict[str, Any], spec: Specification) -> None:
+    """What policies and certificates have in common: versions, the ordering, and the names that they speak of."""
     version = document.get("FormatVersion", 1)
     need(is_number(version) and version == 1, "`FormatVersion` is 1")
     for key in ("PolicyFrameworkVersion", "SpecificationDigest"):
         need(isinstance(document.get(key, ""), str), f"`{key}` is a text")
     need(document.get("EffectOrdering", "any") in ("any", "first"), "`EffectOrdering` is `any` or `first`")
-    actions, rows = document.get("Actions"), document.get("Policy")
-    need(is_texts(actions) and len(set(actions)) == len(actions), "`Actions` is a list of different names")
+    actions: Any = document.get("Actions")
+    need(is_names(actions), "`Actions` is a list of different names")
     need(set(actions) <= set(spec.actions), f"unknown actions: {sorted(set(actions) - set(spec.actions))}")
     check_states(document.get("States"), spec)
+
+
+def read_table(document: dict[str, Any], spec: Specification) -> dict[State, ActionSet]:
+    """The rows of a table."""
+    need("Actions" not in spec.variables, "a table cannot hold a variable that is called `Actions`")
+    actions: Any = document["Actions"]
+    rows: Any = document.get("Policy")
     need(isinstance(rows, list), "`Policy` is a list of rows")
     table: dict[State, ActionSet] = {}
     for number, row in enumerate(rows, 1):
@@ -674,12 +716,80 @@ def read_policy(text: str, spec: Specification) -> Policy:
         need(set(row["Actions"]) <= set(actions), f"row {number} has an unknown action")
         state, chosen = tuple(row[variable] for variable in spec.variables), frozenset(row["Actions"])
         need(table.setdefault(state, chosen) == chosen, f"row {number} contradicts an earlier row")
-    return Policy(table, document.get("EffectOrdering"), document)
+    return table
+
+
+def read_diagram_policy(document: dict[str, Any], spec: Specification) -> Callable[[State], ActionSet | None]:
+    """What a diagram decides in a state: the actions whose roots lead to true, where `Defined` does."""
+    section: Any = document.get("Diagram")
+    diagram = Diagram(section, document["States"], spec)
+    need(diagram.is_yes_or_no(), "`Diagram.Leaves` is not [false, true]")
+    named = section.get("Roots")
+    need(isinstance(named, dict), "`Roots` is an object")
+    need(set(named) == set(document["Actions"]), "`Roots` has not just one entry for every action")
+    roots = {action: diagram.reference(root) for action, root in named.items()}
+    defined = diagram.reference(section.get("Defined"))
+
+    def decide(state: State) -> ActionSet | None:
+        if not diagram.value(defined, state):
+            return None
+        return frozenset(action for action, root in roots.items() if diagram.value(root, state))
+
+    return decide
+
+
+class Diagram:
+    """Functions of the state that share nodes. A reference is the number of a leaf, or after those, of a node."""
+
+    def __init__(self, section: Any, states: dict[str, dict[str, int]], spec: Specification) -> None:
+        need(isinstance(section, dict), "a diagram is an object")
+        need({"Order", "Leaves", "Nodes"} <= set(section), "a diagram has not all of `Order`, `Leaves` and `Nodes`")
+        order, self.leaves, nodes = section["Order"], section["Leaves"], section["Nodes"]
+        need(is_names(order) and set(order) <= set(states), "`Order` is wrong")
+        need(isinstance(self.leaves, list) and self.leaves != [], "`Leaves` is wrong")
+        need(isinstance(nodes, list), "`Nodes` is wrong")
+        self.places = [list(spec.variables).index(name) for name in order]
+        self.numbers = [states[name] for name in order]
+        self.nodes: list[tuple[int, list[int]]] = []
+        for node in nodes:
+            self.add(node)
+
+    def add(self, node: Any) -> None:
+        """Read a node. Every edge leads to a leaf, or to an earlier node that tests a later variable."""
+        number = len(self.leaves) + len(self.nodes)
+        wrong = f"node {number} is wrong"
+        need(isinstance(node, list) and len(node) == 2 and is_number(node[0]) and node[0] < len(self.places), wrong)
+        level, below = node
+        need(isinstance(below, list) and len(below) == len(self.numbers[level]), wrong)
+        for child in below:
+            need(is_number(child) and child < number, wrong)
+            need(child < len(self.leaves) or self.nodes[child - len(self.leaves)][0] > level, wrong)
+        self.nodes.append((level, below))
+
+    def is_yes_or_no(self) -> bool:
+        """Whether the leaves are false and true, in this order."""
+        return self.leaves == [False, True] and all(isinstance(leaf, bool) for leaf in self.leaves)
+
+    def is_of_numbers(self) -> bool:
+        """Whether the leaves are different numbers, or null."""
+        each_fits = all(leaf is None or is_number(leaf) for leaf in self.leaves)
+        return each_fits and len(set(self.leaves)) == len(self.leaves)
+
+    def reference(self, number: Any) -> int:
+        """A reference into this diagram."""
+        need(is_number(number) and number < len(self.leaves) + len(self.nodes), "a root is wrong")
+        return int(number)
+
+    def value(self, reference: int, state: State) -> Any:
+        """The leaf to which a state leads."""
+        while reference >= len(self.leaves):
+            level, below = self.nodes[reference - len(self.leaves)]
+            reference = below[self.numbers[level][state[self.places[level]]]]
+        return self.leaves[reference]
 
 
 def check_states(states: Any, spec: Specification) -> None:
     """The section `States`: for every variable its values, numbered 0, 1, …"""
-    need("Actions" not in spec.variables, "a table cannot hold a variable that is called `Actions`")
     need(isinstance(states, dict), "`States` is an object")
     need(set(states) == set(spec.variables), "the variables of the policy are not those of the specification")
     for name, values in states.items():
@@ -692,13 +802,18 @@ def check_states(states: Any, spec: Specification) -> None:
 
 def distinct_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     """An object whose keys all differ."""
-    need(len({key for key, _ in pairs}) == len(pairs), "a key comes twice in one object of the policy")
+    need(len({key for key, _ in pairs}) == len(pairs), "a key comes twice in one object")
     return dict(pairs)
 
 
 def is_texts(value: Any) -> bool:
     """Whether a JSON value is a list of texts."""
     return isinstance(value, list) and all(isinstance(entry, str) for entry in value)
+
+
+def is_names(value: Any) -> bool:
+    """Whether a JSON value is a list of different texts."""
+    return is_texts(value) and len(set(value)) == len(value)
 
 
 def is_number(value: Any) -> bool:
@@ -711,13 +826,14 @@ def is_number(value: Any) -> bool:
 
 
 class Judge:
-    """A policy against a specification. Rows for states that are not valid play no part."""
+    """A policy against a specification. What it says of states that are not valid plays no part."""
 
-    def __init__(self, world: World, rows: dict[State, ActionSet]) -> None:
+    def __init__(self, world: World, decide: Callable[[State], ActionSet | None]) -> None:
         self.world = world
-        self.decided = {state: rows[state] for state in world.valid if state in rows}
-        found = {state: world.objection(state, chosen) for state, chosen in self.decided.items()}
-        self.objections = {state: why for state, why in found.items() if why is not None}
+        found = ((state, decide(state)) for state in world.valid)
+        self.decided = {state: chosen for state, chosen in found if chosen is not None}
+        judged = ((state, world.objection(state, chosen)) for state, chosen in self.decided.items())
+        self.objections = {state: why for state, why in judged if why is not None}
         self.allowed = [state for state in self.decided if state not in self.objections]
         agreeing = {state: chosen for state, chosen in self.decided.items() if world.agree(chosen)}
         self.after = {state: world.successor(state, chosen) for state, chosen in agreeing.items()}
@@ -734,7 +850,7 @@ class Judge:
 
     def cheaper(self, state: State) -> ActionSet | None:
         """For an unsafe state a cheaper allowed set that serves as well, if there is one."""
-        if state in self.world.safe:
+        if self.world.is_safe(state):
             return None
         sets = self.world.cheaper_allowed_sets(state, self.world.duration(self.decided[state]))
         return next((chosen for chosen in sets if self.serves(state, chosen)), None)
@@ -833,20 +949,29 @@ def judge_certificate(judge: Judge, document: dict[str, Any]) -> tuple[str, str]
 
 def read_ranks(world: World, document: dict[str, Any]) -> dict[Residual, dict[State, int | None]]:
     """The ranks of all safe states, by residual goal."""
-    certificate = document["Certificate"]
-    check_diagram(certificate, document["States"])
-    bodies = {text_of(body, world.spec): body for body in bodies_of(world.spec.goals)}
+    section = document["Certificate"]
+    diagram = Diagram(section, document["States"], world.spec)
+    need(diagram.is_of_numbers(), "`Leaves` are not different numbers")
+    need(isinstance(section.get("Goals"), list), "`Goals` is a list")
     ranks: dict[Residual, dict[State, int | None]] = {}
-    for entry in certificate["Goals"]:
-        need(isinstance(entry, dict) and {"Bodies", "Executed", "Root"} <= set(entry), "an entry of `Goals` is no goal")
-        for key in ("Bodies", "Executed"):
-            need(is_texts(entry[key]) and len(set(entry[key])) == len(entry[key]), f"`{key}` is no list of names")
-        need(set(entry["Bodies"]) <= set(bodies), f"there is no such goal: {entry['Bodies']}")
-        goal = frozenset(bodies[text] for text in entry["Bodies"]), frozenset(entry["Executed"])
+    for entry in section["Goals"]:
+        goal = read_goal(entry, world.spec)
         need(goal[1] <= actions_in(goal[0]), "`Executed` has an action of which the goal does not speak")
         need(goal not in ranks, f"it ranks {entry['Bodies']} twice")
-        ranks[goal] = {s: leaf(certificate, document["States"], entry["Root"], world, s) for s in world.safe}
+        root = diagram.reference(entry.get("Root"))
+        ranks[goal] = {state: diagram.value(root, state) for state in world.safe}
     return ranks
+
+
+def read_goal(entry: Any, spec: Specification) -> Residual:
+    """The residual goal of an entry of `Goals`."""
+    need(isinstance(entry, dict) and {"Bodies", "Executed"} <= set(entry), "an entry of `Goals` is no goal")
+    for key in ("Bodies", "Executed"):
+        need(is_names(entry[key]), f"`{key}` is no list of different names")
+    bodies = {text_of(body, spec): body for body in bodies_of(spec.goals)}
+    need(set(entry["Bodies"]) <= set(bodies), f"there is no such goal: {entry['Bodies']}")
+    need(set(entry["Executed"]) <= set(spec.actions), f"there are no such actions: {entry['Executed']}")
+    return frozenset(bodies[text] for text in entry["Bodies"]), frozenset(entry["Executed"])
 
 
 def check_bound(judge: Judge, state: State, ranks: dict[Residual, dict[State, int | None]]) -> str:
@@ -924,41 +1049,13 @@ def meaning_of_goal(spec: Specification, goal: Goal) -> list[Any]:
     return [goal.kind, *(sorted(members, key=json.dumps) if goal.kind == "constraint" else members)]
 
 
-def check_diagram(certificate: Any, states: dict[str, dict[str, int]]) -> None:
-    """The shape of a diagram: every edge leads to a leaf, or to an earlier node that tests a later variable."""
-    sections = {"Order", "Leaves", "Nodes", "Goals"}
-    need(isinstance(certificate, dict) and sections <= set(certificate), f"it has not all of {sorted(sections)}")
-    order, leaves, nodes = certificate["Order"], certificate["Leaves"], certificate["Nodes"]
-    need(is_texts(order) and len(set(order)) == len(order) and set(order) <= set(states), "`Order` is wrong")
-    need(isinstance(leaves, list) and all(rank is None or is_number(rank) for rank in leaves), "`Leaves` is wrong")
-    need(len(set(leaves)) == len(leaves) > 0, "`Leaves` is wrong")
-    need(isinstance(nodes, list) and isinstance(certificate["Goals"], list), "`Nodes` or `Goals` is wrong")
-    for number, node in enumerate(nodes, len(leaves)):
-        wrong = f"node {number} is wrong"
-        need(isinstance(node, list) and len(node) == 2 and is_number(node[0]) and node[0] < len(order), wrong)
-        need(isinstance(node[1], list) and len(node[1]) == len(states[order[node[0]]]), wrong)
-        for child in node[1]:
-            need(is_number(child) and child < number, wrong)
-            need(child < len(leaves) or nodes[child - len(leaves)][0] > node[0], wrong)
-
-
-def leaf(certificate: Any, states: dict[str, dict[str, int]], root: Any, world: World, state: State) -> Any:
-    """The leaf to which a state leads from a root."""
-    order, leaves, nodes = certificate["Order"], certificate["Leaves"], certificate["Nodes"]
-    need(is_number(root) and root < len(leaves) + len(nodes), "a root is wrong")
-    while root >= len(leaves):
-        level, below = nodes[root - len(leaves)]
-        root = below[states[order[level]][state[list(world.spec.variables).index(order[level])]]]
-    return leaves[root]
-
-
 # ----------------------------------------------------------------------------------------------------------------------
 # 8. The command line.
 
 
 def main(argv: list[str] | None = None) -> int:
     """Judge the files that are named; the exit code."""
-    parser = argparse.ArgumentParser(description="Judge a policy table against a specification, state by state.")
+    parser = argparse.ArgumentParser(description="Judge a policy against a specification, state by state.")
     parser.add_argument("policy")
     parser.add_argument("spec")
     parser.add_argument("--effect-ordering", choices=("any", "first"))
@@ -981,10 +1078,10 @@ def main(argv: list[str] | None = None) -> int:
 def judge_files(options: argparse.Namespace) -> int:
     """Read, judge, report. The ordering is the command line's, else the policy's, the specification's, or `any`."""
     spec = resolve(Parser(Path(options.spec).read_bytes().decode("utf-8-sig")).specification())
-    policy = read_policy(Path(options.policy).read_bytes().decode("utf-8-sig"), spec)
+    policy = read_policy(read_document(Path(options.policy).read_bytes().decode("utf-8-sig")), spec)
     ordering = options.effect_ordering or policy.ordering or spec.ordering or "any"
     world = World(spec, ordering)
-    judge = Judge(world, policy.rows)
+    judge = Judge(world, policy.decide)
     unsafe = len(world.valid) - len(world.safe)
     print(f"{len(world.valid)} valid states: {len(world.safe)} safe, {unsafe} unsafe; effect ordering {ordering}")
     right = True

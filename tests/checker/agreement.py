@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 from random import Random
 
@@ -10,27 +11,31 @@ from tests.checker.standalone import ask
 from tests.generate import random_spec, random_text
 from tests.oracle import World, decide_world
 from tests.profiles import PROFILES
-from tumato_symbolic.policy import dumps, policy_from_rows
+from tumato_symbolic.policy import as_diagram, dumps, policy_from_rows
 from tumato_symbolic.semantics import ActionSet, Judgement, State, judge
 
 Decisions = Mapping[State, ActionSet]
 
 
 def disagreements(folder: Path, profile: str, seed: int, mutants: int = 3) -> tuple[int, list[str]]:
-    """How many policies were judged for the specification of a seed, and where the two judges differ."""
+    """How many policies were judged for the specification of a seed, and where the two judges differ.
+
+    Each is judged as a table, every second one also as a diagram.
+    """
     spec, text = random_spec(seed, PROFILES[profile]), random_text(seed, PROFILES[profile])
     judged, found = 0, []
     for ordering in ("any", "first"):
         world = World(spec, ordering)
         for policy in policies(world, Random(seed), mutants):
             judgement = judge(spec, policy, ordering)
-            table = dumps(policy_from_rows(spec, policy, ordering))
-            answer = ask(folder, table, text, "--effect-ordering", ordering)
+            table = policy_from_rows(spec, policy, ordering)
             wanted = 0 if judgement.sound_and_complete and judgement.minimal else 1, failing(judgement), sizes(world)
-            given = (answer.code, answer.failing, answer.states) if answer.out else (answer.code, answer.err)
+            for form in (table, replace(table, decisions=as_diagram(table)))[: 1 + judged % 2]:
+                answer = ask(folder, dumps(form), text, "--effect-ordering", ordering)
+                given = (answer.code, answer.failing, answer.states) if answer.out else (answer.code, answer.err)
+                if given != wanted:
+                    found.append(f"{profile} {seed} {ordering}: {given}, not {wanted}\n{answer.out}")
             judged += 1
-            if given != wanted:
-                found.append(f"{profile} {seed} {ordering}: {given}, not {wanted}\n{answer.out}")
     return judged, found
 
 

@@ -62,6 +62,6 @@ def sizes(text: str) -> tuple[int, int] | None:
     """The numbers of valid and of safe states of a specification; None where the checker refuses it."""
     try:
         world = checker.World(checker.resolve(checker.Parser(text).specification()), "any")
+        return len(world.valid), len(world.safe)
     except checker.Unreadable:
         return None
-    return len(world.valid), len(world.safe)

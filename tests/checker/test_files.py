@@ -37,9 +37,17 @@ def amr_policy() -> str:
     return dumps(outcome.policy)
 
 
-def changed(change: Change) -> str:
+@cache
+def amr_diagram() -> str:
+    """The policy of the AMR as a diagram."""
+    outcome = synthesize(parse(AMR), policy_format="diagram")
+    assert isinstance(outcome, Realizable)
+    return dumps(outcome.policy)
+
+
+def changed(change: Change, policy: Callable[[], str] = amr_policy) -> str:
     """The policy of the AMR after a change."""
-    document = json.loads(amr_policy())
+    document = json.loads(policy())
     change(document)
     return json.dumps(document)
 
@@ -95,6 +103,43 @@ BROKEN: dict[str, Change] = {
 }
 
 
+def _diagram(**sections: object) -> Change:
+    """Sections of the diagram exchanged."""
+    return lambda document: document["Diagram"].update(sections)
+
+
+def _first_node(node: object) -> Change:
+    return lambda document: document["Diagram"]["Nodes"].__setitem__(0, node)
+
+
+BROKEN_DIAGRAMS: dict[str, Change] = {
+    "a table": lambda document: document.update(Type="policy"),
+    "diagram and table": lambda document: document.update(Policy=[]),
+    "no diagram": lambda document: document.pop("Diagram"),
+    "a list": lambda document: document.update(Diagram=[]),
+    "no order": lambda document: document["Diagram"].pop("Order"),
+    "an unknown variable": lambda document: document["Diagram"]["Order"].append("S_Door"),
+    "a variable twice": lambda document: document["Diagram"]["Order"].append(document["Diagram"]["Order"][0]),
+    "leaves the other way round": _diagram(Leaves=[True, False]),
+    "leaves that are numbers": _diagram(Leaves=[0, 1]),
+    "three leaves": _diagram(Leaves=[False, True, True]),
+    "no leaves": _diagram(Leaves=[]),
+    "an action without a root": lambda document: document["Diagram"]["Roots"].pop("charge"),
+    "a root of an unknown action": lambda document: document["Diagram"]["Roots"].update(fly=0),
+    "a root too large": lambda document: document["Diagram"]["Roots"].update(
+        charge=2 + len(document["Diagram"]["Nodes"])
+    ),
+    "a root that is true": lambda document: document["Diagram"]["Roots"].update(charge=True),
+    "a root below 0": lambda document: document["Diagram"]["Roots"].update(charge=-1),
+    "no word on what is decided": lambda document: document["Diagram"].pop("Defined"),
+    "a node that leads to itself": _first_node([3, [0, 2]]),
+    "a node of no level": _first_node([9, [0, 1]]),
+    "a node with a child too many": _first_node([3, [0, 1, 1, 1, 1, 1, 1]]),
+    "a node that is no pair": _first_node([3, [0, 1], 0]),
+    "a node with a child that is a text": _first_node([3, ["0", "1"]]),
+}
+
+
 @pytest.mark.parametrize("name", HARMLESS)
 def test_right_policies_hold(name: str, tmp_path: Path) -> None:
     """What does not matter does not change the verdict."""
@@ -108,6 +153,23 @@ def test_broken_policies_are_refused(name: str, tmp_path: Path) -> None:
     answer = ask(tmp_path, changed(BROKEN[name]), AMR)
     assert (answer.code, answer.out) == (2, "")
     assert answer.err.startswith("cannot be judged: ")
+
+
+@pytest.mark.parametrize("name", BROKEN_DIAGRAMS)
+def test_broken_diagrams_are_refused(name: str, tmp_path: Path) -> None:
+    """So is a diagram that does not fit."""
+    answer = ask(tmp_path, changed(BROKEN_DIAGRAMS[name], amr_diagram), AMR)
+    assert (answer.code, answer.out) == (2, "")
+    assert answer.err.startswith("cannot be judged: ")
+
+
+def test_a_diagram_is_judged_as_the_table_is(tmp_path: Path) -> None:
+    """The same verdict with the same certificate; one action more by its root, one state less by `Defined`."""
+    assert ask(tmp_path, amr_diagram(), AMR, "--strict").out == ask(tmp_path, amr_policy(), AMR, "--strict").out
+    eager = changed(lambda document: document["Diagram"]["Roots"].update(charge=1), amr_diagram)
+    assert ask(tmp_path, eager, AMR).failing["safe"] > 0
+    silent = changed(_diagram(Defined=0), amr_diagram)
+    assert ask(tmp_path, silent, AMR).failing == {"total": 32}
 
 
 @pytest.mark.parametrize(

@@ -19,7 +19,7 @@ from tests.mutants.truth import is_right
 from tests.profiles import PROFILES
 from tumato_symbolic import Realizable, parse, synthesize
 from tumato_symbolic.diagnostics import UserError
-from tumato_symbolic.policy import Policy, as_table, dumps, loads
+from tumato_symbolic.policy import Policy, dumps, loads
 from tumato_symbolic.semantics import all_states, count_states, is_valid
 from tumato_symbolic.spec import Spec, digest
 from tumato_symbolic.verify import verify
@@ -126,7 +126,7 @@ def _judge(mutant: Mutant, original: Spec, tally: Tally, folder: Path) -> Iterat
     tally.right += right
     tally.kinds[mutant.kind, right] += 1
     answers = {prover: _verified(policy, spec, prover) for prover in PROVERS}
-    answers["checker"] = _checked(mutant.document, policy, spec, mutant.spec, folder)
+    answers["checker"] = _checked(mutant.document, mutant.spec, folder)
     tally.disagreements += len(set(answers.values())) > 1
     for tier, answer in answers.items():
         if answer != ("accepted" if right else "rejected"):
@@ -141,20 +141,7 @@ def _verified(policy: Policy, spec: Spec, prover: Literal["z3", "walk"]) -> Answ
     return "accepted" if found.verdict == "proved" else "undecided"
 
 
-def _checked(document: policies.Document, policy: Policy, spec: Spec, text: str, folder: Path) -> Answer:
-    """What `proofs/checker.py --strict` answers; a diagram is written out as a table for it."""
-    if document["Type"] == "policy-diagram":
-        table = as_table(policy, count_states(spec))
-        assert table is not None
-        actions, variables = policy.vocabulary.actions, policy.vocabulary.variables
-        rows = [
-            {
-                **{name: values[number] for (name, values), number in zip(variables, state, strict=True)},
-                "Actions": [actions[action] for action in chosen],
-            }
-            for state, chosen in table.rows.items()
-        ]
-        document = {**document, "Type": "policy", "Policy": rows}
-        del document["Diagram"]
+def _checked(document: policies.Document, text: str, folder: Path) -> Answer:
+    """What `proofs/checker.py --strict` answers."""
     answer = ask(folder, json.dumps(document), text, "--strict")
     return {0: "accepted", 1: "rejected"}.get(answer.code, "undecided")  # type: ignore[return-value]
