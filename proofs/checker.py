@@ -62,9 +62,13 @@ def need(condition: bool, message: str) -> None:
 
 
 # ----------------------------------------------------------------------------------------------------------------------
-# 1. Tokens (docs/language.md). White space and line ends mean nothing; `//` and `/* */` are comments.
+# 1. Tokens (docs/language.md). White space and line ends mean nothing; `//` and `/* */` are comments. A line ends with
+#    a line feed, a carriage return, or both.
 
-TOKEN = re.compile(r"\s+|//[^\n]*|/\*.*?\*/|(?P<token>[A-Za-z_][A-Za-z0-9_]*|[0-9]+|[(),:])", re.DOTALL)
+TOKEN = re.compile(
+    r"[ \t\n]+|//[^\n]*|/\*.*?\*/|(?P<token>[A-Za-z_][A-Za-z0-9_]*(?!\w)|[0-9]+(?![\w.])|[(),:])", re.DOTALL
+)
+MISLEADING = re.compile(r"[^\t\n -~\u00a0-\U0010ffff]|[\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]")  # nowhere
 NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 KEYWORDS = {"BEGIN", "END", "AND", "OR", "NOT", "IF", "THEN", "IFONLYIF"}  # never a name
 OWN_WORDS = {"true", "false", "none", "executing"}  # only ever the name of a value
@@ -77,6 +81,8 @@ def tokens_of(text: str) -> list[tuple[str, int]]:
         match = TOKEN.match(text, position)
         if match is None:
             raise Unreadable(f"line {line}: unexpected character {text[position]!r}")
+        if misleading := MISLEADING.search(match[0]):
+            raise Unreadable(f"line {line}: there is a comment with {misleading[0]!r}")
         if match["token"]:
             found.append((match["token"], line))
         line += match[0].count("\n")
@@ -139,6 +145,7 @@ class Parser:
     """Recursive descent: each method below the helpers reads one construct of the language."""
 
     def __init__(self, text: str) -> None:
+        text = text.replace("\r\n", "\n").replace("\r", "\n")
         self.tokens = tokens_of(text)
         self.position = 0
         self.spec = Specification(text.split("\n"))

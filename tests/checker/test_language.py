@@ -49,6 +49,14 @@ def values(words: str) -> str:
     return f"BEGIN STATE VECTOR state Q can be {words} END STATE VECTOR"
 
 
+MISLEADING = [
+    chr(code) for code in (0, 8, 11, 12, 27, 28, 31, 127, 0x85, 0x9F, 0x61C, 0x200E, 0x2028, 0x2029, 0x202E, 0x2069)
+]
+"""What some editors show as the end of a line, or as a change of direction, and others not at all."""
+
+STRANGE = [*MISLEADING, *(chr(code) for code in (0xA0, 0x1680, 0x2003, 0x200B, 0x202F, 0x3000))]
+"""What looks like white space and is none."""
+
 READABLE = [
     STATES,
     STATES
@@ -81,6 +89,10 @@ READABLE = [
     action(),
     action("controlled resources: none", "duration: 0"),
     config("max_plan_length: 1 effect_ordering: first"),
+    config("max_plan_length:1effect_ordering:any").replace("1e", "1 e"),
+    (STATES + GO).replace("\n", "\r"),
+    "\ufeff" + STATES,
+    STATES + "// größer, \u00a0, \ufeff, \U0001f916",
 ]
 
 WRONG = [
@@ -150,7 +162,21 @@ WRONG = [
     config("max_plan_length: 1 max_plan_length: 1"),
     config("effect_ordering: last"),
     config("plan: 1"),
+    config("max_plan_length: 4effect_ordering: any"),
+    config("max_plan_length: 4é"),
+    config("max_plan_length: -0"),
+    action("duration: 4controlled resources: R"),
+    action("duration: -0"),
+    action("duration: 4."),
+    action("duration: ٤"),
+    STATES + "\ufeff" + GO,
+    "\ufeff\ufeff" + STATES,
+    *(STATES + sign + GO for sign in STRANGE),
+    *(STATES + f"// a {sign} b\n" + GO for sign in MISLEADING),
+    *(STATES + f"/* a {sign} b */" + GO for sign in MISLEADING),
 ]
+
+RULE_AFTER_COMMENT = STATES + GO + "BEGIN STATE RULES // one{end}rule: A is x\n END STATE RULES"
 
 
 @pytest.mark.parametrize("text", READABLE)
@@ -160,6 +186,17 @@ def test_what_is_readable_means_the_same(text: str) -> None:
     assert spec is not None
     valid = [state for state in all_states(spec) if is_valid(spec, state)]
     assert sizes(text) == (len(valid), sum(is_safe(spec, state) for state in valid))
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+def test_a_comment_ends_with_its_line(end: str) -> None:
+    """A line ends with a line feed, a carriage return, or both: the rule on the next one is no part of the comment."""
+    text = RULE_AFTER_COMMENT.format(end=end)
+    spec = load(Source("spec.tum", text)).spec
+    assert spec is not None
+    assert [rule.span.line for rule in spec.state_rules] == [11]
+    own = checker.resolve(checker.Parser(text).specification())
+    assert [line for _, line in own.state_rules] == [11]
 
 
 @pytest.mark.parametrize("text", WRONG)

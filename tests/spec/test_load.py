@@ -65,7 +65,7 @@ def test_older_spellings_and_layouts():
     BEGIN ACTIONS action go duration: 3 preconditions: S is a nominal effects: S is b END ACTIONS
     BEGIN STATE RULES rule: S is a END STATE RULES"""
     older = f"""BEGIN STATE RULES rule : S is /* really */ a // yes\r\n END STATE RULES
-    BEGIN ACTIONS action go effects : S is b\r\n preconditions : S is a cost : 3 END ACTIONS \ufeff {VECTOR}"""
+    BEGIN ACTIONS action go effects : S is b\r\n preconditions : S is a cost : 3 END ACTIONS {VECTOR}"""
     first, second = spec(newer), spec(older)
     assert first.state_rules[0].formula == second.state_rules[0].formula
     assert first.actions[0].nominal == second.actions[0].nominal == ((0, 1),)

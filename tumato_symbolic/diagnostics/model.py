@@ -22,10 +22,18 @@ class Span:
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """A text and the name it is shown under (usually its path as the user typed it)."""
+    """A text and the name it is shown under (usually its path as the user typed it).
+
+    The text has no byte-order mark, and every line ends with a line feed, whatever it was made from: a line ends with a
+    line feed, a carriage return, or both, as editors show it.
+    """
 
     name: str
     text: str
+
+    def __post_init__(self) -> None:
+        plain = self.text.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n")
+        object.__setattr__(self, "text", plain)
 
 
 @dataclass(frozen=True, slots=True)

@@ -98,6 +98,8 @@ def _character(here: Situation) -> Diagnostic | None:
     if here.expected == {":"}:
         meant = ":"
     way_out = f"write `{meant}`" if meant else None
+    if not token.text.isprintable() or token.text.isspace():
+        way_out = "remove it, or write a plain space"
     if re.match(r"\w", token.text):
         return Diagnostic(Code.TUM113, f"{quoted(token.text)} is not a name", token.span, help=_NAME_HELP)
     return Diagnostic(Code.TUM104, f"unexpected {quoted(token.text)}", token.span, help=way_out)
@@ -111,7 +113,7 @@ def _malformed(here: Situation) -> Diagnostic | None:
     if token.kind not in ("malformed", "number"):
         return None
     if "NUMBER" in here.expected:
-        long = token.text.lstrip("-").isdigit()
+        long = len(token.text.lstrip("-")) > MAX_DIGITS
         way_out = f"numbers have at most {MAX_DIGITS} digits" if long else "write a whole number, such as `10`"
         return Diagnostic(Code.TUM114, f"{quoted(token.text)} is not a whole number in range", token.span, help=way_out)
     if "NAME" in here.expected:

@@ -49,6 +49,7 @@ def parse_text(source: Source) -> Parsed:
     if text.unclosed_comment is not None:
         end = text.tokens[-1].span
         found = [*(each for each in found if each.span != end), text.unclosed_comment]
+    found = [*found, *text.misleading[:MAX_SYNTAX_ERRORS]]
     return Parsed(tree, tuple(found), frozenset(run.lost))
 
 

@@ -15,7 +15,7 @@ MAX_BYTES = 500_000
 def read_source(path: str) -> Source:
     """The text at `path`, or of standard input where that is `-`.
 
-    A byte-order mark is dropped and line ends become line feeds. Raises `UserError` for what is missing, not a
+    Raises `UserError` for what is missing, not a
     file, unreadable, not UTF-8, binary, or larger than `MAX_BYTES`.
     """
     name = "<stdin>" if path == "-" else path
@@ -25,10 +25,9 @@ def read_source(path: str) -> Source:
     if b"\0" in data:
         raise _error(Code.TUM102, f"{quoted(name)} is a binary file", "a specification is a text in UTF-8")
     try:
-        text = data.decode("utf-8-sig")
+        return Source(name, data.decode())
     except UnicodeDecodeError as problem:
         raise _not_utf8(name, data, problem.start) from None
-    return Source(name, text.replace("\r\n", "\n").replace("\r", "\n"))
 
 
 def _read(path: str, name: str) -> bytes:

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple, TypeAlias
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source, Span
+from tumato_symbolic.diagnostics.wording import quoted
 
 HARD = frozenset({"AND", "OR", "NOT", "IF", "THEN", "IFONLYIF", "BEGIN", "END"})
 """Words that are keywords everywhere."""
@@ -28,6 +29,12 @@ BLOCKS = (
 """The titles of blocks."""
 TITLES = frozenset(word for title in BLOCKS for word in title)
 """The words in titles."""
+
+MISLEADING = re.compile(
+    r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028\u2029"  # control characters, some of which end a line in some editors
+    r"\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]"  # what changes the direction of writing
+)
+"""Characters that stand nowhere, not even in comments: with them, editors show other lines than are read."""
 
 MAX_DIGITS = 18
 """The most digits a number may have; every sensible bound is far below."""
@@ -51,10 +58,14 @@ class Token(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Tokens:
-    """All tokens of a text, the last of which is its end, and the comment that is not closed, if there is one."""
+    """All tokens of a text, the last of which is its end, and what is wrong with comments.
+
+    `unclosed_comment` is the one that is not closed, if there is one; `misleading` those with a character of that kind.
+    """
 
     tokens: tuple[Token, ...]
     unclosed_comment: Diagnostic | None
+    misleading: tuple[Diagnostic, ...]
 
 
 def pattern(space: str, comment: str, name: str, number: str) -> re.Pattern[str]:
@@ -70,6 +81,7 @@ def tokenize(source: Source, token_pattern: re.Pattern[str]) -> Tokens:
     """Split a text. Nothing is lost but white space and comments."""
     tokens: list[Token] = []
     unclosed = None
+    misleading: list[Diagnostic] = []
     line, line_start = 1, 0
     for match in token_pattern.finditer(source.text):
         kind, text = match.lastgroup, match.group()
@@ -83,14 +95,28 @@ def tokenize(source: Source, token_pattern: re.Pattern[str]) -> Tokens:
             )
             break
         if kind in ("space", "comment"):
+            if kind == "comment" and (wrong := MISLEADING.search(text)):
+                misleading.append(_misleading(text, wrong.start(), line, column))
             breaks = text.count("\n")
             if breaks:
                 line += breaks
                 line_start = match.start() + text.rindex("\n") + 1
             continue
-        if kind == "number" and len(text.lstrip("-")) > MAX_DIGITS:
+        if kind == "number" and (len(text.lstrip("-")) > MAX_DIGITS or (text[0] == "-" and not int(text))):
             kind = "malformed"
         tokens.append(Token(kind, text, line, column))  # type: ignore[arg-type]
     end = tokens[-1].span if tokens else Span(1, 1, 1, 1)
     tokens.append(Token("end", "", end.end_line, end.end_column))
-    return Tokens(tuple(tokens), unclosed)
+    return Tokens(tuple(tokens), unclosed, tuple(misleading))
+
+
+def _misleading(comment: str, place: int, line: int, column: int) -> Diagnostic:
+    """The error for a character in a comment that begins at this line and column."""
+    breaks = comment.count("\n", 0, place)
+    column = place - comment.rindex("\n", 0, place) if breaks else column + place
+    return Diagnostic(
+        Code.TUM104,
+        f"unexpected {quoted(comment[place])} in a comment",
+        Span(line + breaks, column, line + breaks, column + 1),
+        help="remove it: some editors begin a line there, or change the direction, and others show nothing",
+    )
