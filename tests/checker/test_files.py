@@ -99,6 +99,7 @@ BROKEN: dict[str, Change] = {
     "a row with an unknown action": lambda document: document["Policy"][0]["Actions"].append("fly"),
     "contradictory rows": lambda document: document["Policy"].append({**document["Policy"][0], "Actions": ["charge"]}),
     "another version": lambda document: document.update(FormatVersion=2),
+    "version nought": lambda document: document.update(FormatVersion=0),
     "an unknown ordering": lambda document: document.update(EffectOrdering="last"),
 }
 

@@ -4,10 +4,12 @@ import json
 from pathlib import Path
 
 import jsonschema
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.policy.strategies import QUICK, amr_like, policies
+from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.policy import Policy, Table, Vocabulary, as_diagram, as_table, dumps, fits_table, loads
 
 SCHEMA = json.loads(Path(__file__).parents[2].joinpath("tumato_symbolic/policy/policy.schema.json").read_text())
@@ -107,3 +109,11 @@ def test_a_diagram_that_is_not_reduced_is_reduced():
     roots = {name: root if root < base else root + shift for name, root in clean["Roots"].items()}
     document["Diagram"] = {**clean, "Nodes": useless + moved, "Roots": roots, "Defined": clean["Defined"] + shift}
     assert loads(json.dumps(document)) == amr_like(diagram=True)
+
+
+@pytest.mark.parametrize("version", [0, 2, -1, 1.0, True, "1", None])
+def test_another_version_is_refused(version):
+    """`FormatVersion`, where there is one, is the number 1."""
+    document = {**json.loads(dumps(amr_like())), "FormatVersion": version}
+    with pytest.raises(UserError, match="TUM502: `FormatVersion` is"):
+        loads(json.dumps(document))

@@ -54,10 +54,12 @@ def policy_of(document: dict[str, Any]) -> Policy:
 
 
 def check_version(document: dict[str, Any]) -> None:
-    """Raise `UserError` for a file of a later format."""
-    if as_whole(document.get("FormatVersion", FORMAT_VERSION), "`FormatVersion`") > FORMAT_VERSION:
-        message = f"`FormatVersion` is {document['FormatVersion']}, this program reads {FORMAT_VERSION}"
-        raise fault(Code.TUM502, message, "use the version of tumato-sym that wrote the file, or a later one")
+    """Raise `UserError` for a file of another format."""
+    version = as_whole(document.get("FormatVersion", FORMAT_VERSION), "`FormatVersion`")
+    if version != FORMAT_VERSION:
+        message = f"`FormatVersion` is {version}, this program reads {FORMAT_VERSION}"
+        later = "use the version of tumato-sym that wrote it, or a later one" if version > FORMAT_VERSION else None
+        raise fault(Code.TUM502, message, later)
 
 
 def read_ordering(document: dict[str, Any]) -> Ordering | None:
