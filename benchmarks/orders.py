@@ -15,7 +15,7 @@ from benchmarks.families import FAMILIES
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.spec import Spec, load
 from tumato_symbolic.symbolic import order
-from tumato_symbolic.synthesis import Limits, Realizable, synthesize
+from tumato_symbolic.synthesis import Context, Limits, Realizable, synthesize
 
 CASES = (
     ("loads", 6),
@@ -74,7 +74,7 @@ def measured(spec: Spec, chosen: Order) -> str:
     """Processor seconds and nodes of one synthesis."""
     with patch("tumato_symbolic.symbolic.encoding.variable_order", chosen):
         began = time.process_time()
-        outcome = synthesize(spec, policy_format="diagram", limits=Limits(LIMIT))
+        outcome = synthesize(spec, policy_format="diagram", context=Context(Limits(LIMIT)))
         seconds = time.process_time() - began
     if not isinstance(outcome, Realizable):
         return "–"

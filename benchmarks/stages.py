@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from tumato_symbolic.diagnostics import Source
+from tumato_symbolic.limits import Context
 from tumato_symbolic.policy import Policy, as_diagram, dumps
 from tumato_symbolic.spec import Spec, load
 from tumato_symbolic.synthesis import Outcome, Realizable, Undecided, Unrealizable, synthesize
@@ -61,7 +62,7 @@ def main() -> None:
     watch("parse")
     spec = load(Source(source.name, source.read_text(encoding="utf-8"))).spec
     assert spec is not None, "benchmarks are correct specifications"
-    outcome = synthesize(spec, backend=backend, progress=watch)
+    outcome = synthesize(spec, backend=backend, context=Context(progress=watch))
     record = _outcome(spec, outcome)
     if isinstance(outcome, Realizable):
         watch("write")

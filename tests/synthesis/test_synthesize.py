@@ -10,10 +10,11 @@ import pytest
 
 from tests.semantics.build import Build, chosen, constraint, priority, when
 from tumato_symbolic.diagnostics import Code, UserError
+from tumato_symbolic.limits import Context, Limits
 from tumato_symbolic.policy import Policy, Table, as_table, dumps
 from tumato_symbolic.semantics import ActionSet, State, judge
 from tumato_symbolic.spec import FALSE, And, Is, Not, Or, Spec
-from tumato_symbolic.symbolic import Backend, Limits, available_backend
+from tumato_symbolic.symbolic import Backend, available_backend
 from tumato_symbolic.synthesis import Outcome, Realizable, Undecided, Unrealizable, synthesize
 from tumato_symbolic.synthesis.fixpoints import attractor
 from tumato_symbolic.synthesis.problem import pose
@@ -254,13 +255,47 @@ def test_tables_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize("backend", sorted({"autoref", available_backend()}))
 def test_a_time_limit_ends_in_undecided(backend: Backend) -> None:
-    """Time that is up ends the work at once, with what is known by then: how many states there are."""
+    """Time that is up ends the work at once."""
     _, spec = line()
-    outcome = synthesize(spec, backend=backend, limits=Limits(seconds=0.0))
+    outcome = synthesize(spec, backend=backend, context=Context(Limits(seconds=0.0)))
+    assert outcome == Undecided("the time limit of 0 s was met", None)
+
+
+class Expiring(Context):
+    """Time is up when a stage begins."""
+
+    def __init__(self, last: str) -> None:
+        super().__init__(Limits(seconds=1000.0))
+        self._last = last
+
+    def tell(self, stage: str) -> None:
+        """Let time be up from the last stage on."""
+        super().tell(stage)
+        if stage == self._last:
+            self.deadline = 0.0
+
+
+@pytest.mark.parametrize("last", ["solving each goal in its own region", "choosing restoring sets"])
+def test_a_time_limit_leaves_what_is_known(last: str) -> None:
+    """Undecided says during what time was up, and how many states there are."""
+    _, spec = line()
+    outcome = synthesize(spec, context=Expiring(last))
     assert isinstance(outcome, Undecided)
-    assert "time limit of 0 s" in outcome.limit
+    assert outcome.limit == f"the time limit of 1000 s was met while {last}"
     assert outcome.statistics is not None
     assert outcome.statistics.valid == 4
+
+
+def test_the_answer_no_stands_without_its_certificate() -> None:
+    """A limit that is met when only the certificate is left takes nothing from the answer."""
+    build = Build({"a": "xy"})
+    spec = build.spec(state_rules=[FALSE], goals=constraint())
+    whole, outcome = synthesize(spec), synthesize(spec, context=Expiring("certifying that there is no policy"))
+    assert isinstance(whole, Unrealizable)
+    assert isinstance(outcome, Unrealizable)
+    assert whole.certificate is not None
+    limit = "the time limit of 1000 s was met while certifying that there is no policy"
+    assert outcome == replace(whole, certificate=None, limit=limit)
 
 
 def test_every_step_of_a_fixpoint_heeds_the_time_limit(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -268,7 +303,7 @@ def test_every_step_of_a_fixpoint_heeds_the_time_limit(monkeypatch: pytest.Monke
     _, spec = line()
     problem = pose(spec, "any", available_backend())
     asked: list[int] = []
-    monkeypatch.setattr(problem.encoding.manager, "seconds_left", lambda: asked.append(1))
+    monkeypatch.setattr(problem.encoding.manager.context, "check", lambda: asked.append(1))
     steps = problem.steps
     layers = attractor(problem, problem.targets[0].states, lambda states, _: states & steps.safe, steps.safe, None)
     assert len(asked) == len(layers) - 1 > 0
@@ -280,6 +315,6 @@ def test_a_memory_limit_ends_in_undecided() -> None:
     boxes = 14
     build = Build({f"v{box}": "abcdefghijklmn" for box in range(boxes)})
     apart = [Not(And((Is(i, p), Is(j, p)))) for i, j in combinations(range(boxes), 2) for p in range(boxes)]
-    outcome = synthesize(build.spec(state_rules=apart), limits=Limits(megabytes=8))
+    outcome = synthesize(build.spec(state_rules=apart), context=Context(Limits(megabytes=8)))
     assert isinstance(outcome, Undecided)
     assert "memory limit of 8 MB" in outcome.limit

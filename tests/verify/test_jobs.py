@@ -20,10 +20,11 @@ from tests.repo.documents import ROOT
 from tests.verify.policies import certified, exact_ranks, near_policies, wrong_ranks
 from tumato_symbolic import Policy
 from tumato_symbolic.diagnostics import Source
+from tumato_symbolic.limits import Context
 from tumato_symbolic.policy import policy_from_rows
 from tumato_symbolic.semantics import Residual
 from tumato_symbolic.spec import Ordering, Spec, load
-from tumato_symbolic.verify import ProverName, Verification, children, provers, verify
+from tumato_symbolic.verify import PROPERTIES, ProverName, Verification, children, provers, verify
 from tumato_symbolic.verify.by_walk import ahead, prover
 from tumato_symbolic.verify.by_walk.ranks import WalkRanks
 from tumato_symbolic.verify.by_walk.walk import Walk
@@ -128,8 +129,9 @@ def test_a_child_is_held_to_the_time_of_its_property(asked: list[int], monkeypat
 def test_progress_tells_what_is_proved(asked: list[int]) -> None:
     """Each property is told when the first child begins with it."""
     told: list[str] = []
-    verify(*_amr(), prover="walk", jobs=2, progress=told.append)
-    assert list(dict.fromkeys(told)) == ["proving total", "proving safe", "proving goals", "proving minimal"]
+    verify(*_amr(), prover="walk", jobs=2, context=Context(progress=told.append))
+    proofs = [f"proving {name}" for name in PROPERTIES]
+    assert list(dict.fromkeys(told)) == ["looking for a valid state", *proofs, "counting the valid states"]
 
 
 def _only_in_children(act: Callable[[], object]) -> Callable[[WalkRanks, Residual], bool]:

@@ -8,10 +8,11 @@ import pytest
 from tests.semantics.build import Build, chosen, constraint, priority, when
 from tests.verify.policies import certified, exact_ranks
 from tumato_symbolic.diagnostics import UserError
+from tumato_symbolic.limits import Context, Limits
 from tumato_symbolic.policy import Policy, as_diagram, policy_from_rows
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import FALSE, Executing, Not, Ordering, Spec
-from tumato_symbolic.verify import decisions, verify
+from tumato_symbolic.verify import PROPERTIES, decisions, verify
 
 
 def _ring(length: int = 4, bound: int | None = None) -> tuple[Spec, dict[State, frozenset[int]]]:
@@ -199,8 +200,27 @@ def test_progress_names_what_is_proved() -> None:
     """The caller hears of every property."""
     spec, rows = _ring()
     told: list[str] = []
-    verify(policy_from_rows(spec, rows), spec, progress=told.append)
-    assert told == ["proving total", "proving safe", "proving goals", "proving minimal"]
+    verify(policy_from_rows(spec, rows), spec, context=Context(progress=told.append))
+    proofs = [f"proving {name}" for name in PROPERTIES]
+    assert told == ["looking for a valid state", *proofs, "counting the valid states"]
+
+
+def test_a_limit_leaves_what_is_proved_by_then() -> None:
+    """A limit that is met during the second property leaves the verdict on the first, and says so of the others."""
+    spec, rows = _ring()
+
+    class Expiring(Context):
+        """Ends when `safe` is to be proved."""
+
+        def tell(self, stage: str) -> None:
+            super().tell(stage)
+            if stage == "proving safe":
+                self.deadline = 0.0
+
+    answer = verify(policy_from_rows(spec, rows), spec, context=Expiring(Limits(seconds=1000.0)))
+    assert [each.verdict for each in answer.properties] == ["proved", "undecided", "undecided", "undecided"]
+    assert answer.verdict == "undecided"
+    assert {each.reason for each in answer.properties[1:]} == {"the time limit of 1000 s was met while proving safe"}
 
 
 def test_a_diagram_is_judged_like_its_table() -> None:

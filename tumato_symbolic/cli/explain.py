@@ -12,6 +12,7 @@ from tumato_symbolic.cli.parser import Options
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source, UserError
 from tumato_symbolic.explain.explain import MAX_CUBES, explain
 from tumato_symbolic.explain.explanation import Explanation, NothingToExplain, Unexplained
+from tumato_symbolic.limits import Context
 from tumato_symbolic.report.explained import Explained, as_text
 from tumato_symbolic.report.layout import dump
 
@@ -26,7 +27,7 @@ def run(options: Options) -> int:
             max_cubes=MAX_CUBES if options.max_cubes is None else options.max_cubes,
             cores=options.cores,
             wanted_repairs=options.repairs,
-            progress=progress,
+            context=Context(progress=progress),
         )
     written = _write(options.write, source, found) if options.write else None
     done = Explained(source, spec, found, warnings, written, options.max_cubes is not None)

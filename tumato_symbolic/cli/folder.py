@@ -15,6 +15,7 @@ from tumato_symbolic.cli.judging import exit_code, judge, wanted_jobs
 from tumato_symbolic.cli.output import show, show_profile
 from tumato_symbolic.cli.parser import Options
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
+from tumato_symbolic.limits import Context
 from tumato_symbolic.policy.claim import load_claim
 from tumato_symbolic.report import folder as report
 from tumato_symbolic.report.folder import Entry, Folder
@@ -45,7 +46,7 @@ def run_folder(options: Options) -> int:
         )
         raise UserError((Diagnostic(Code.TUM501, message, help="write one with `tumato-sym synth SPEC -o FILE`"),))
     with Progress() as progress:
-        entries = _entries(paths, options, progress)
+        entries = _entries(paths, options, Context(progress=progress))
     for entry, _ in entries:
         if entry.done is not None:
             show_warnings(entry.done.warnings, entry.done.source, options)
@@ -55,14 +56,14 @@ def run_folder(options: Options) -> int:
     return min((code for _, code in entries), key=_WORST_FIRST.index)
 
 
-def _entries(paths: Sequence[Path], options: Options, progress: Progress) -> list[tuple[Entry, int]]:
+def _entries(paths: Sequence[Path], options: Options, context: Context) -> list[tuple[Entry, int]]:
     """All files, in their order, each with its exit code; by several processes where that pays."""
     jobs = wanted_jobs(options)
     parts = _parts(paths, jobs) if jobs > 1 and can_fork() else []
     if len(parts) < 2:
-        return [_entry(path, options, progress, jobs) for path in paths]
-    progress(f"verifying {len(paths)} files")
-    answers = in_children([partial(_part, part, options, progress) for part in parts], jobs)
+        return [_entry(path, options, context, jobs) for path in paths]
+    context.tell(f"verifying {len(paths)} files")
+    answers = in_children([partial(_part, part, options, context) for part in parts], jobs)
     found: dict[Path, tuple[Entry, int]] = {}
     for part, answer in zip(parts, answers, strict=True):
         found.update(zip(part, _kept(answer), strict=True))
@@ -76,8 +77,8 @@ def _kept(answer: list[tuple[Entry, int]] | Lost) -> list[tuple[Entry, int]]:
     raise MemoryError(answer.reason)
 
 
-def _part(paths: Sequence[Path], options: Options, progress: Progress) -> list[tuple[Entry, int]]:
-    return [_entry(path, options, progress, 1) for path in paths]
+def _part(paths: Sequence[Path], options: Options, context: Context) -> list[tuple[Entry, int]]:
+    return [_entry(path, options, context, 1) for path in paths]
 
 
 def _parts(paths: Sequence[Path], jobs: int) -> list[list[Path]]:
@@ -91,10 +92,10 @@ def _parts(paths: Sequence[Path], jobs: int) -> list[list[Path]]:
     return parts
 
 
-def _entry(path: Path, options: Options, progress: Progress, jobs: int) -> tuple[Entry, int]:
+def _entry(path: Path, options: Options, context: Context, jobs: int) -> tuple[Entry, int]:
     try:
         spec, claim = str(_specification(path, options)), load_claim(str(path))
-        done = judge(claim, str(path), spec, options, progress, jobs=jobs)
+        done = judge(claim, str(path), spec, options, context, jobs=jobs)
     except UserError as error:
         return Entry(str(path), error=error), USAGE
     return Entry(str(path), done), exit_code(done)

@@ -5,10 +5,10 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING, TypeAlias
 
-from tumato_symbolic.cli.console import Progress
 from tumato_symbolic.cli.exits import NO, UNDECIDED, YES
 from tumato_symbolic.cli.inputs import errors_in, read_spec
 from tumato_symbolic.cli.parser import Options
+from tumato_symbolic.limits import Context
 from tumato_symbolic.policy import Policy
 from tumato_symbolic.report.verified import Verified
 from tumato_symbolic.verify import verify
@@ -27,13 +27,13 @@ def wanted_jobs(options: Options) -> int:
 
 
 def judge(
-    claim: Policy | Unrealizability, path: str, spec_path: str, options: Options, progress: Progress, *, jobs: int
+    claim: Policy | Unrealizability, path: str, spec_path: str, options: Options, context: Context, *, jobs: int
 ) -> Judged:
     """The claim read from `path` against the specification at `spec_path`.
 
     Raises `UserError` where the specification cannot be used, or the claim does not fit it.
     """
-    progress("reading the specification")
+    context.tell("reading the specification")
     source, spec, warnings = read_spec(spec_path)
     started = time.perf_counter()
     with errors_in(source):
@@ -45,14 +45,14 @@ def judge(
                 properties=options.properties,
                 prover=options.prover,
                 jobs=jobs,
-                progress=progress,
+                context=context,
             )
             took = time.perf_counter() - started
             return Verified(source, spec, path, verification, warnings, took, options.strict)
         from tumato_symbolic.report.unrealizable import Disproved
         from tumato_symbolic.verify import verify_unrealizable  # loads Z3, which --prover walk does without
 
-        found = verify_unrealizable(claim, spec, ordering=options.effect_ordering, progress=progress)
+        found = verify_unrealizable(claim, spec, ordering=options.effect_ordering, context=context)
         return Disproved(source, spec, path, found, warnings, time.perf_counter() - started, options.strict)
 
 

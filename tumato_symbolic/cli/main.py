@@ -10,6 +10,7 @@ from tumato_symbolic.cli.console import close_quietly, flush, note, prepare_stre
 from tumato_symbolic.cli.exits import BROKEN_PIPE, BUG, INTERRUPTED, UNDECIDED, USAGE
 from tumato_symbolic.cli.parser import Options, parse
 from tumato_symbolic.diagnostics import UserError
+from tumato_symbolic.limits import LimitReachedError
 
 _REPORT_THIS = (
     "tumato-sym: this is a bug in tumato-sym, not a verdict on your input. "
@@ -68,6 +69,9 @@ def _run(arguments: Sequence[str] | None) -> int:
 
         show_user_error(error, options)
         return USAGE
+    except LimitReachedError as limit:
+        note(f"tumato-sym: undecided: {limit}")
+        return UNDECIDED
 
 
 def _command(options: Options) -> int:

@@ -12,13 +12,15 @@ from tumato_symbolic.cli.inputs import errors_in, read_spec, show_warnings
 from tumato_symbolic.cli.output import check_writable, show, show_profile
 from tumato_symbolic.cli.parser import Options
 from tumato_symbolic.diagnostics import Code, UserError
+from tumato_symbolic.limits import Context, Limits
 from tumato_symbolic.policy import dumps, save
 from tumato_symbolic.report import synthesized
 from tumato_symbolic.report.synthesized import Synthesized
-from tumato_symbolic.spec import Spec
-from tumato_symbolic.synthesis import Limits, Realizable, Unrealizable, synthesize
+from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.synthesis import Realizable, Unrealizable, synthesize
 
 if TYPE_CHECKING:
+    from tumato_symbolic.policy.unrealizable import Unrealizability
     from tumato_symbolic.verify import UnrealizabilityVerdict, Verification
 
 TO_STANDARD_OUTPUT = "-"
@@ -29,7 +31,8 @@ def run(options: Options) -> int:
     check_writable(options.output)
     proof = disproof = certificate = None
     with Progress() as progress:
-        progress("reading the specification")
+        context = Context(Limits(options.timeout, options.memory), progress)
+        context.tell("reading the specification")
         source, spec, warnings = read_spec(options.specs[0])
         started = time.perf_counter()
         with errors_in(source):
@@ -37,14 +40,13 @@ def run(options: Options) -> int:
                 spec,
                 options.effect_ordering,
                 policy_format=options.policy_format,
-                limits=Limits(options.timeout, options.memory),
-                progress=progress,
+                context=context,
             )
             solved = time.perf_counter()
             if isinstance(outcome, Realizable) and options.prove:
-                proof = _prove(outcome, spec, options, progress)
-            if isinstance(outcome, Unrealizable) and options.prove:
-                disproof = _disprove(outcome, spec, progress)
+                proof = _prove(outcome, spec, options, context)
+            if isinstance(outcome, Unrealizable) and outcome.certificate is not None and options.prove:
+                disproof = _disprove(outcome.certificate, outcome.statistics.ordering, spec, context)
     proved = time.perf_counter()
     written = isinstance(outcome, Realizable) and (proof is None or proof.verdict == "proved")
     if isinstance(outcome, Unrealizable):
@@ -72,7 +74,7 @@ def run(options: Options) -> int:
     return NO if isinstance(outcome, Unrealizable) else UNDECIDED
 
 
-def _prove(outcome: Realizable, spec: Spec, options: Options, progress: Progress) -> Verification:
+def _prove(outcome: Realizable, spec: Spec, options: Options, context: Context) -> Verification:
     """The verdict on our own policy. A refutation would be a bug of this program, and must not pass as a verdict."""
     from tumato_symbolic.cli.judging import wanted_jobs
     from tumato_symbolic.verify import verify
@@ -83,18 +85,18 @@ def _prove(outcome: Realizable, spec: Spec, options: Options, progress: Progress
         ordering=outcome.statistics.ordering,
         prover=options.prover,
         jobs=wanted_jobs(options),
-        progress=progress,
+        context=context,
     )
     if proof.verdict == "refuted":
         raise AssertionError(f"the synthesized policy is refuted: {proof}")
     return proof
 
 
-def _disprove(outcome: Unrealizable, spec: Spec, progress: Progress) -> UnrealizabilityVerdict:
+def _disprove(certificate: Unrealizability, ordering: Ordering, spec: Spec, context: Context) -> UnrealizabilityVerdict:
     """The verdict on our own certificate. A refutation would be a bug of this program."""
     from tumato_symbolic.verify import verify_unrealizable
 
-    found = verify_unrealizable(outcome.certificate, spec, ordering=outcome.statistics.ordering, progress=progress)
+    found = verify_unrealizable(certificate, spec, ordering=ordering, context=context)
     if found.verdict == "refuted":
         raise AssertionError(f"the certificate that there is no policy is refuted: {found}")
     return found
@@ -109,11 +111,11 @@ def certificate_path(output: str) -> Path | None:
 
 
 def _write_certificate(outcome: Unrealizable, output: str) -> str | None:
-    """Where the certificate was written; None where there is no place for it, or it is too large."""
+    """Where the certificate was written; None where there is none or no place for it, or it is too large."""
     from tumato_symbolic.policy.unrealizable_file import save as save_certificate
 
     path = certificate_path(output)
-    if path is None:
+    if path is None or outcome.certificate is None:
         return None
     try:
         save_certificate(outcome.certificate, path)

@@ -7,6 +7,7 @@ from tumato_symbolic.cli.inputs import show_warnings
 from tumato_symbolic.cli.judging import exit_code, judge, wanted_jobs
 from tumato_symbolic.cli.output import show, show_profile
 from tumato_symbolic.cli.parser import Options
+from tumato_symbolic.limits import Context
 from tumato_symbolic.policy.claim import load_claim
 from tumato_symbolic.report import verified
 from tumato_symbolic.report.verified import Verified
@@ -19,9 +20,10 @@ def run(options: Options) -> int:
 
         return run_folder(options)
     with Progress() as progress:
-        progress(f"reading {options.policy}")
+        context = Context(progress=progress)
+        context.tell(f"reading {options.policy}")
         claim = load_claim(options.policy)
-        done = judge(claim, options.policy, options.specs[0], options, progress, jobs=wanted_jobs(options))
+        done = judge(claim, options.policy, options.specs[0], options, context, jobs=wanted_jobs(options))
     show_warnings(done.warnings, done.source, options)
     if isinstance(done, Verified):
         show(verified, done, options)

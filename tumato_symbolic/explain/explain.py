@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from itertools import islice
 
 from tumato_symbolic.explain.conditions import Conditions
@@ -34,6 +34,7 @@ from tumato_symbolic.explain.predicates import predicate_text
 from tumato_symbolic.explain.repairs import repairs
 from tumato_symbolic.explain.unmet import own_goals
 from tumato_symbolic.explain.weaken import weakening
+from tumato_symbolic.limits import Context
 from tumato_symbolic.semantics import State, count_states
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.symbolic import Backend, Bdd, available_backend
@@ -61,14 +62,15 @@ def explain(
     cores: int = 1,
     wanted_repairs: int = 3,
     backend: Backend | None = None,
-    progress: Callable[[str], None] | None = None,
+    context: Context | None = None,
 ) -> Explanation | NothingToExplain | Unexplained:
     """Why `spec` has no policy: all failing states by reason, repairs, and the largest realizable part.
 
     `max_cubes` caps the list of cubes, `cores` is how many cores each reason gets, `wanted_repairs` how many ways to
     drop elements are looked for. Raises `UserError` where no state is valid.
     """
-    tell = progress or (lambda _: None)
+    context = context or Context()
+    tell = context.tell
     tell("encoding states and steps")
     conditions = Conditions(spec, ordering or spec.effect_ordering or "any", backend or available_backend())
     failing = failing_states(conditions)

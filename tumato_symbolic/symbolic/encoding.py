@@ -11,9 +11,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
+from tumato_symbolic.limits import Context
 from tumato_symbolic.semantics import ActionSet, State, nominal_agrees
 from tumato_symbolic.spec import And, Assignment, Constant, Executing, Formula, Iff, Is, Not, Or, Spec
-from tumato_symbolic.symbolic.manager import NO_LIMITS, Backend, Bdd, Limits, Manager
+from tumato_symbolic.symbolic.manager import Backend, Bdd, Manager
 from tumato_symbolic.symbolic.order import variable_order
 
 
@@ -205,8 +206,8 @@ def exclusive_groups(spec: Spec) -> list[tuple[int, ...]]:
     return [tuple(group) for group in groups]
 
 
-def encode(spec: Spec, backend: Backend, limits: Limits = NO_LIMITS) -> Encoding:
-    """The encoding of a specification in a new manager."""
+def encode(spec: Spec, backend: Backend, context: Context | None = None) -> Encoding:
+    """The encoding of a specification in a new manager, whose operations keep the limits of `context`."""
     groups = [
         Group(actions, tuple(f"g{number}.{bit}" for bit in range(len(actions).bit_length())))
         for number, actions in enumerate(exclusive_groups(spec))
@@ -230,4 +231,4 @@ def encode(spec: Spec, backend: Backend, limits: Limits = NO_LIMITS) -> Encoding
         for number, group in enumerate(groups)
         for choice, action in enumerate(group.actions, start=1)
     }
-    return Encoding(spec, Manager(bits, backend, limits), state_bits, tuple(groups), order, choice_of)
+    return Encoding(spec, Manager(bits, backend, context), state_bits, tuple(groups), order, choice_of)

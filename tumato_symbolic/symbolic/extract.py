@@ -40,7 +40,7 @@ class Extractor(Generic[Value]):
 
         Raises `LimitReachedError` when time is up.
         """
-        self._manager.seconds_left()
+        self._manager.context.check()
         leaves = (self._leaf(self._default), *(self._leaf(value) for value, _ in parts))
         digits = tuple(
             self._manager.union(states for number, (_, states) in enumerate(parts, 1) if number >> digit & 1)
@@ -54,6 +54,7 @@ class Extractor(Generic[Value]):
         found = known.get(digits)
         if found is None:
             manager = self._manager
+            manager.context.check()
             inner = [manager.top(digit) for digit in digits if digit not in (manager.true, manager.false)]
             if inner:
                 level = self._tested[min(inner)]

@@ -7,13 +7,13 @@ enumerates, so that both backends give the same results.
 from __future__ import annotations
 
 import sys
-import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from importlib import import_module
 from types import ModuleType
 from typing import Any, Literal, Protocol, TypeAlias
+
+from tumato_symbolic.limits import Context, LimitReachedError
 
 Backend: TypeAlias = Literal["cudd", "autoref"]
 
@@ -65,21 +65,6 @@ def available_backend() -> Backend:
     return "cudd"
 
 
-class LimitReachedError(Exception):
-    """A limit was met before there was an answer; the message says which."""
-
-
-@dataclass(frozen=True, slots=True)
-class Limits:
-    """How much an answer may cost: seconds from now on, and megabytes of diagrams (CUDD only). None: no limit."""
-
-    seconds: float | None = None
-    megabytes: int | None = None
-
-
-NO_LIMITS = Limits()
-
-
 def _raised_by_cudd(error: Exception) -> bool:
     """Whether an error comes from dd's CUDD module, which reports refused memory in many words."""
     place = error.__traceback__
@@ -94,29 +79,20 @@ class Manager:
     Operations raise `LimitReachedError` when time is up; `within_memory` says so when memory is.
     """
 
-    def __init__(self, bits: Sequence[str], backend: Backend, limits: Limits = NO_LIMITS) -> None:
+    def __init__(self, bits: Sequence[str], backend: Backend, context: Context | None = None) -> None:
         self.backend = backend
-        self._limits = limits
-        self._deadline = None if limits.seconds is None else time.monotonic() + limits.seconds
+        self.context = context or Context()
         self._module: Any = _import_dd(backend)
         self._bdd: Any = self._module.BDD()
         self._bdd.configure(reordering=False)
-        if limits.megabytes is not None and backend == "cudd":
-            self._bdd.configure(max_memory=limits.megabytes * 2**20)
+        megabytes = self.context.limits.megabytes
+        if megabytes is not None and backend == "cudd":
+            self._bdd.configure(max_memory=megabytes * 2**20)
         self._bdd.declare(*bits)
         self.bits = tuple(bits)
         self._level = {bit: level for level, bit in enumerate(bits)}
         self.true: Bdd = self._bdd.true
         self.false: Bdd = self._bdd.false
-
-    def seconds_left(self) -> float | None:
-        """How much time is left; None without a limit. Raises `LimitReachedError` when there is none."""
-        if self._deadline is None:
-            return None
-        left = self._deadline - time.monotonic()
-        if left <= 0:
-            raise LimitReachedError(f"the time limit of {self._limits.seconds:g} s was met")
-        return left
 
     @contextmanager
     def within_memory(self) -> Iterator[None]:
@@ -124,8 +100,8 @@ class Manager:
         try:
             yield
         except (ValueError, RuntimeError) as error:
-            if self._limits.megabytes is not None and _raised_by_cudd(error):
-                raise LimitReachedError(f"the memory limit of {self._limits.megabytes} MB was met") from error
+            if self.context.limits.megabytes is not None and _raised_by_cudd(error):
+                raise LimitReachedError(self.context.described("memory")) from error
             raise
 
     def cube(self, values: Mapping[str, bool]) -> Bdd:
@@ -144,19 +120,19 @@ class Manager:
         """`u` with functions substituted for bits, all at once."""
         if not functions:
             return u
-        self.seconds_left()
+        self.context.check()
         result: Bdd = self._bdd.let(dict(functions), u)
         return result
 
     def exists(self, bits: Iterable[str], u: Bdd) -> Bdd:
         """`∃ bits. u`."""
-        self.seconds_left()
+        self.context.check()
         result: Bdd = self._bdd.exist(list(bits), u)
         return result
 
     def and_exists(self, bits: Iterable[str], u: Bdd, v: Bdd) -> Bdd:
         """`∃ bits. u ∧ v`, in one pass where the backend can."""
-        self.seconds_left()
+        self.context.check()
         if self.backend == "cudd":
             result: Bdd = self._module.and_exists(u, v, list(bits))
             return result
@@ -166,6 +142,7 @@ class Manager:
         """The union of any number of sets."""
         result = self.false
         for part in parts:
+            self.context.check()
             result = result | part
         return result
 
@@ -173,6 +150,7 @@ class Manager:
         """The intersection of any number of sets."""
         result = self.true
         for part in parts:
+            self.context.check()
             result = result & part
         return result
 

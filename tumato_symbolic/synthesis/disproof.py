@@ -54,6 +54,7 @@ def no_allowed_set(problem: Problem, state: State) -> NoAllowedSet:
     cubes: list[Cube] = []
     pending: list[tuple[ActionSet, ActionSet]] = [(frozenset(), frozenset())]
     while pending:
+        problem.context.check()
         executed, idle = pending.pop()
         violation = next(_violations(problem, state, executed, idle), None)
         if violation is not None:

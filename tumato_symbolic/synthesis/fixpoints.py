@@ -30,7 +30,7 @@ def attractor(problem: Problem, target: Bdd, predecessor: Predecessor, within: B
     layers = [target]
     left = within & ~target
     while layers[-1] != problem.false and (limit is None or len(layers) <= limit):
-        problem.encoding.manager.seconds_left()
+        problem.encoding.manager.context.check()
         layer = predecessor(left, layers[-1])
         layers.append(layer)
         left = left & ~layer

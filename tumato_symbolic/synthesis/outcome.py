@@ -66,12 +66,16 @@ class Realizable:
 
 @dataclass(frozen=True, slots=True)
 class Unrealizable:
-    """There is no policy: these states fail, or these goals conflict; `certificate` proves it."""
+    """There is no policy: these states fail, or these goals conflict; `certificate` proves it.
+
+    It is None where `limit` was met before it was made.
+    """
 
     failures: tuple[Failure, ...]
     statistics: Statistics
-    certificate: Unrealizability
+    certificate: Unrealizability | None
     warnings: tuple[Diagnostic, ...] = ()
+    limit: str | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
+from tumato_symbolic.limits import Context
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.symbolic import (
-    NO_LIMITS,
     Backend,
     Bdd,
     Encoding,
-    Limits,
     Regions,
     Steps,
     Target,
@@ -41,6 +39,11 @@ class Problem:
         return self.steps.encoding
 
     @property
+    def context(self) -> Context:
+        """The limits of the work, and whom it tells what it does."""
+        return self.encoding.manager.context
+
+    @property
     def false(self) -> Bdd:
         """The empty set."""
         return self.encoding.manager.false
@@ -51,18 +54,13 @@ class Problem:
         return None if self.spec.max_plan_length is None else self.spec.max_plan_length - 1
 
 
-def pose(
-    spec: Spec,
-    ordering: Ordering,
-    backend: Backend,
-    limits: Limits = NO_LIMITS,
-    tell: Callable[[str], None] = lambda _: None,
-) -> Problem:
-    """Encode a specification and compute its steps, regions and targets; `tell` is told what is being done."""
-    tell("encoding states and actions")
-    encoding = encode(spec, backend, limits)
+def pose(spec: Spec, ordering: Ordering, backend: Backend, context: Context | None = None) -> Problem:
+    """Encode a specification and compute its steps, regions and targets."""
+    context = context or Context()
+    context.tell("encoding states and actions")
+    encoding = encode(spec, backend, context)
     with encoding.manager.within_memory():
-        tell("finding the allowed steps")
+        context.tell("finding the allowed steps")
         steps = build_steps(encoding, ordering)
         active = regions(encoding, steps.valid)
         return Problem(spec, steps, active, tuple(targets(steps, active)))

@@ -8,7 +8,8 @@ from typing import Any, TypeAlias
 
 import z3
 
-from tumato_symbolic.symbolic import Bdd, Encoding, LimitReachedError, Manager
+from tumato_symbolic.limits import LimitReachedError
+from tumato_symbolic.symbolic import Bdd, Encoding, Manager
 
 Term: TypeAlias = Any
 """A Z3 expression; z3 has no types."""
@@ -43,7 +44,7 @@ class CheapestSet:
         """The smallest duration in what is left of the relation: Z3 found none below. None where nothing is left."""
         best: int | None = None
         self._solver.push()
-        while _satisfiable(self._solver, seconds=self._encoding.manager.seconds_left()):
+        while _satisfiable(self._solver, seconds=self._encoding.manager.context.seconds_left()):
             model = self._solver.model()
             best = sum(d for term, d in self._terms if z3.is_true(model.eval(term, model_completion=True)))
             if best == 0:
@@ -110,7 +111,9 @@ class Choices:
         """
         wanted = self._guards if guards is None else guards
         assumed = [self._guards[guard] for guard in wanted if guard in self._guards]
-        while not _satisfiable(self._solver, *assumed, *self._kept.values(), seconds=self._manager.seconds_left()):
+        while not _satisfiable(
+            self._solver, *assumed, *self._kept.values(), seconds=self._manager.context.seconds_left()
+        ):
             named = [self._names[literal.get_id()] for literal in self._solver.unsat_core()]
             freed = [number for number, is_guard in named if not is_guard]
             if not freed:

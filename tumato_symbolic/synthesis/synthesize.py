@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Note, UserError
+from tumato_symbolic.limits import Context, LimitReachedError
 from tumato_symbolic.policy import Policy, as_table
 from tumato_symbolic.semantics import count_states
 from tumato_symbolic.spec import Ordering, Spec
-from tumato_symbolic.symbolic import NO_LIMITS, Backend, Bdd, LimitReachedError, Limits, available_backend
+from tumato_symbolic.symbolic import Backend, Bdd, available_backend
 from tumato_symbolic.synthesis.certificate import policy_diagram
 from tumato_symbolic.synthesis.fixpoints import Layers, course, distances
 from tumato_symbolic.synthesis.judging import Evaluation, Judge, in_time, served
@@ -45,45 +46,51 @@ def synthesize(
     *,
     policy_format: PolicyFormat = "auto",
     backend: Backend | None = None,
-    limits: Limits = NO_LIMITS,
-    progress: Callable[[str], None] | None = None,
+    context: Context | None = None,
 ) -> Outcome:
     """Synthesize a policy for `spec`, or find out why there is none.
 
-    `ordering` overrides the specification's effect ordering (default: what it says, else `any`). `progress` is told
-    the name of each stage. Raises `UserError` where no state is valid.
+    `ordering` overrides the specification's effect ordering (default: what it says, else `any`). `context` limits the
+    work; it is told the name of each stage, and learns what the outcome would be if a limit were met now. Raises
+    `UserError` where no state is valid.
     """
-    tell = progress or (lambda _: None)
-    known: list[Statistics] = []
+    context = context or Context()
     try:
-        problem = pose(spec, ordering or spec.effect_ordering or "any", backend or available_backend(), limits, tell)
+        problem = pose(spec, ordering or spec.effect_ordering or "any", backend or available_backend(), context)
         with problem.encoding.manager.within_memory():
-            return _solve(problem, policy_format, known, tell)
+            return _solve(problem, policy_format)
     except LimitReachedError as limit:
-        return Undecided(str(limit), known[-1] if known else None)
+        return stopped(context.known, str(limit))
 
 
-def _solve(
-    problem: Problem, policy_format: PolicyFormat, known: list[Statistics], tell: Callable[[str], None]
-) -> Outcome:
-    """The pipeline behind the encoding; `known` gets what is known on the way."""
-    statistics = _statistics(problem)
+def stopped(known: object, limit: str) -> Unrealizable | Undecided:
+    """The outcome of work that a limit ended, from what its context had learned by then."""
+    if isinstance(known, Unrealizable | Undecided):
+        return replace(known, limit=limit)
+    return Undecided(limit, None)
+
+
+def _solve(problem: Problem, policy_format: PolicyFormat) -> Outcome:
+    """The pipeline behind the encoding."""
+    context, statistics = problem.context, _statistics(problem)
     if not statistics.valid:
         raise UserError((_no_valid_state(problem.spec),))
     if policy_format == "table" and statistics.valid > TABLE_MAXIMUM:
         message = f"a table of {statistics.valid:,} states is more than the {TABLE_MAXIMUM:,} that can be written"
         raise UserError((Diagnostic(Code.TUM508, message, None, "use `--policy-format diagram`"),))
-    known.append(statistics)
+    context.learn(Undecided("", statistics))
+    context.tell("looking for what is surely not meant")
     warnings = suspicions(problem)
     stuck = problem.steps.valid & ~problem.steps.states_of(problem.steps.allowed)
-    tell("solving each goal in its own region")
+    context.tell("solving each goal in its own region")
+    context.learn(Undecided("", statistics, warnings))
     policy = own_region_policy(problem)
     statistics = replace(statistics, own_region=_count_decided(problem, policy))
-    known.append(statistics)
+    context.learn(Undecided("", statistics, warnings))
     undecided, judge = problem.steps.safe & ~problem.steps.states_of(policy), Judge(problem)
     evaluation = judge.evaluate(policy) if undecided == problem.false else None
     if stuck != problem.false or evaluation is None or evaluation.failing != problem.false:
-        tell("measuring distances")
+        context.tell("measuring distances")
         apart = distances(problem)
         helpless = problem.steps.valid & ~stuck & ~served(problem, apart, problem.steps.allowed)
         if (stuck | helpless) != problem.false:
@@ -91,15 +98,25 @@ def _solve(
 
             failures = (_failure(problem, "no-allowed-set", stuck), _failure(problem, "no-plan", helpless))
             found = tuple(failure for failure in failures if failure is not None)
-            state = found[0].example
+            answer, state = _answer_no(problem, found, statistics, warnings), found[0].example
             reason = no_plan(problem, state, apart) if stuck == problem.false else no_allowed_set(problem, state)
-            return Unrealizable(found, statistics, certified(problem, reason), warnings)
-        resolved = _resolve(judge, policy, apart, statistics, tell)
+            return replace(answer, certificate=certified(problem, reason))
+        resolved = _resolve(judge, policy, apart, Undecided("", statistics, warnings))
         if isinstance(resolved, Undecided | Unrealizable):
-            return replace(resolved, warnings=warnings)
+            return resolved
         evaluation, statistics = resolved.evaluation, resolved.statistics
-    complete, statistics = _finish(problem, evaluation, statistics, tell)
+    complete, statistics = _finish(problem, evaluation, statistics)
     return Realizable(_as(complete, policy_format, statistics.valid), statistics, warnings)
+
+
+def _answer_no(
+    problem: Problem, failures: tuple[Failure, ...], statistics: Statistics, warnings: tuple[Diagnostic, ...]
+) -> Unrealizable:
+    """The answer no, before there is a certificate for it."""
+    answer = Unrealizable(failures, statistics, None, warnings)
+    problem.context.learn(answer)
+    problem.context.tell("certifying that there is no policy")
+    return answer
 
 
 def _no_valid_state(spec: Spec) -> Diagnostic:
@@ -117,13 +134,14 @@ class _Resolved:
 
 
 def _resolve(
-    judge: Judge, policy: Bdd, apart: tuple[Layers, ...], statistics: Statistics, tell: Callable[[str], None]
+    judge: Judge, policy: Bdd, apart: tuple[Layers, ...], so_far: Undecided
 ) -> _Resolved | Unrealizable | Undecided:
     """Decide what the own regions leave open, changing earlier decisions only where that is needed.
 
     `apart` are the distances from the targets.
     """
-    problem, steps = judge.problem, judge.problem.steps
+    problem, steps, statistics, tell = judge.problem, judge.problem.steps, so_far.statistics, judge.problem.context.tell
+    assert statistics is not None, "states are counted first"
     tell("routing through solved states")
     undecided = steps.safe & ~steps.states_of(policy)
     policy = route(problem, policy, undecided, steps.safe, problem.targets)
@@ -143,13 +161,15 @@ def _resolve(
         try:
             repaired = Repair(judge, changed, apart).run()
         except RoundsExhaustedError:
-            return Undecided(f"{ROUNDS:,} rounds of repair did not settle how the goals interact", statistics)
+            limit = f"{ROUNDS:,} rounds of repair did not settle how the goals interact"
+            return Undecided(limit, statistics, so_far.warnings)
         if isinstance(repaired, Impossible):
             from tumato_symbolic.synthesis.disproof import certified, conflict
 
             states = repaired.states
             failure = Failure("conflict", len(states), states[0], states)
-            return Unrealizable((failure,), statistics, certified(problem, conflict(problem, apart, repaired)))
+            answer = _answer_no(problem, (failure,), statistics, so_far.warnings)
+            return replace(answer, certificate=certified(problem, conflict(problem, apart, repaired)))
         changed = repaired
     tell("giving back decisions that need not change")
     changed = give_back(judge, policy, changed)
@@ -157,11 +177,9 @@ def _resolve(
     return _Resolved(judge.evaluate(changed), statistics)
 
 
-def _finish(
-    problem: Problem, found: Evaluation, statistics: Statistics, tell: Callable[[str], None]
-) -> tuple[Policy, Statistics]:
+def _finish(problem: Problem, found: Evaluation, statistics: Statistics) -> tuple[Policy, Statistics]:
     """Add restoring sets and the certificate to a policy for the safe states that serves every valid state."""
-    steps, near = problem.steps, in_time(problem, found.ranks)
+    steps, near, tell = problem.steps, in_time(problem, found.ranks), problem.context.tell
     tell("choosing restoring sets")
     restoring, durations = restoring_policy(problem, near)
     policy = found.course.policy | restoring

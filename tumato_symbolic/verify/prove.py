@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
+from tumato_symbolic.limits import Budget, Context, LimitReachedError
 from tumato_symbolic.policy.bind import bind
 from tumato_symbolic.policy.model import Policy
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.children import can_fork
-from tumato_symbolic.verify.provers import make_prover
+from tumato_symbolic.verify.provers import Prover, make_prover
 from tumato_symbolic.verify.result import (
     PROPERTIES,
+    CertificateUse,
     OrderingSource,
     PropertyName,
     PropertyResult,
@@ -36,7 +38,7 @@ def verify(
     prover: ProverName = "auto",
     timeout: float | None = OBLIGATION_BUDGET,
     jobs: int = 1,
-    progress: Callable[[str], None] | None = None,
+    context: Context | None = None,
 ) -> Verification:
     """Prove `policy` for all valid states of `spec`, or refute it with a witness.
 
@@ -44,37 +46,75 @@ def verify(
     `safe`, `goals` and `minimal`. `prover` is `z3`; `walk`, which does without Z3; `both`, which must agree; or `auto`:
     Z3 for what it answers soon, the walk for the rest. `timeout` limits the time, in seconds, of each obligation of Z3
     and of each property of the walk (None: no limit); what is not proved in time is undecided. Up to `jobs`
-    processes work at a time, where the proof is large and the platform can fork; the answer is the same. `progress` is
-    told what is being proved.
+    processes work at a time, where the proof is large and the platform can fork; the answer is the same. `context`
+    limits the whole; it is told what is being proved, and learns after every property what the answer would be if a
+    limit were met now.
 
     Raises `UserError` when the names of the policy do not fit the specification, or no state is valid.
     """
-    asked = _asked(properties)
+    context, asked = context or Context(), _asked(properties)
     bound = bind(policy, spec)
     judged, source = _ordering(bound, spec, ordering)
-    chosen = make_prover(prover, spec, bound, judged, timeout)
-    if not chosen.has_valid_state():
-        message = "no state satisfies all assumptions, so there is nothing to decide"
-        raise UserError((Diagnostic(Code.TUM312, message, help="drop or weaken an assumption"),))
     results: list[PropertyResult] = []
     if source == "policy" and judged == "first" and spec.effect_ordering == "any":
         results.append(PropertyResult("ordering", "refuted", refutation=Refutation("ordering")))
+    so_far = Verification("undecided", (), judged, source, CertificateUse("unneeded"), None)
+    try:
+        _learn(context, so_far, results, asked)
+        context.tell("looking for a valid state")
+        chosen = make_prover(prover, spec, bound, judged, Budget(timeout, context))
+        if not chosen.has_valid_state():
+            message = "no state satisfies all assumptions, so there is nothing to decide"
+            raise UserError((Diagnostic(Code.TUM312, message, help="drop or weaken an assumption"),))
+        for result in _results(chosen, asked, jobs if can_fork() else 1, context):
+            results.append(result)
+            so_far = replace(so_far, certificate=chosen.use)
+            _learn(context, so_far, results, asked)
+        context.tell("counting the valid states")
+        return replace(_with(so_far, results), valid_states=chosen.valid_states())
+    except LimitReachedError as limit:
+        return stopped(_with(so_far, results, asked), str(limit))
+
+
+def _results(prover: Prover, asked: Sequence[PropertyName], jobs: int, context: Context) -> Iterator[PropertyResult]:
+    """The verdicts on the properties, one after the other. Raises `LimitReachedError`."""
     ahead: Mapping[PropertyName, float] = {}
+    together = [name for name in asked if name != "total"]
 
     def begin(name: PropertyName) -> None:
-        if progress is not None:
-            progress(f"proving {name}")
+        context.tell(f"proving {name}")
 
-    together = [name for name in asked if name != "total"]
     for name in asked:
         if name in together[:1]:
-            ahead = chosen.ahead(together, jobs if can_fork() else 1, begin)
+            ahead = prover.ahead(together, jobs, begin)
         begin(name)
         started = time.perf_counter()
-        result = chosen.prove(name)
-        results.append(replace(result, seconds=ahead.get(name, 0.0) + time.perf_counter() - started))
-    verdict = _overall([result.verdict for result in results])
-    return Verification(verdict, tuple(results), judged, source, chosen.use, chosen.valid_states())
+        result = prover.prove(name)
+        if result.verdict == "undecided":
+            context.check()
+        yield replace(result, seconds=ahead.get(name, 0.0) + time.perf_counter() - started)
+
+
+def _with(so_far: Verification, results: Sequence[PropertyResult], asked: Sequence[PropertyName] = ()) -> Verification:
+    """The answer with these results, and no verdict on what else was asked."""
+    done = {result.name for result in results}
+    every = (*results, *(PropertyResult(name, "undecided") for name in asked if name not in done))
+    return replace(so_far, verdict=_overall([result.verdict for result in every]), properties=every)
+
+
+def _learn(
+    context: Context, so_far: Verification, results: Sequence[PropertyResult], asked: Sequence[PropertyName]
+) -> None:
+    context.learn(_with(so_far, results, asked))
+
+
+def stopped(known: Verification, limit: str) -> Verification:
+    """The answer of work that a limit ended, from what its context had learned by then."""
+    properties = (
+        replace(each, reason=limit) if (each.verdict, each.reason) == ("undecided", None) else each
+        for each in known.properties
+    )
+    return replace(known, properties=tuple(properties))
 
 
 def _asked(properties: Sequence[str]) -> list[PropertyName]:

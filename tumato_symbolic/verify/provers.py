@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Protocol
 
+from tumato_symbolic.limits import Budget
 from tumato_symbolic.policy.model import Policy, Table
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.by_walk.prover import WalkProver
@@ -50,32 +51,32 @@ class Prover(Protocol):
         """How many states are valid; None where they could not be counted cheaply."""
 
 
-def make_prover(name: ProverName, spec: Spec, policy: Policy, ordering: Ordering, timeout: float | None) -> Prover:
+def make_prover(name: ProverName, spec: Spec, policy: Policy, ordering: Ordering, budget: Budget) -> Prover:
     """The prover of this name for a policy that is bound to `spec`."""
     match name:
         case "z3":
-            return _z3(spec, policy, ordering, timeout)
+            return _z3(spec, policy, ordering, budget)
         case "walk":
-            return WalkProver(spec, policy, ordering, timeout)
+            return WalkProver(spec, policy, ordering, budget)
         case "both":
-            return _Both(spec, policy, ordering, timeout)
+            return _Both(spec, policy, ordering, budget)
         case _:
-            return _Auto(spec, policy, ordering, timeout)
+            return _Auto(spec, policy, ordering, budget)
 
 
-def _z3(spec: Spec, policy: Policy, ordering: Ordering, timeout: float | None) -> Z3Prover:
+def _z3(spec: Spec, policy: Policy, ordering: Ordering, budget: Budget) -> Z3Prover:
     from tumato_symbolic.verify.by_z3.prover import Z3Prover
 
-    return Z3Prover(spec, policy, ordering, timeout)
+    return Z3Prover(spec, policy, ordering, budget)
 
 
 class _Pair:
     """Z3 and the walk for one policy; Z3 is loaded when it is asked."""
 
-    def __init__(self, spec: Spec, policy: Policy, ordering: Ordering, timeout: float | None) -> None:
+    def __init__(self, spec: Spec, policy: Policy, ordering: Ordering, budget: Budget) -> None:
         self._policy = policy
-        self._walk = WalkProver(spec, policy, ordering, timeout)
-        self._make_z3 = partial(_z3, spec, policy, ordering, timeout)
+        self._walk = WalkProver(spec, policy, ordering, budget)
+        self._make_z3 = partial(_z3, spec, policy, ordering, budget)
 
     @cached_property
     def _z3(self) -> Z3Prover:

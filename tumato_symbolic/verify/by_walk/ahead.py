@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any, TypeVar
 
+from tumato_symbolic.limits import Budget
 from tumato_symbolic.verify.by_walk.walk import TOO_LARGE, BudgetError, FullError, Walk, given_up
 from tumato_symbolic.verify.children import Lost, in_children
 from tumato_symbolic.verify.result import PropertyName
@@ -60,10 +61,10 @@ class Ahead:
         walk: Walk,
         tasks: Sequence[Task],
         jobs: int,
-        timeout: float | None,
+        budget: Budget,
         started: Callable[[PropertyName], None],
     ) -> None:
-        """Have all `tasks` done by up to `jobs` children at a time; `timeout` limits every property, in seconds.
+        """Have all `tasks` done by up to `jobs` children at a time; `budget` limits every property.
 
         Together they may remember as many results as one process: where they need more, no answer counts. Raises
         `BudgetError` where a task cannot be prepared, and `OSError` where there is no room for another process.
@@ -79,7 +80,7 @@ class Ahead:
                     task.prepare()
                 started(task.property)
                 since = began.setdefault(task.property, time.monotonic() - self.seconds.get(task.property, 0.0))
-                walk.deadline = None if timeout is None else since + timeout
+                walk.deadline = budget.until(time.monotonic() - since)
                 yield partial(_work, task, walk, counts, number)
 
         found = in_children(works(), jobs)

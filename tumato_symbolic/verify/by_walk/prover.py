@@ -8,6 +8,7 @@ from collections.abc import Callable, Hashable, Mapping, Sequence
 from functools import cached_property, partial
 from math import prod
 
+from tumato_symbolic.limits import Budget
 from tumato_symbolic.policy.convert import as_diagram
 from tumato_symbolic.policy.model import Policy
 from tumato_symbolic.semantics import Residual
@@ -31,11 +32,11 @@ class WalkProver:
     `policy_is_safe` is whether somebody else has proved `safe`; otherwise the walk looks where it fails by itself.
     """
 
-    def __init__(self, spec: Spec, policy: Policy, ordering: Ordering, timeout: float | None = None) -> None:
+    def __init__(self, spec: Spec, policy: Policy, ordering: Ordering, budget: Budget | None = None) -> None:
         self._spec = spec
         self._policy = policy
         self._ordering = ordering
-        self._timeout = timeout
+        self._budget = budget or Budget()
         self._ahead = Ahead()
         self.policy_is_safe = False
 
@@ -51,7 +52,7 @@ class WalkProver:
         """
         before = (self._ranks.use, self._ranks.roots) if self._ahead.answers else None
         try:
-            self._model.walk.deadline = self._deadline(self._ahead.seconds.get(name, 0.0))
+            self._model.walk.deadline = self._budget.until(self._ahead.seconds.get(name, 0.0))
             self._model.walk.check_time()
             result = self._within(most, self._proof(name, most))
         except (BudgetError, RecursionError) as error:
@@ -80,7 +81,7 @@ class WalkProver:
         try:
             tasks = self._tasks(names, most) if jobs > 1 else []
             if len(tasks) > 1:
-                self._ahead.ask(self._model.walk, tasks, jobs, self._timeout, started)
+                self._ahead.ask(self._model.walk, tasks, jobs, self._budget, started)
             else:
                 self._prepare()
         except (BudgetError, RecursionError, OSError):
@@ -91,7 +92,7 @@ class WalkProver:
         """Compute once what the proofs of `goals` and `minimal` have in common."""
         if "goals" not in self._ahead.seconds:
             began = time.monotonic()
-            self._model.walk.deadline = self._deadline()
+            self._model.walk.deadline = self._budget.until()
             self._ranks.prepare()
             self._ahead.seconds["goals"] = time.monotonic() - began
 
@@ -136,10 +137,6 @@ class WalkProver:
             return None
         return model.walk.count(model.valid) // prod(len(group) + 1 for group in model.groups)
 
-    def _deadline(self, spent: float = 0.0) -> float | None:
-        """When a property has to be proved that took `spent` seconds already."""
-        return None if self._timeout is None else time.monotonic() + self._timeout - spent
-
     def _within(self, most: int | None, work: Callable[[], PropertyResult]) -> PropertyResult:
         """What `work` finds with at most so many results remembered."""
         walk = self._model.walk
@@ -152,7 +149,7 @@ class WalkProver:
 
     @cached_property
     def _model(self) -> Model:
-        return Model(self._spec, as_diagram(self._policy), self._ordering, self._deadline())
+        return Model(self._spec, as_diagram(self._policy), self._ordering, self._budget.until())
 
     @cached_property
     def _violations(self) -> list[Function]:

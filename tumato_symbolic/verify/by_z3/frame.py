@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Sequence
 from functools import cached_property
 from typing import Any
 
 import z3
 
+from tumato_symbolic.limits import Budget
 from tumato_symbolic.policy.model import DecisionDiagram
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import Spec
@@ -34,7 +34,7 @@ class Frame:
     nominal effects of that decision agree, so that there is a successor. A run that meets another one ends there.
     """
 
-    def __init__(self, spec: Spec, decisions: DecisionDiagram, budget: float | None) -> None:
+    def __init__(self, spec: Spec, decisions: DecisionDiagram, budget: Budget) -> None:
         self.spec = spec
         self._budget = budget
         self.latest = math.inf
@@ -108,7 +108,7 @@ class Frame:
 
     def deadline(self) -> float:
         """When the time for an obligation that is begun now is over, on the monotonic clock; never after `latest`."""
-        return self.latest if self._budget is None else min(self.latest, time.monotonic() + self._budget)
+        return min(self.latest, self._budget.until())
 
     def first_model(self, claim: str, *terms: Term, deadline: float | None = None) -> Any:  # noqa: ANN401
         """A model of `terms` whose state comes first in the order of declaration, so that witnesses are repeatable.

@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Sequence
 from functools import cached_property
 
+from tumato_symbolic.limits import Budget
 from tumato_symbolic.policy.convert import as_diagram
 from tumato_symbolic.policy.diagram import count_true
 from tumato_symbolic.policy.model import Policy, Table
@@ -23,16 +24,16 @@ from tumato_symbolic.verify.result import CertificateUse, PropertyName, Property
 
 
 class Z3Prover:
-    """Proves or refutes the properties of one policy; `timeout` limits each obligation.
+    """Proves or refutes the properties of one policy; `budget` limits each obligation.
 
     `policy_is_safe` is whether `safe` is known to be proved.
     """
 
-    def __init__(self, spec: Spec, policy: Policy, ordering: Ordering, timeout: float | None) -> None:
+    def __init__(self, spec: Spec, policy: Policy, ordering: Ordering, budget: Budget) -> None:
         self._spec = spec
         self._policy = policy
         self._ordering = ordering
-        self._frame = Frame(spec, as_diagram(policy), timeout)
+        self._frame = Frame(spec, as_diagram(policy), budget)
         self.policy_is_safe = False
         self._total = False
 
@@ -47,7 +48,7 @@ class Z3Prover:
 
     def has_valid_state(self) -> bool:
         """Whether some state satisfies all assumptions, as far as Z3 can tell."""
-        return self._frame.solver.ask(self._frame.valid) != "unsat"
+        return self._frame.solver.ask(self._frame.valid, deadline=self._frame.deadline()) != "unsat"
 
     def prove(self, name: PropertyName, within: float = math.inf) -> PropertyResult:
         """The verdict on one property; undecided where an obligation, or all in `within` seconds, take too long."""
@@ -81,6 +82,7 @@ class Z3Prover:
         decisions = self._policy.decisions
         if isinstance(decisions, Table):
             return sum(is_valid(self._spec, state) for state in decisions.rows)
-        if self._frame.solver.ask(conjunction((self._frame.defined, negation(self._frame.valid)))) != "unsat":
+        others = conjunction((self._frame.defined, negation(self._frame.valid)))
+        if self._frame.solver.ask(others, deadline=self._frame.deadline()) != "unsat":
             return None
         return count_true(decisions.diagram, decisions.defined, self._policy.vocabulary.sizes)

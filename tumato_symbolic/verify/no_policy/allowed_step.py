@@ -8,6 +8,7 @@ from typing import TypeAlias
 
 import z3
 
+from tumato_symbolic.limits import Budget
 from tumato_symbolic.semantics import ActionSet, State, is_safe, successor
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.by_z3.choice import Choice
@@ -39,7 +40,7 @@ class AllowedStep:
     solver proved, `walked` those that were left to the walk.
     """
 
-    def __init__(self, spec: Spec, ordering: Ordering, budget: float | None) -> None:
+    def __init__(self, spec: Spec, ordering: Ordering, budget: Budget) -> None:
         self.spec = spec
         self.ordering: Ordering = ordering
         self.proved = 0
@@ -72,7 +73,7 @@ class AllowedStep:
 
     def deadline(self, within: float = math.inf) -> float:
         """When the time for what is begun now is over, that of one obligation or `within` seconds; monotonic."""
-        return time.monotonic() + min(within, math.inf if self._budget is None else self._budget)
+        return min(time.monotonic() + within, self._budget.until())
 
     def some_state(self, claim: str, *terms: Term) -> State | None:
         """A state that meets `terms`; None where there is none, which proves `claim`. Raises `UndecidedError`."""

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 
+from tumato_symbolic.limits import Budget, Context, LimitReachedError
 from tumato_symbolic.policy.unrealizable import NoAllowedSet, NoPlan, Unrealizability
 from tumato_symbolic.policy.unrealizable_file import bind
 from tumato_symbolic.spec import Ordering, Spec, digest
@@ -29,16 +29,18 @@ def verify_unrealizable(
     *,
     ordering: Ordering | None = None,
     timeout: float | None = OBLIGATION_BUDGET,
-    progress: Callable[[str], None] | None = None,
+    context: Context | None = None,
 ) -> UnrealizabilityVerdict:
     """Prove by `certificate` that `spec` has no policy, or refute the certificate with the check that it fails.
 
     Nothing in the certificate is believed. `ordering` overrules the effect ordering that it records. `timeout` limits
-    the time, in seconds, of each obligation (None: no limit); what is not proved in time is undecided.
+    the time, in seconds, of each obligation (None: no limit); what is not proved in time is undecided. `context`
+    limits the whole, and is told what is done.
 
     *Refuted* says that the certificate is no proof, not that there is a policy. Raises `UserError` when the names of
     the certificate do not fit the specification.
     """
+    context = context or Context()
     reason = bind(certificate, spec).reason
     judged: Ordering = ordering or certificate.ordering
     found = UnrealizabilityVerdict(
@@ -50,10 +52,10 @@ def verify_unrealizable(
     )
     if ordering is None and (judged, spec.effect_ordering) == ("any", "first"):
         return replace(found, verdict="refuted", reason=_WRITES_FIRST)
-    if progress is not None:
-        progress("checking why there is no policy")
-    step = AllowedStep(spec, judged, timeout)
+    context.learn(replace(found, verdict="undecided"))
     try:
+        context.tell("checking why there is no policy")
+        step = AllowedStep(spec, judged, Budget(timeout, context))
         match reason:
             case NoAllowedSet():
                 checked = check_no_allowed_set(reason, step, judged)
@@ -64,7 +66,10 @@ def verify_unrealizable(
     except FalseClaimError as false:
         return replace(found, verdict="refuted", reason=false.reason, state=false.state, chosen=false.chosen)
     except UndecidedError as undecided:
-        return replace(found, verdict="undecided", reason=str(undecided))
+        why = context.described() if context.is_over else str(undecided)
+        return replace(found, verdict="undecided", reason=why)
+    except LimitReachedError as limit:
+        return replace(found, verdict="undecided", reason=str(limit))
     proved = checked + step.proved + step.walked
     return replace(found, obligations=proved, by_solver=step.proved > 0, by_walk=step.walked > 0)
 

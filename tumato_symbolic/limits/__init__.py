@@ -1,0 +1,5 @@
+"""How much work may cost, whom it tells what it does, and what it has found: the lowest room, which imports nothing."""
+
+from tumato_symbolic.limits.context import NO_LIMITS, Budget, Context, LimitReachedError, Limits
+
+__all__ = ["NO_LIMITS", "Budget", "Context", "LimitReachedError", "Limits"]
