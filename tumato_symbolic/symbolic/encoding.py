@@ -14,6 +14,7 @@ from functools import cached_property
 from tumato_symbolic.limits import Context
 from tumato_symbolic.semantics import ActionSet, State, nominal_agrees
 from tumato_symbolic.spec import And, Assignment, Constant, Executing, Formula, Iff, Is, Not, Or, Spec
+from tumato_symbolic.symbolic.effect_tree import EffectTree, after_every, effect_tree
 from tumato_symbolic.symbolic.manager import Backend, Bdd, Manager
 from tumato_symbolic.symbolic.order import variable_order
 
@@ -97,6 +98,20 @@ class Encoding:
                 moves[effect] = moves.get(effect, self.manager.false) | self.executing(action)
             found.append(list(moves.items()))
         return found
+
+    @cached_property
+    def nominal_writes(self) -> list[list[tuple[dict[str, bool], Bdd]]]:
+        """`nominal_moves` with the constants for bits that stand for what is written."""
+        return [[(self.assignment_bits(effect), choices) for effect, choices in moves] for moves in self.nominal_moves]
+
+    @cached_property
+    def effect_trees(self) -> list[EffectTree]:
+        """For every action, its effects."""
+        return [effect_tree(action.effects) for action in self.spec.actions]
+
+    def after_every_effect(self, action: int, target: Bdd) -> Bdd:
+        """The pairs from where each effect of an action leads into a set."""
+        return after_every(self.manager, self.effect_trees[action], target, self.assignment_bits)
 
     def choices_cube(self, chosen: ActionSet) -> Bdd:
         """One set of actions as a set of choices."""

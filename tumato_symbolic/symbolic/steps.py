@@ -48,10 +48,9 @@ class Steps:
     def successors(self, relation: Bdd) -> Bdd:
         """`{δ(s, A) : (s, A) ∈ relation}` for sets whose nominal effects agree."""
         encoding, manager = self.encoding, self.encoding.manager
-        for group, moves in zip(encoding.groups, encoding.nominal_moves, strict=True):
+        for group, moves in zip(encoding.groups, encoding.nominal_writes, strict=True):
             moved = []
-            for effect, choices in moves:
-                written = encoding.assignment_bits(effect)
+            for written, choices in moves:
                 moved.append(manager.and_exists([*group.bits, *written], relation, choices) & manager.cube(written))
             relation = manager.union(moved)
         return relation
@@ -126,9 +125,9 @@ def staying_in(encoding: Encoding, ordering: Ordering, safe: Bdd, among: Bdd) ->
 
 def nominal_predecessor(encoding: Encoding, target: Bdd) -> Bdd:
     """`{(s, A) : δ(s, A) ∈ target}`, group by group: agreeing effects commute."""
-    for moves in encoding.nominal_moves:
+    for moves in encoding.nominal_writes:
         target = encoding.manager.union(
-            choices & encoding.manager.cofactor(target, encoding.assignment_bits(effect)) for effect, choices in moves
+            choices & encoding.manager.cofactor(target, written) for written, choices in moves
         )
     return target
 
@@ -169,10 +168,5 @@ def _after_effect_of(encoding: Encoding, group: Group, following: Bdd) -> Bdd:
     """`{(s, A) : the group is idle, or every effect of its action leads into following, where the group is idle}`."""
     rest = encoding.manager.cofactor(following, encoding.idle_bits(group))
     return encoding.manager.intersection(
-        ~encoding.executing(action)
-        | encoding.manager.intersection(
-            encoding.manager.cofactor(rest, encoding.assignment_bits(effect))
-            for effect in encoding.spec.actions[action].effects
-        )
-        for action in group.actions
+        ~encoding.executing(action) | encoding.after_every_effect(action, rest) for action in group.actions
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from tumato_symbolic.semantics import ActiveGoals
 from tumato_symbolic.symbolic import Bdd, Target, preferred
 from tumato_symbolic.synthesis.fixpoints import Layers, attractor, course, leading
 from tumato_symbolic.synthesis.problem import Problem
@@ -12,9 +13,13 @@ from tumato_symbolic.synthesis.problem import Problem
 def own_region_policy(problem: Problem) -> Bdd:
     """Decisions whose runs stay where the same goals are active until these are reached, with the fewest steps."""
     policy = problem.false
-    for region in problem.regions.values():
+    owed_in: dict[ActiveGoals, list[Target]] = {}
+    for target in problem.targets:
+        for active in dict.fromkeys(residual.bodies for residual, _ in target.residuals):
+            owed_in.setdefault(active, []).append(target)
+    for active, region in problem.regions.items():
         here = region & problem.steps.safe
-        owing = [target for target in problem.targets if (target.owed & here) != problem.false]
+        owing = [target for target in owed_in.get(active, ()) if (target.owed & here) != problem.false]
         if len(owing) == 1:
             policy = policy | _nearest_first(problem, owing[0], here)
         elif owing:
