@@ -157,7 +157,7 @@ def _reason(conditions: Conditions, cause: Cause, cover: Cover, cores: int) -> R
         example,
         tuple(element_list(conditions, core) for core in shown),
         () if stuck else own_goals(conditions, example),
-        near_misses(spec, example, conditions.ordering, NEAR_MISSES) if stuck else (),
+        near_misses(spec, example, conditions.ordering, NEAR_MISSES).misses if stuck else (),
         shortest_plan=shortest_plan(conditions, conditions.encoding.state_cube(example)) if bounded else None,
     )
 

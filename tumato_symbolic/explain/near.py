@@ -5,12 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import combinations
+from math import prod
 
 from tumato_symbolic.semantics import NOTHING, ActionSet, Objection, State, duration, holds, objections
 from tumato_symbolic.spec import Ordering, Spec
 
 _PAIRS_TRIED = 12
 """Pairs are looked at where at most so many actions are applicable; single actions always."""
+
+MOST_OUTCOMES = 50_000
+"""So many outcomes are looked at in one state, over all sets."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,19 +25,38 @@ class NearMiss:
     objections: tuple[Objection, ...]
 
 
-def near_misses(spec: Spec, state: State, ordering: Ordering, limit: int = 3) -> tuple[NearMiss, ...]:
+@dataclass(frozen=True, slots=True)
+class Nearest:
+    """The sets that come nearest to being allowed in a state; `passed_over` sets have too many outcomes to look at."""
+
+    misses: tuple[NearMiss, ...]
+    passed_over: int
+
+
+def near_misses(spec: Spec, state: State, ordering: Ordering, limit: int = 3) -> Nearest:
     """The nearest sets in a state where none is allowed: at most `limit`, of those that are looked at.
 
     Nearest: the nominal effects at least would do; then the fewest objections, the fewest actions, the smallest
     duration.
     """
-    tried = []
+    tried, passed_over, left = [], 0, MOST_OUTCOMES
     for chosen in candidates(spec, state):
+        outcomes = _most_outcomes(spec, chosen, ordering)
+        if outcomes > left:
+            passed_over += 1
+            continue
+        left -= outcomes
         found = tuple(objections(spec, state, chosen, ordering))
         wrong_end = any(each.kind == "nominal-unsafe" for each in found)
         tried.append((wrong_end, len(found), len(chosen), duration(spec, chosen), sorted(chosen), found))
     tried.sort(key=lambda entry: entry[:5])
-    return tuple(NearMiss(frozenset(chosen), found) for *_, chosen, found in tried[:limit])
+    return Nearest(tuple(NearMiss(frozenset(chosen), found) for *_, chosen, found in tried[:limit]), passed_over)
+
+
+def _most_outcomes(spec: Spec, chosen: ActionSet, ordering: Ordering) -> int:
+    """A bound on how many outcomes a set has: under `any` each action may have had any of its effects, or none yet."""
+    effects = [len(spec.actions[action].effects) for action in chosen]
+    return prod(1 + number for number in effects) if ordering == "any" else sum(effects)
 
 
 def candidates(spec: Spec, state: State) -> Iterator[ActionSet]:

@@ -108,7 +108,7 @@ def why_no_set(place: Place, state: State, ordering: Ordering, limit: int = 3) -
     """
     from tumato_symbolic.explain.near import near_misses
 
-    nearest = near_misses(place.spec, state, ordering, limit)
+    nearest = near_misses(place.spec, state, ordering, limit).misses
     lines = [f"{place.actions(near.chosen)}: {_together(place, near)}" for near in nearest]
     if len(nearest) == 1:
         lines.append("anything else: no action has preconditions that hold here")

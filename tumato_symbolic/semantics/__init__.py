@@ -28,6 +28,7 @@ from tumato_symbolic.semantics.step import (
     nominal_agrees,
     objections,
     outcomes,
+    outcomes_in_turn,
     successor,
 )
 
@@ -61,6 +62,7 @@ __all__ = [
     "nominal_agrees",
     "objections",
     "outcomes",
+    "outcomes_in_turn",
     "reached",
     "residual_goal",
     "settled_truth",

@@ -30,25 +30,34 @@ def outcomes(spec: Spec, state: State, chosen: ActionSet, ordering: Ordering) ->
     Under `any`: after every non-empty sequence of distinct actions of `chosen`, each with any one of its effects.
     Under `first`: after one action with any one of its effects. The empty set leads to `state` itself.
     """
+    return dict(outcomes_in_turn(spec, state, chosen, ordering))
+
+
+def outcomes_in_turn(
+    spec: Spec, state: State, chosen: ActionSet, ordering: Ordering
+) -> Iterator[tuple[State, Outcome]]:
+    """`outcomes` one by one, the shortest ways first: there may be more of them than anybody wants to wait for."""
     if not chosen:
-        return {state: ()}
-    reached: dict[State, Outcome] = {}
+        yield state, ()
+        return
+    reached: set[State] = set()
     seen: set[tuple[State, ActionSet]] = set()
     frontier: list[tuple[State, ActionSet, Outcome]] = [(state, chosen, ())]
     while frontier:
         following: list[tuple[State, ActionSet, Outcome]] = []
         for here, waiting, past in frontier:
             for action in sorted(waiting):
+                rest = waiting - {action}
                 for effect in spec.actions[action].effects:
                     there = apply(effect, here)
                     way = (*past, Effectuation(action, effect, there))
-                    reached.setdefault(there, way)
-                    rest = waiting - {action}
+                    if there not in reached:
+                        reached.add(there)
+                        yield there, way
                     if (there, rest) not in seen:
                         seen.add((there, rest))
                         following.append((there, rest, way))
         frontier = following if ordering == "any" else []
-    return reached
 
 
 def nominal_agrees(spec: Spec, chosen: ActionSet) -> bool:
@@ -97,7 +106,7 @@ def objections(spec: Spec, state: State, chosen: ActionSet, ordering: Ordering) 
     for rule in spec.reaction_rules:
         if not holds(rule.formula, state, chosen):
             yield Objection("reaction-rule", tuple(sorted(chosen)), rule)
-    for reached, way in outcomes(spec, state, chosen, ordering).items():
+    for reached, way in outcomes_in_turn(spec, state, chosen, ordering):
         if not is_safe(spec, reached):
             yield Objection("unsafe", tuple(sorted(chosen)), broken_rule(spec, reached), way, reached)
     if nominal_agrees(spec, chosen):

@@ -25,7 +25,7 @@ from tumato_symbolic.semantics import (
     holds,
     is_safe,
     nominal_agrees,
-    outcomes,
+    outcomes_in_turn,
     settled_truth,
     successor,
 )
@@ -83,7 +83,7 @@ def _violations(problem: Problem, state: State, executed: ActionSet, idle: Actio
             yield Violation("reaction-rule", rule=_name(spec, rule))
     settled = len(executed) + len(idle) == len(spec.actions)
     if executed:
-        for reached, way in outcomes(spec, state, executed, ordering).items():
+        for reached, way in outcomes_in_turn(spec, state, executed, ordering):
             if not is_safe(spec, reached):
                 yield Violation("unsafe", outcome=tuple((strike.action, strike.effect) for strike in way))
     elif settled and not is_safe(spec, state):
