@@ -44,7 +44,7 @@ Located = tuple[Formula, int]  # a formula and the line on which it begins
 Effect = dict[int, str]  # an assignment: the new value by the position of its variable
 Residual = tuple[frozenset[Formula], ActionSet]  # goal bodies, and those of their actions that are executed first
 
-LARGEST = 2_000_000  # this many states, or assignments of one set of effects, are enumerated at most
+LARGEST = 2_000_000  # so many states, sets or outcomes in one state, assignments of one set of effects are looked at
 
 
 class Unreadable(Exception):
@@ -55,10 +55,20 @@ class TooLarge(Exception):
     """Input that would take too long: exit code 3."""
 
 
+class Refuted(Exception):
+    """A claim of a certificate that is not so."""
+
+
 def need(condition: bool, message: str) -> None:
     """Refuse input unless the condition holds."""
     if not condition:
         raise Unreadable(message)
+
+
+def within_limit(count: int, what: str) -> None:
+    """Give up where there are too many to look at."""
+    if count > LARGEST:
+        raise TooLarge(f"more than {LARGEST:,} {what} are too many to look at each of them")
 
 
 # ----------------------------------------------------------------------------------------------------------------------
@@ -475,6 +485,22 @@ def holds(formula: Formula, state: State, executed: ActionSet = frozenset()) -> 
     return bool(kind == "true")
 
 
+def truth(formula: Formula, state: State, executed: ActionSet, open_actions: ActionSet) -> bool | None:
+    """The truth of a formula whichever of the open actions are executed besides; None where that seems to matter."""
+    kind = formula[0]
+    if kind == "executing" and formula[1] in open_actions:
+        return None
+    if kind not in ("not", "and", "or", "iff"):
+        return holds(formula, state, executed)
+    found = [truth(part, state, executed, open_actions) for part in formula[1:]]
+    if kind in ("and", "or"):
+        settling = kind == "or"
+        return settling if settling in found else None if None in found else not settling
+    if None in found:
+        return None
+    return not found[0] if kind == "not" else found[0] == found[1]
+
+
 # ----------------------------------------------------------------------------------------------------------------------
 # 4. States (docs/semantics.md, section 1), and what may be executed together (section 3).
 
@@ -550,6 +576,7 @@ class World:
                 after, rest = self.apply(here, effect), idle - {name}
                 if (after, rest) not in seen:
                     seen.add((after, rest))
+                    within_limit(len(seen), "outcomes of one set of actions")
                     yield after, [*way, after]
                     if self.ordering == "any":
                         waiting.append((after, rest, [*way, after]))
@@ -581,30 +608,39 @@ class World:
         """The duration of a set: the sum of its actions' durations (section 5)."""
         return sum(self.spec.actions[name].duration for name in chosen)
 
-    def cheaper_allowed_sets(self, state: State, limit: int) -> Iterator[ActionSet]:
-        """The allowed sets of a smaller duration than `limit`, grown action by action in the order of declaration.
+    def allowed_sets(self, state: State, below: float = math.inf) -> Iterator[ActionSet]:
+        """The allowed sets of a smaller duration than `below`, grown action by action in the order of declaration.
 
         A larger set has all that a smaller one has: the duration, the disagreements about resources and nominal
-        effects, and (but for the empty set) every outcome. Where one of these is at fault, a set is not grown.
+        effects, and (but for the empty set) every outcome. Where one of these is at fault, or where a reaction rule
+        will be false whatever is added, a set is not grown.
         """
         names = [name for name, a in self.spec.actions.items() if self.broken(a.preconditions, state) is None]
-        waiting = [(frozenset[str](), 0)] if limit > 0 else []
+        waiting, count = [(frozenset[str](), 0)] if below > 0 else [], 0
         while waiting:
             chosen, begin = waiting.pop()
+            count += 1
+            within_limit(count, "sets of actions in one state")
             if self.objection(state, chosen) is None:
                 yield chosen
             larger = ((chosen | {names[place]}, place + 1) for place in range(begin, len(names)))
-            waiting += [(grown, place) for grown, place in larger if self.may_grow(state, grown, limit)]
+            waiting += [each for each in larger if self.may_grow(state, each[0], frozenset(names[each[1] :]), below)]
 
-    def may_grow(self, state: State, chosen: ActionSet, limit: int) -> bool:
-        """Whether a set has none of the faults that every larger set has as well."""
+    def may_grow(self, state: State, chosen: ActionSet, others: ActionSet, below: float) -> bool:
+        """Whether a set has no fault that it keeps, whichever of the others are added."""
         held = [resource for name in chosen for resource in self.spec.actions[name].holds_resources]
         return (
-            self.duration(chosen) < limit
+            self.duration(chosen) < below
             and len(held) == len(set(held))
             and self.agree(chosen)
+            and all(truth(rule, state, chosen, others) is not False for rule, _ in self.spec.reaction_rules)
             and all(self.is_safe(after) for after, _ in self.outcomes(state, chosen))
         )
+
+    def steps(self, state: State) -> Iterator[tuple[ActionSet, State]]:
+        """Every allowed set with the nominal successor to which it leads."""
+        for chosen in self.allowed_sets(state):
+            yield chosen, self.successor(state, chosen)
 
     # Words for reports.
 
@@ -613,6 +649,9 @@ class World:
 
     def show_set(self, chosen: ActionSet) -> str:
         return f"{{{', '.join(sorted(chosen))}}} (duration {self.duration(chosen)})"
+
+    def step(self, state: State, chosen: ActionSet) -> str:
+        return f"in {self.show(state)}, {self.show_set(chosen)} leads to {self.show(self.successor(state, chosen))}"
 
     def quote(self, line: int) -> str:
         return f"line {line}: `{self.spec.lines[line - 1].strip()}`"
@@ -703,7 +742,7 @@ def read_header(document: dict[str, Any], spec: Specification) -> None:
     need(document.get("EffectOrdering", "any") in ("any", "first"), "`EffectOrdering` is `any` or `first`")
     actions: Any = document.get("Actions")
     need(is_names(actions), "`Actions` is a list of different names")
-    need(set(actions) <= set(spec.actions), f"unknown actions: {sorted(set(actions) - set(spec.actions))}")
+    need(set(actions) == set(spec.actions), "the actions of the file are not those of the specification")
     check_states(document.get("States"), spec)
 
 
@@ -748,7 +787,7 @@ def read_diagram_policy(document: dict[str, Any], spec: Specification) -> Callab
 class Diagram:
     """Functions of the state that share nodes. A reference is the number of a leaf, or after those, of a node."""
 
-    def __init__(self, section: Any, states: dict[str, dict[str, int]], spec: Specification) -> None:
+    def __init__(self, section: Any, states: Numbered, spec: Specification) -> None:
         need(isinstance(section, dict), "a diagram is an object")
         need({"Order", "Leaves", "Nodes"} <= set(section), "a diagram has not all of `Order`, `Leaves` and `Nodes`")
         order, self.leaves, nodes = section["Order"], section["Leaves"], section["Nodes"]
@@ -787,12 +826,23 @@ class Diagram:
         need(is_number(number) and number < len(self.leaves) + len(self.nodes), "a root is wrong")
         return int(number)
 
+    def same(self) -> list[int]:
+        """For every reference the first one that leads from each state to the same leaf. (All leaves differ.)"""
+        found, known = list(range(len(self.leaves))), dict[tuple[int, ...], int]()
+        for number, (level, below) in enumerate(self.nodes, len(self.leaves)):
+            children = [found[child] for child in below]
+            found.append(children[0] if len(set(children)) == 1 else known.setdefault((level, *children), number))
+        return found
+
     def value(self, reference: int, state: State) -> Any:
         """The leaf to which a state leads."""
         while reference >= len(self.leaves):
             level, below = self.nodes[reference - len(self.leaves)]
             reference = below[self.numbers[level][state[self.places[level]]]]
         return self.leaves[reference]
+
+
+Numbered = dict[str, dict[str, int]]  # the section `States`
 
 
 def check_states(states: Any, spec: Specification) -> None:
@@ -859,7 +909,7 @@ class Judge:
         """For an unsafe state a cheaper allowed set that serves as well, if there is one."""
         if self.world.is_safe(state):
             return None
-        sets = self.world.cheaper_allowed_sets(state, self.world.duration(self.decided[state]))
+        sets = self.world.allowed_sets(state, self.world.duration(self.decided[state]))
         return next((chosen for chosen in sets if self.serves(state, chosen)), None)
 
     def serves(self, state: State, chosen: ActionSet) -> bool:
@@ -948,7 +998,7 @@ def judge_certificate(judge: Judge, document: dict[str, Any]) -> tuple[str, str]
             for state, own in rank.items():
                 check_rank(judge, goal, rank, state, own)
         missing = [check_bound(judge, state, ranks) for state in judge.allowed]
-    except Unreadable as problem:
+    except (Unreadable, Refuted) as problem:
         return "wrong", str(problem)
     first = next((why for why in missing if why), "")
     return ("incomplete", first) if first else ("right", "")
@@ -963,7 +1013,7 @@ def read_ranks(world: World, document: dict[str, Any]) -> dict[Residual, dict[St
     ranks: dict[Residual, dict[State, int | None]] = {}
     for entry in section["Goals"]:
         goal = read_goal(entry, world.spec)
-        need(goal[1] <= actions_in(goal[0]), "`Executed` has an action of which the goal does not speak")
+        need(goal[1] == set(entry["Executed"]), "`Executed` has an action of which the goal does not speak")
         need(goal not in ranks, f"it ranks {entry['Bodies']} twice")
         root = diagram.reference(entry.get("Root"))
         ranks[goal] = {state: diagram.value(root, state) for state in world.safe}
@@ -971,14 +1021,16 @@ def read_ranks(world: World, document: dict[str, Any]) -> dict[Residual, dict[St
 
 
 def read_goal(entry: Any, spec: Specification) -> Residual:
-    """The residual goal of an entry of `Goals`."""
+    """The residual goal of an entry of `Goals`: its bodies, and which of their actions are executed."""
     need(isinstance(entry, dict) and {"Bodies", "Executed"} <= set(entry), "an entry of `Goals` is no goal")
     for key in ("Bodies", "Executed"):
         need(is_names(entry[key]), f"`{key}` is no list of different names")
     bodies = {text_of(body, spec): body for body in bodies_of(spec.goals)}
-    need(set(entry["Bodies"]) <= set(bodies), f"there is no such goal: {entry['Bodies']}")
     need(set(entry["Executed"]) <= set(spec.actions), f"there are no such actions: {entry['Executed']}")
-    return frozenset(bodies[text] for text in entry["Bodies"]), frozenset(entry["Executed"])
+    if not set(entry["Bodies"]) <= set(bodies):
+        raise Refuted(f"there is no such goal: {entry['Bodies']}")
+    goals = frozenset(bodies[text] for text in entry["Bodies"])
+    return goals, actions_in(goals) & set(entry["Executed"])
 
 
 def check_bound(judge: Judge, state: State, ranks: dict[Residual, dict[State, int | None]]) -> str:
@@ -1057,7 +1109,468 @@ def meaning_of_goal(spec: Specification, goal: Goal) -> list[Any]:
 
 
 # ----------------------------------------------------------------------------------------------------------------------
-# 8. The command line.
+# 8. The answer no (docs/certificate.md): a certificate that there is no policy. What it claims is looked at state by
+#    state, set by set; the first claim that is not so ends in `Refuted`.
+
+
+def judge_no(world: World, document: dict[str, Any]) -> str:
+    """What proves that there is no policy, in words."""
+    reason: Any = document.get("Reason")
+    need(isinstance(reason, dict), "`Reason` is an object")
+    kind = reason.get("Kind")
+    if kind == "no-allowed-set":
+        return check_no_allowed_set(world, reason)
+    if kind == "no-plan":
+        return check_no_plan(world, reason, document["States"])
+    need(kind == "conflict", "`Kind` is `no-allowed-set`, `no-plan` or `conflict`")
+    return check_conflict(world, reason, document["States"])
+
+
+def check_decides(world: World, state: State) -> None:
+    """A policy decides valid states, and owes nothing elsewhere."""
+    if not world.is_valid(state):
+        raise Refuted(f"the state {world.show(state)} is not valid")
+
+
+# What the certificate consists of.
+
+
+def read_list(section: dict[str, Any], key: str) -> list[Any]:
+    """A list in an object."""
+    value = section.get(key)
+    need(isinstance(value, list), f"`{key}` is a list")
+    return list(value or [])
+
+
+def read_objects(section: dict[str, Any], key: str) -> list[dict[str, Any]]:
+    """A list of objects."""
+    entries = read_list(section, key)
+    need(all(isinstance(entry, dict) for entry in entries), f"`{key}` is a list of objects")
+    return entries
+
+
+def read_numbers(section: dict[str, Any], key: str, end: int) -> list[int]:
+    """A list of numbers below `end`."""
+    numbers = read_list(section, key)
+    need(all(is_number(number) and number < end for number in numbers), f"`{key}` is a list of numbers below {end}")
+    return numbers
+
+
+def read_effect(section: dict[str, Any], key: str, spec: Specification) -> Effect:
+    """An object from variables to values."""
+    value: Any = section.get(key)
+    need(
+        isinstance(value, dict) and set(value) <= set(spec.variables), f"`{key}` is an object from variables to values"
+    )
+    for name, text in value.items():
+        need(isinstance(text, str) and text in spec.variables[name], f"`{key}`: `{name}` has no value {text!r}")
+    return {list(spec.variables).index(name): text for name, text in value.items()}
+
+
+def read_state(section: dict[str, Any], key: str, spec: Specification) -> State:
+    """A value for every variable."""
+    values = read_effect(section, key, spec)
+    need(len(values) == len(spec.variables), f"`{key}` has not a value for every variable")
+    return tuple(values[place] for place in range(len(values)))
+
+
+def read_actions(section: dict[str, Any], key: str, spec: Specification) -> ActionSet:
+    """A list of different actions."""
+    names = section.get(key)
+    need(is_names(names), f"`{key}` is a list of different names")
+    found = frozenset(names or ())
+    need(found <= set(spec.actions), f"`{key}` has an unknown action")
+    return found
+
+
+# No allowed set: a cube is all sets of actions that contain `executed` and nothing of `idle`. The cubes hold every set
+# once, and none of a cube's sets is allowed, because of its `Violation`.
+
+
+@dataclass
+class Cube:
+    """A cube, and what its violation speaks of."""
+
+    executed: ActionSet
+    idle: ActionSet
+    kind: str
+    actions: ActionSet = frozenset()
+    rule: str = ""
+    outcome: list[tuple[str, Effect]] = field(default_factory=list)
+
+
+def check_no_allowed_set(world: World, reason: dict[str, Any]) -> str:
+    """No set of actions is allowed in `State`."""
+    state = read_state(reason, "State", world.spec)
+    cubes = None
+    need("Cubes" in reason, "there is no `Cubes`")
+    if reason["Cubes"] is not None:
+        cubes = [read_cube(entry, world.spec) for entry in read_objects(reason, "Cubes")]
+    check_decides(world, state)
+    if cubes is None:
+        chosen = next(world.allowed_sets(state), None)
+        if chosen is not None:
+            raise Refuted(f"in {world.show(state)}, {world.show_set(chosen)} is allowed")
+        return f"no set of actions is allowed in {world.show(state)}, by looking at them"
+    check_cover(cubes, list(world.spec.actions))
+    for number, cube in enumerate(cubes):
+        why = unviolated(world, state, cube)
+        if why:
+            raise Refuted(f"the sets of cube {number} are not ruled out by `{cube.kind}`: {why}")
+    return f"no set of actions is allowed in {world.show(state)}, by {len(cubes)} cubes"
+
+
+def read_cube(entry: dict[str, Any], spec: Specification) -> Cube:
+    """An entry of `Cubes`."""
+    violation: Any = entry.get("Violation")
+    need(isinstance(violation, dict), "`Violation` is an object")
+    kind: Any = violation.get("Kind")
+    cube = Cube(read_actions(entry, "Executed", spec), read_actions(entry, "Idle", spec), kind)
+    if kind in ("precondition", "resource", "nominal-conflict"):
+        cube.actions = read_actions(violation, "Actions", spec)
+        count = 1 if kind == "precondition" else 2
+        need(len(cube.actions) == count, f"a violation `{kind}` names {count} actions")
+    elif kind == "reaction-rule":
+        cube.rule = violation.get("Rule", "")
+        need(isinstance(cube.rule, str), "`Rule` is a text")
+    elif kind == "unsafe":
+        for strike in read_objects(violation, "Outcome"):
+            need(isinstance(strike.get("Action"), str) and strike["Action"] in spec.actions, "`Action` is an action")
+            cube.outcome.append((strike["Action"], read_effect(strike, "Effect", spec)))
+    else:
+        need(kind in ("idle", "nominal-unsafe"), f"there is no violation {kind!r}")
+    return cube
+
+
+def check_cover(cubes: list[Cube], names: list[str]) -> None:
+    """No set is in two cubes, and together they hold as many sets as there are."""
+    bit = {name: 1 << place for place, name in enumerate(names)}
+    earlier: list[tuple[int, int]] = []
+    held = 0
+    for number, cube in enumerate(cubes):
+        executed, idle = sum(bit[name] for name in cube.executed), sum(bit[name] for name in cube.idle)
+        if executed & idle:
+            raise Refuted(f"cube {number} executes what it leaves idle")
+        for other, (also_executed, also_idle) in enumerate(earlier):
+            if not executed & also_idle and not idle & also_executed:
+                raise Refuted(f"cubes {other} and {number} have a set in common")
+        earlier.append((executed, idle))
+        held += 1 << (len(names) - len(cube.executed) - len(cube.idle))
+    if held != 1 << len(names):
+        raise Refuted("the cubes do not hold all sets of actions")
+
+
+def unviolated(world: World, state: State, cube: Cube) -> str:
+    """Why a violation does not rule out every set of its cube; "" where it does."""
+    settled = len(cube.executed) + len(cube.idle) == len(world.spec.actions)
+    named = [world.spec.actions[name] for name in sorted(cube.actions)]
+    if not cube.actions <= cube.executed:
+        return "it names an action that not all sets execute"
+    if cube.kind == "precondition":
+        return "" if world.broken(named[0].preconditions, state) is not None else "the preconditions hold"
+    if cube.kind == "resource":
+        return "" if named[0].holds_resources & named[1].holds_resources else "the two share no resource"
+    if cube.kind == "nominal-conflict":
+        return "" if not world.agree(cube.actions) else "the nominal effects of the two agree"
+    if cube.kind == "reaction-rule":
+        return kept_rule(world, state, cube)
+    if cube.kind == "unsafe":
+        return safe_outcome(world, state, cube)
+    if cube.kind == "idle":
+        return "" if settled and not cube.executed and not world.is_safe(state) else "doing nothing may be allowed"
+    if not settled or not world.agree(cube.executed):
+        return "there is not one nominal successor"
+    return "" if not world.is_safe(world.successor(state, cube.executed)) else "the nominal successor is safe"
+
+
+def kept_rule(world: World, state: State, cube: Cube) -> str:
+    """Why a reaction rule does not fail in all sets of a cube: cases on its open actions, until its truth is known."""
+    rules = [rule for rule, _ in world.spec.reaction_rules if text_of(rule, world.spec) == cube.rule]
+    if not rules:
+        return "there is no such rule"
+    waiting, count = [(cube.executed, actions_in(rules[:1]) - cube.executed - cube.idle)], 0
+    while waiting:
+        executed, others = waiting.pop()
+        count += 1
+        within_limit(count, "sets of actions in a rule")
+        found = truth(rules[0], state, executed, others)
+        if found:
+            return f"{world.show_set(executed)} keeps the rule"
+        if found is None:
+            left = others - {min(others)}
+            waiting += [(executed, left), (executed | {min(others)}, left)]
+    return ""
+
+
+def safe_outcome(world: World, state: State, cube: Cube) -> str:
+    """Why the effects of an `Outcome` do not lead to a state that is not safe, or cannot happen in all sets."""
+    names = [name for name, _ in cube.outcome]
+    if not names or len(set(names)) < len(names) or not cube.executed.issuperset(names):
+        return "its effects are not those of different actions that all sets execute"
+    if world.ordering == "first" and len(names) > 1:
+        return "only the first effect counts"
+    for name, effect in cube.outcome:
+        if effect not in world.effects(name):
+            return f"`{name}` does not have the effect"
+        state = world.apply(state, effect)
+    return "" if not world.is_safe(state) else f"{world.show(state)} is safe"
+
+
+# No plan: whatever residual goal `State` can owe, the layers R_1, …, R_n hold all runs of allowed steps that owe it
+# (after k steps a run is in one of R_1, …, R_k), and none of their states meets it.
+
+Layers = tuple[Residual, list[int]]  # a residual goal, and a root for every layer
+
+
+def check_no_plan(world: World, reason: dict[str, Any], states: Numbered) -> str:
+    """No run from `State` reaches what it owes in `1` to `L` steps."""
+    start = read_state(reason, "State", world.spec)
+    diagram = Diagram(reason, states, world.spec)
+    need(diagram.is_yes_or_no(), "`Leaves` is not [false, true]")
+    goals: list[Layers] = []
+    for entry in read_objects(reason, "Goals"):
+        layers = [diagram.reference(root) for root in read_list(entry, "Layers")]
+        need(layers != [], "there is a goal without layers")
+        goals.append((read_goal(entry, world.spec), layers))
+    check_decides(world, start)
+    check_first_steps(world, start, diagram, goals)
+    for state in world.safe:
+        check_layers(world, state, diagram, goals)
+    return f"no run from {world.show(start)} reaches what it owes, by layers for {len(goals)} goals"
+
+
+def check_first_steps(world: World, start: State, diagram: Diagram, goals: list[Layers]) -> None:
+    """What the start can owe is listed, and each first successor is in the first layer of the goal that is owed."""
+    for chosen, after in world.steps(start):
+        owed = world.residual_goal(start, chosen)
+        firsts = [layers[0] for goal, layers in goals if goal == owed]
+        if not firsts:
+            raise Refuted(f"{world.step(start, chosen)} and owes {goal_text(world, owed)}, which is not listed")
+        if not all(diagram.value(first, after) for first in firsts):
+            raise Refuted(f"{world.step(start, chosen)}, which is not in layer 1 for {goal_text(world, owed)}")
+
+
+def check_layers(world: World, state: State, diagram: Diagram, goals: list[Layers]) -> None:
+    """A state of a layer does not meet the goal; its steps lead into this layer, an earlier one, or the next.
+
+    It is enough to look at the first layer that holds the state. Steps from the last layer stay in the layers, unless
+    there are as many layers as steps are allowed.
+    """
+    held: list[tuple[Residual, int, list[int]]] = []
+    for goal, layers in goals:
+        number = next((place for place, root in enumerate(layers, 1) if diagram.value(root, state)), 0)
+        if number and reached(goal, state):
+            raise Refuted(f"the state {world.show(state)} of layer {number} meets {goal_text(world, goal)}")
+        bound = world.spec.bound
+        if number and (number < len(layers) or bound is None or number < bound):
+            held.append((goal, number, layers[: number + 1]))
+    for chosen, after in world.steps(state) if held else ():
+        for goal, number, layers in held:
+            if not any(diagram.value(root, after) for root in layers):
+                where = f"layers 1 to {len(layers)} for {goal_text(world, goal)}"
+                raise Refuted(f"from layer {number}, {world.step(state, chosen)}, which is not in {where}")
+
+
+# Conflict: for some valid states all *options* are listed, where a set leads and which goal it owes. A *cut* is a run
+# that fails unless one of certain options is taken. No choice of one option for every state takes one for every cut.
+
+Option = tuple[State, int]  # the successor, and the goal by its class
+Pick = tuple[int, int]  # a listed state and one of its options, by number
+
+
+class Conflict:
+    """The parts of a conflict. Goals with one root, or equal diagrams below it, are one class; its number is a root."""
+
+    def __init__(self, world: World, reason: dict[str, Any], states: Numbered) -> None:
+        spec = world.spec
+        self.bound = spec.bound
+        self.diagram = Diagram(reason, states, spec)
+        need(self.diagram.is_of_numbers(), "`Leaves` are not different numbers")
+        same = self.diagram.same()
+        entries = read_objects(reason, "Goals")
+        self.goals = [same[self.diagram.reference(entry.get("Root"))] for entry in entries]
+        self.choices: list[tuple[State, list[Option]]] = []
+        for entry in read_objects(reason, "Choices"):
+            options = [(read_state(o, "Successor", spec), self.goal(o)) for o in read_objects(entry, "Options")]
+            self.choices.append((read_state(entry, "State", spec), options))
+        self.starts = read_numbers(reason, "Starts", len(self.choices))
+        self.cuts = [self.cut(entry, spec) for entry in read_objects(reason, "Cuts")]
+        self.members: dict[int, set[Residual]] = {number: set() for number in self.goals}
+        for place, entry in enumerate(entries):
+            self.members[self.goals[place]].add(read_goal(entry, spec))
+
+    def goal(self, section: dict[str, Any]) -> int:
+        """The class of the goal that an option or a cut names."""
+        number: Any = section.get("Goal")
+        need(is_number(number) and number < len(self.goals), "`Goal` is the number of a goal")
+        return self.goals[int(number)]
+
+    def cut(self, entry: dict[str, Any], spec: Specification) -> tuple[int, list[int], State | None]:
+        """The class of the goal, the listed states on the run, and the end of a path; a loop has none."""
+        need(entry.get("Kind") in ("path", "loop"), "a cut is a `path` or a `loop`")
+        need(("End" in entry) == (entry["Kind"] == "path"), "a path has an `End`, and a loop has none")
+        run = read_numbers(entry, "States", len(self.choices))
+        need(run != [], "there is a cut without states")
+        return self.goal(entry), run, read_state(entry, "End", spec) if "End" in entry else None
+
+    def distance(self, goal: int, state: State) -> float:
+        """`D`: at least so many allowed steps are left to a goal of the class. From the bound on, all is too far."""
+        found = self.diagram.value(goal, state)
+        distance = math.inf if found is None else found
+        return distance if self.bound is None else min(distance, self.bound)
+
+    def near(self, goal: int, state: State, steps: int) -> bool:
+        """Whether a run that is here after so many steps may still reach the goal."""
+        distance = self.distance(goal, state)
+        return distance < math.inf if self.bound is None else steps + distance <= self.bound
+
+
+def check_conflict(world: World, reason: dict[str, Any], states: Numbered) -> str:
+    """No policy serves all `Starts`."""
+    conflict = Conflict(world, reason, states)
+    for state, _ in conflict.choices:
+        check_decides(world, state)
+    for state, options in conflict.choices:
+        check_options(world, conflict, state, options)
+    clauses = [clause_of(world, conflict, number) for number in range(len(conflict.cuts))]
+    if Choosing([len(options) for _, options in conflict.choices], clauses).succeeds():
+        raise Refuted("there is a choice of options that respects all cuts")
+    for state in world.safe:
+        check_distances(world, conflict, state)
+    counted = f"{len(conflict.choices)} states and {len(clauses)} cuts"
+    return f"no policy serves {len(set(conflict.starts))} states together, by the options of {counted}"
+
+
+def check_options(world: World, conflict: Conflict, state: State, options: list[Option]) -> None:
+    """Every allowed set leads where one of the options says, and owes a goal of its class."""
+    for chosen, after in world.steps(state):
+        owed = world.residual_goal(state, chosen)
+        if not any(after == there and owed in conflict.members[goal] for there, goal in options):
+            raise Refuted(f"{world.step(state, chosen)} and owes {goal_text(world, owed)}, which is no option there")
+
+
+def check_distances(world: World, conflict: Conflict, state: State) -> None:
+    """The distance is 0 where a goal is met, and no step makes it smaller by more than one."""
+    for goal, members in conflict.members.items():
+        met = next((each for each in members if reached(each, state)), None)
+        if met is not None and conflict.distance(goal, state) != 0:
+            raise Refuted(f"{world.show(state)} meets {goal_text(world, met)}, and its distance is not 0")
+    for chosen, after in world.steps(state):
+        for goal, members in conflict.members.items():
+            if conflict.distance(goal, state) > conflict.distance(goal, after) + 1:
+                nearer = f"from where {min(goal_text(world, each) for each in members)} is nearer by more than one step"
+                raise Refuted(f"{world.step(state, chosen)}, {nearer}")
+
+
+def clause_of(world: World, conflict: Conflict, number: int) -> list[Pick]:
+    """Options of which every policy that serves the first state of a cut takes one."""
+    goal, run, end = conflict.cuts[number]
+    if run[0] not in conflict.starts:
+        raise Refuted(f"cut {number} begins in a state that is not among the starts")
+    picks = [(run[0], place) for place, option in enumerate(conflict.choices[run[0]][1]) if option[1] != goal]
+    way = [conflict.choices[each][0] for each in run]
+    if end is None:  # those that meet the goal, or leave the loop for where it is near enough
+        for each in sorted(set(run)):
+            for place, (after, _) in enumerate(conflict.choices[each][1]):
+                leaves = after not in way and conflict.near(goal, after, 1)
+                if leaves or conflict.distance(goal, after) == 0:
+                    picks.append((each, place))
+        return picks
+    met = next((state for state in way[1:] if conflict.distance(goal, state) == 0), None)
+    if met is not None:
+        raise Refuted(f"cut {number} passes {world.show(met)}, where its goal may be met")
+    if conflict.near(goal, end, len(way)):
+        raise Refuted(f"cut {number} ends in {world.show(end)}, from where its goal may be reached")
+    for steps, following in enumerate([*way[1:], end], 1):  # those that turn off to where it is near enough
+        each = run[steps - 1]
+        for place, (after, _) in enumerate(conflict.choices[each][1]):
+            if after != following and conflict.near(goal, after, steps):
+                picks.append((each, place))
+    return picks
+
+
+class Choosing:
+    """The search for one option of every state so that every clause has one that is chosen.
+
+    A *group* is a clause, or all options of a state: it needs an option that is chosen. Where all but one of a group
+    are struck out, that one is chosen, and the other options of its state are struck out.
+    """
+
+    def __init__(self, counts: list[int], clauses: list[list[Pick]]) -> None:
+        self.states = [[(state, place) for place in range(count)] for state, count in enumerate(counts)]
+        self.groups = self.states + [sorted(set(clause)) for clause in clauses]
+        self.left = [len(group) for group in self.groups]  # how many of a group are not struck out
+        self.groups_of: dict[Pick, list[int]] = {pick: [] for group in self.states for pick in group}
+        for number, group in enumerate(self.groups):
+            for pick in group:
+                self.groups_of[pick].append(number)
+        self.struck: dict[Pick, None] = {}  # in order
+        self.touched = list(range(len(self.groups)))
+
+    def succeeds(self) -> bool:
+        """Whether there is such a choice: guess an option; strike it out where that leaves nothing of some group."""
+        guesses: list[tuple[Pick, int]] = []  # and how many were struck out before
+        count = 0
+        while True:
+            if not self.follow():
+                if not guesses:
+                    return False
+                guess, before = guesses.pop()
+                self.take_back(before)
+                self.strike([guess])
+                continue
+            open_groups = (number for number, left in enumerate(self.left) if left > 1)
+            number = min(open_groups, key=self.left.__getitem__, default=-1)
+            if number < 0:
+                return True
+            count += 1
+            within_limit(count, "choices of options")
+            guesses.append((self.first_left(number), len(self.struck)))
+            self.choose(guesses[-1][0])
+
+    def follow(self) -> bool:
+        """Choose what is the last one left of its group; False where nothing is left of one."""
+        while self.touched:
+            number = self.touched.pop()
+            if self.left[number] == 0:
+                self.touched.clear()
+                return False
+            if self.left[number] == 1:
+                self.choose(self.first_left(number))
+        return True
+
+    def first_left(self, number: int) -> Pick:
+        """The first option of a group that is not struck out."""
+        return next(pick for pick in self.groups[number] if pick not in self.struck)
+
+    def choose(self, pick: Pick) -> None:
+        """Strike out all other options of the state."""
+        self.strike([other for other in self.states[pick[0]] if other != pick])
+
+    def strike(self, picks: list[Pick]) -> None:
+        """Strike options out."""
+        for pick in picks:
+            if pick not in self.struck:
+                self.struck[pick] = None
+                for number in self.groups_of[pick]:
+                    self.left[number] -= 1
+                    self.touched.append(number)
+
+    def take_back(self, count: int) -> None:
+        """Leave the first `count` struck out."""
+        while len(self.struck) > count:
+            for number in self.groups_of[self.struck.popitem()[0]]:
+                self.left[number] += 1
+
+
+def goal_text(world: World, goal: Residual) -> str:
+    """A residual goal in words."""
+    bodies = " AND ".join(sorted(f"({text_of(body, world.spec)})" for body in goal[0])) or "no goal"
+    return bodies + (f" while executing {', '.join(sorted(goal[1]))}" if goal[1] else "")
+
+
+# ----------------------------------------------------------------------------------------------------------------------
+# 9. The command line.
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -1083,9 +1596,16 @@ def main(argv: list[str] | None = None) -> int:
 
 
 def judge_files(options: argparse.Namespace) -> int:
-    """Read, judge, report. The ordering is the command line's, else the policy's, the specification's, or `any`."""
+    """Read, judge, report."""
     spec = resolve(Parser(Path(options.spec).read_bytes().decode("utf-8-sig")).specification())
-    policy = read_policy(read_document(Path(options.policy).read_bytes().decode("utf-8-sig")), spec)
+    document = read_document(Path(options.policy).read_bytes().decode("utf-8-sig"))
+    if document.get("Type") == "unrealizable":
+        return judge_certificate_of_no(spec, document, options)
+    return judge_policy(spec, read_policy(document, spec), options)
+
+
+def judge_policy(spec: Specification, policy: Policy, options: argparse.Namespace) -> int:
+    """The ordering is the command line's, else the policy's, the specification's, or `any`."""
     ordering = options.effect_ordering or policy.ordering or spec.ordering or "any"
     world = World(spec, ordering)
     judge = Judge(world, policy.decide)
@@ -1103,6 +1623,26 @@ def judge_files(options: argparse.Namespace) -> int:
         status, right = status.upper(), right and not options.strict
     print(f"certificate: {status}" + (f": {why}" if why else ""))
     return 0 if right else 1
+
+
+def judge_certificate_of_no(spec: Specification, document: dict[str, Any], options: argparse.Namespace) -> int:
+    """The ordering is the command line's, else the certificate's; `any` proves nothing where `first` is written."""
+    read_header(document, spec)
+    need({"SpecificationDigest", "EffectOrdering"} <= set(document), "the digest or the ordering is missing")
+    ordering = options.effect_ordering or document["EffectOrdering"]
+    print(f"effect ordering {ordering}")
+    shown = why = ""
+    if options.effect_ordering is None and (ordering, spec.ordering) == ("any", "first"):
+        why = "it speaks of `any`, but the specification writes `first`, under which more sets are allowed"
+    else:
+        try:
+            shown = judge_no(World(spec, ordering), document)
+        except Refuted as problem:
+            why = str(problem)
+    print(f"unrealizable FAILS: {why}" if why else f"unrealizable holds: {shown}")
+    stale = document["SpecificationDigest"] != digest(spec)
+    print(f"specification: {'STALE: the certificate was made for another one' if stale else 'the same'}")
+    return 0 if not why and not (stale and options.strict) else 1
 
 
 if __name__ == "__main__":

@@ -15,9 +15,10 @@ from multiprocessing import Pool
 from pathlib import Path
 
 from tests.mutants.campaign import Tally, examine
-from tests.mutants.refusals import examine_refusal
+from tests.mutants.refusals import examine_conflict, examine_refusal
 from tests.profiles import PROFILES
 
+CONFLICT = "conflict"
 Job = tuple[str, int, int]
 
 
@@ -26,16 +27,18 @@ def run(job: Job) -> Tally:
     profile, seed, each = job
     try:
         with tempfile.TemporaryDirectory() as folder:
+            if profile == CONFLICT:
+                return examine_conflict(seed, each, Path(folder))
             tally = examine(profile, seed, each, Path(folder))
-            tally.add(examine_refusal(profile, seed, each // 4))
+            tally.add(examine_refusal(profile, seed, each // 4, Path(folder)))
             return tally
     except Exception:
         return Tally(complaints=[f"{profile} {seed}: {traceback.format_exc()}"])
 
 
 def jobs(first: int, each: int) -> Iterator[Job]:
-    """The profiles in turn, without end."""
-    return ((profile, seed, each) for seed in count(first) for profile in PROFILES)
+    """The profiles in turn, without end, and a conflict after each round."""
+    return ((profile, seed, each) for seed in count(first) for profile in (*PROFILES, CONFLICT))
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -67,6 +70,7 @@ def _figures(total: Tally, started: float) -> str:
     wrong, took = total.mutants - total.right - total.unreadable, time.monotonic() - started
     return (
         f"{total.mutants} mutants: {total.right} right, {wrong} wrong, {total.unreadable} unreadable; "
+        f"{total.forms['policy-diagram']} diagrams, {total.forms['unrealizable']} certificates of no; "
         f"{len(total.complaints)} misjudged, tiers disagree on {total.disagreements}; {took:.0f} s"
     )
 

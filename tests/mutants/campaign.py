@@ -49,6 +49,7 @@ class Tally:
     right: int = 0
     unreadable: int = 0
     kinds: Counter[tuple[str, bool]] = field(default_factory=Counter)
+    forms: Counter[str] = field(default_factory=Counter)
     disagreements: int = 0
     complaints: list[str] = field(default_factory=list)
 
@@ -58,6 +59,7 @@ class Tally:
         self.right += other.right
         self.unreadable += other.unreadable
         self.kinds += other.kinds
+        self.forms += other.forms
         self.disagreements += other.disagreements
         self.complaints += other.complaints
 
@@ -113,6 +115,7 @@ def _judge(mutant: Mutant, original: Spec, tally: Tally, folder: Path) -> Iterat
     if not any(is_valid(spec, state) for state in all_states(spec)):
         return
     tally.mutants += 1
+    tally.forms[mutant.document["Type"]] += 1
     if mutant.kind.startswith("layout") and digest(spec) != digest(original):
         yield "the digest depends on the layout"
     try:

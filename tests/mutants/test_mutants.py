@@ -22,10 +22,10 @@ def test_every_tier_tells_right_from_wrong(profile: str, tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize("profile", PROFILES)
-def test_nothing_false_is_proved_of_the_answer_no(profile: str) -> None:
+def test_nothing_false_is_proved_of_the_answer_no(profile: str, tmp_path: Path) -> None:
     """Where something changed is proved unrealizable there is no policy; a change of the layout alone loses nothing."""
     total = Tally()
     for seed in range(100, 130):
-        total.add(examine_refusal(profile, seed, 3))
+        total.add(examine_refusal(profile, seed, 3, tmp_path))
     assert not total.complaints
     assert 0 < total.right < total.mutants
