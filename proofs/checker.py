@@ -1519,13 +1519,12 @@ class Choosing:
                 self.take_back(before)
                 self.strike([guess])
                 continue
-            open_groups = (number for number, left in enumerate(self.left) if left > 1)
-            number = min(open_groups, key=self.left.__getitem__, default=-1)
-            if number < 0:
+            undecided = [state for state in range(len(self.states)) if self.left[state] > 1]
+            if not undecided:
                 return True
             count += 1
             within_limit(count, "choices of options")
-            guesses.append((self.first_left(number), len(self.struck)))
+            guesses.append((self.first_left(min(undecided, key=self.left.__getitem__)), len(self.struck)))
             self.choose(guesses[-1][0])
 
     def follow(self) -> bool:

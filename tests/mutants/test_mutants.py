@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from tests.mutants.campaign import Tally, examine
-from tests.mutants.refusals import examine_refusal
+from tests.mutants.refusals import examine_conflict, examine_refusal
 from tests.profiles import PROFILES
 
 
@@ -22,10 +22,19 @@ def test_every_tier_tells_right_from_wrong(profile: str, tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize("profile", PROFILES)
-def test_nothing_false_is_proved_of_the_answer_no(profile: str, tmp_path: Path) -> None:
-    """Where something changed is proved unrealizable there is no policy; a change of the layout alone loses nothing."""
+def test_both_judges_accept_the_same_answers_no(profile: str, tmp_path: Path) -> None:
+    """What `verify` or the checker accepts has no policy, and is accepted by both; a new layout loses nothing."""
     total = Tally()
     for seed in range(100, 130):
         total.add(examine_refusal(profile, seed, 3, tmp_path))
+    assert not total.complaints
+    assert 0 < total.right < total.mutants
+
+
+def test_both_judges_accept_the_same_conflicts(tmp_path: Path) -> None:
+    """So it is for conflicts, which are rare among generated specifications."""
+    total = Tally()
+    for number in range(0, 20, 3):
+        total.add(examine_conflict(number, 6, tmp_path))
     assert not total.complaints
     assert 0 < total.right < total.mutants
