@@ -222,12 +222,60 @@ def test_a_limit_is_undecided(cli: Cli, tmp_path: Path, limit: tuple[str, str]) 
         assert ran.code == 0
 
 
-@pytest.mark.parametrize("limit", [("--timeout", "0"), ("--timeout", "soon"), ("--memory", "-1"), ("--memory", "1.5")])
-def test_a_limit_is_a_positive_number(cli: Cli, limit: tuple[str, str]) -> None:
-    """Anything else is wrong usage."""
-    ran = cli("synth", "amr.tum", *limit)
-    assert ran.code == 2
-    assert "is not a positive number of" in ran.err
+NO_NUMBERS = ["", "0", "-1", "soon", "nan", "inf", "1e400", "1_0", "٣", "²", "9" * 20, "9" * 5000]
+
+
+@pytest.mark.parametrize("number", NO_NUMBERS, ids=ascii)
+def test_numbers_are_positive_and_not_absurd(cli: Cli, number: str) -> None:
+    """Every option that takes a number refuses what is none, in one line that says so."""
+    for command in (
+        "synth amr.tum --timeout",
+        "synth amr.tum --memory",
+        "synth amr.tum --jobs",
+        "explain amr.tum --cores",
+        "explain amr.tum --max-cubes",
+    ):
+        *words, option = command.split()
+        ran = cli(*words, f"{option}={number}")
+        assert ran.code == 2
+        said = ran.err.splitlines()[-1]
+        assert f"argument {option}: " in said
+        assert "is not a" in said or "is more than 1,000,000,000" in said
+        assert len(said) < 200
+
+
+def test_a_half_is_no_whole_number(cli: Cli) -> None:
+    """Time alone may be divided."""
+    assert cli("synth", "amr.tum", "--timeout", "59.5").code == 0
+    assert cli("synth", "amr.tum", "--memory", "1.5").code == 2
+
+
+@pytest.mark.parametrize("command", ["verify", "why", "export-proof"])
+def test_files_the_wrong_way_round(cli: Cli, command: str) -> None:
+    """A specification and then a policy: exit 2, and the command that was meant."""
+    rest = ["S_Load=free"] if command == "why" else []
+    ran = cli(command, "amr.tum", "amr.json", *rest)
+    assert (ran.code, ran.out) == (2, "")
+    assert "`amr.tum` is a specification and `amr.json` a policy" in ran.err
+    assert " ".join(["tumato-sym", command, "amr.json", "amr.tum", *rest]) in ran.err
+
+
+@pytest.mark.parametrize(
+    ("command", "said"),
+    [
+        ("decide amr.tum S_Load=free", "`amr.tum` is a specification, but a policy belongs here"),
+        ("rules amr.tum", "`amr.tum` is a specification, but a policy belongs here"),
+        ("verify amr.tum amr.tum", "`amr.tum` is a specification, but a policy belongs here"),
+        ("synth amr.json", "`amr.json` is a policy, but a specification belongs here"),
+        ("explain holed.unrealizable.json", "`holed.unrealizable.json` is a certificate, but a specification belongs"),
+        ("verify two_robots.tum holed.unrealizable.json", "`holed.unrealizable.json` a certificate: change their"),
+    ],
+)
+def test_a_file_of_the_other_kind(cli: Cli, command: str, said: str) -> None:
+    """A specification where a policy belongs, and the other way round: exit 2, and both kinds are named."""
+    ran = cli(*command.split())
+    assert (ran.code, ran.out) == (2, "")
+    assert said in ran.err
 
 
 def test_our_own_refuted_policy_is_a_bug_and_is_not_written(

@@ -56,14 +56,48 @@ def test_a_silent_policy_answers_null(folder: Path) -> None:
     assert "line 1" in ran.stderr
 
 
-@pytest.mark.parametrize("line", ["", "{", "[]", '{"S_Location": "corridor"}', '{"S_Location": 3}', "\x00"])
-def test_a_bad_line_ends_it(folder: Path, line: str) -> None:
-    """A line that is not a state: exit 2, the number of the line, and the answers before it stand."""
-    good = json.dumps(state("corridor", "low", "free", "off"))
-    ran = _run(folder, "decide", "amr.json", "--stdin", stdin=f"{good}\n{line}\n{good}\n")
-    assert (ran.returncode, ran.stdout) == (2, '["move_to_charger"]\n')
-    assert "line 2" in ran.stderr
-    assert "Traceback" not in ran.stderr
+BAD_LINES = {
+    b"": "the input is empty",
+    b"{": "this is not JSON",
+    b"[]": "a list, expected an object",
+    b"null": "null, expected an object",
+    b"[" * 100_000: "nested too deeply",
+    b'{"S_Location": "corridor"}': "`S_Battery` has no value",
+    b'{"S_Location": "moon", "S_Battery": "low", "S_Load": "free", "S_Conveyor": "off"}': "no value `moon`",
+    b'{"S_Location": 3}': "a number, expected a string",
+    b'{"S_Location": null}': "null, expected a string",
+    b'{"S_Location": NaN}': "not JSON",
+    b'{"S_Load": "free", "S_Load": "free"}': "twice",
+    b'{"S_Load": "\\ud800"}': "not valid Unicode",
+    b"\0": "this is not JSON",
+    b"\xff\xfe": "the line is not UTF-8 text",
+    b" " * 2_500_000: "the line is longer than 1,000,000 bytes",
+}
+"""Lines that are no state of the AMR, and what is said of them."""
+
+
+def test_a_bad_line_is_answered_and_ends_nothing(folder: Path) -> None:
+    """Every line has one answer: a bad one says what is wrong with it, the next one is decided; exit 1 at the end."""
+    good = json.dumps(state("corridor", "low", "free", "off")).encode()
+    lines = [line for bad in BAD_LINES for line in (bad, good)]
+    ran = subprocess.run(
+        [TUMATO, "decide", "amr.json", "--stdin"],
+        cwd=folder,
+        input=b"\n".join(lines),
+        capture_output=True,
+        timeout=60,
+        check=False,
+    )
+    answers = [json.loads(line) for line in ran.stdout.splitlines()]
+    assert answers[1::2] == [["move_to_charger"]] * len(BAD_LINES)
+    for answer, expected in zip(answers[::2], BAD_LINES.values(), strict=True):
+        assert list(answer) == ["error"]
+        assert expected in answer["error"]
+    assert ran.returncode == 1
+    assert ran.stderr.decode().splitlines() == [
+        "tumato-sym: line 1: the line is not a state: the input is empty",
+        f"tumato-sym: {len(BAD_LINES)} lines were not answered with actions; the first of them is named above",
+    ]
 
 
 def test_answers_come_at_once(folder: Path) -> None:
@@ -128,7 +162,7 @@ def test_a_reader_that_goes_is_no_error(folder: Path, command: str) -> None:
         check=False,
     )
     os.close(writer)
-    assert ran.returncode == 141 or command == "--help"
+    assert ran.returncode == 141
     assert ran.stderr == ""
 
 
@@ -142,6 +176,37 @@ def test_a_full_disk_is_2(folder: Path) -> None:
         assert ran.returncode == 2, command
         assert "No space left" in ran.stderr
         assert "Traceback" not in ran.stderr
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        "check - <&-",
+        "synth - <&-",
+        "verify - amr.tum <&-",
+        "decide amr.json --stdin <&-",
+        "decide - S_Load=free <&-",
+        "synth amr.tum -o - >&-",
+        "synth amr.tum -o /dev/stdout >&-",
+        "export-proof amr.json amr.tum >&-",
+        "explain no_plan.tum --write - >&-",
+        "decide amr.json --stdin >&-",
+        "synth amr.tum -o - >> amr.tum",
+        "export-proof amr.json - < amr.tum >> amr.tum",
+        "--help > /dev/full",
+        "--version > /dev/full",
+    ],
+)
+def test_streams_that_are_closed_full_or_inputs_are_2(folder: Path, command: str) -> None:
+    """An input that is not there, and an answer that would be lost, or would end up in the input: a word and exit 2."""
+    before = (folder / "amr.tum").read_bytes()
+    ran = subprocess.run(
+        ["sh", "-c", f"{TUMATO} {command}"], cwd=folder, capture_output=True, text=True, timeout=60, check=False
+    )
+    assert ran.returncode == 2
+    assert "Traceback" not in ran.stderr
+    assert "error[TUM" in ran.stdout + ran.stderr
+    assert (folder / "amr.tum").read_bytes() == before
 
 
 @pytest.mark.parametrize("redirection", ["2>&-", "2>/dev/full", ">/dev/null 2>&-", ">&- 2>&-"])

@@ -47,9 +47,16 @@ WRONG = [
     ({"S_Place": "hall", "S_Load": "free", "X": "free"}, "TUM503", "no variable `X`"),
     ({"S_Place": "hall", "S_Laod": "free"}, "TUM503", "no variable `S_Laod`"),
     ({"S_Place": "hall", "S_Load": "fre"}, "TUM504", "`S_Load` has no value `fre`"),
-    ({"S_Place": "hall", "S_Load": 1}, "TUM504", "`S_Load` has no value a number"),
-    ({"S_Place": "hall", "S_Load": ["free"]}, "TUM504", "`S_Load` has no value a list"),
+    ({"S_Place": "hall", "S_Load": 1}, "TUM504", "the value of `S_Load` is a number"),
+    ({"S_Place": "hall", "S_Load": ["free"]}, "TUM504", "the value of `S_Load` is a list"),
+    ({"S_Place": "hall", "S_Load": None}, "TUM504", "the value of `S_Load` is null"),
+    ({"S_Place": "hall", 3: "free"}, "TUM503", "a number is not the name of a variable"),
     ({}, "TUM503", "`S_Place` has no value"),
+    (None, "TUM509", "is not of type NoneType"),
+    ("ab", "TUM509", "is not of type str"),
+    ([("S_Place", "hall"), ("S_Load", "free")], "TUM509", "is not of type list"),
+    (("hall", "free"), "TUM509", "is not of type tuple"),
+    (2, "TUM509", "is not of type int"),
 ]
 
 

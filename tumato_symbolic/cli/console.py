@@ -43,6 +43,12 @@ def write(text: str) -> None:
         raise UserError((Diagnostic(Code.TUM117, f"the output cannot be written: {reason}"),)) from error
 
 
+def need_output() -> None:
+    """Raise `UserError` where the standard output is closed: a report may be unwanted, an answer may not be lost."""
+    if sys.stdout is None:
+        raise UserError((Diagnostic(Code.TUM117, "the output cannot be written: the standard output is closed"),))
+
+
 def note(text: str) -> None:
     """Put a text on the standard error stream. One that cannot be shown there is lost; the exit code stays right."""
     if sys.stderr is not None:

@@ -8,7 +8,7 @@ YES: Final = 0
 """Realizable and proved, proved, decided, no errors."""
 
 NO: Final = 1
-"""Not realizable, refuted, or a state about which the policy says nothing."""
+"""Not realizable, refuted, a state about which the policy says nothing, or a line that is no state."""
 
 USAGE: Final = 2
 """The command line, a specification or a policy cannot be used, or the output cannot be written."""

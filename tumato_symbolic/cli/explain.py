@@ -5,14 +5,16 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from tumato_symbolic.cli.console import Progress, wants_colour, write
+from tumato_symbolic.cli.console import Progress, note, wants_colour, write
 from tumato_symbolic.cli.exits import NO, UNDECIDED, YES
 from tumato_symbolic.cli.inputs import errors_in, read_spec, show_warnings
 from tumato_symbolic.cli.parser import Options
-from tumato_symbolic.diagnostics import Code, Diagnostic, Source, UserError
+from tumato_symbolic.cli.targets import STANDARD_OUTPUT
+from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.explain.explain import MAX_CUBES, explain
 from tumato_symbolic.explain.explanation import Explanation, NothingToExplain, Unexplained
 from tumato_symbolic.limits import Context
+from tumato_symbolic.policy.saving import save_text
 from tumato_symbolic.report.explained import Explained, as_text
 from tumato_symbolic.report.layout import dump
 
@@ -48,29 +50,30 @@ def _write(path: str, source: Source, found: Explanation | NothingToExplain | Un
         return None
     from tumato_symbolic.explain.writing import with_assumption
 
-    try:
-        Path(path).write_text(with_assumption(source, found.part.text), encoding="utf-8")
-    except OSError as error:
-        reason = error.strerror or str(error)
-        message = f"the specification cannot be written: {path}: {reason}"
-        raise UserError((Diagnostic(Code.TUM117, message, help="name another file with --write FILE"),)) from error
+    text = with_assumption(source, found.part.text)
+    if path == STANDARD_OUTPUT:
+        write(text)
+    else:
+        save_text(text, Path(path), "specification")
     return path
 
 
 def _report(done: Explained, options: Options) -> None:
+    to_stderr = options.write == STANDARD_OUTPUT
+    put = note if to_stderr else write
     match options.output_format:
         case "json":
             from tumato_symbolic.report.explained_data import as_json
 
-            write(dump(as_json(done)))
+            put(dump(as_json(done)))
         case "github":
             from tumato_symbolic.report.explained_data import as_github
 
-            write(as_github(done))
+            put(as_github(done))
         case "sarif":
             from tumato_symbolic import __version__
             from tumato_symbolic.report.sarif import as_sarif
 
-            write(dump(as_sarif(done, __version__)))
+            put(dump(as_sarif(done, __version__)))
         case _:
-            write(as_text(done, wants_colour(sys.stdout)))
+            put(as_text(done, wants_colour(sys.stderr if to_stderr else sys.stdout)))

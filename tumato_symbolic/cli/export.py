@@ -8,9 +8,10 @@ from tumato_symbolic.cli.console import note, write
 from tumato_symbolic.cli.exits import YES
 from tumato_symbolic.cli.inputs import errors_in, read_spec, show_warnings
 from tumato_symbolic.cli.parser import Options
+from tumato_symbolic.cli.targets import STANDARD_OUTPUT
 from tumato_symbolic.export.coq import export
 from tumato_symbolic.policy import Policy
-from tumato_symbolic.policy.files import save_text
+from tumato_symbolic.policy.saving import save_text
 from tumato_symbolic.spec import Ordering, Spec
 
 
@@ -22,7 +23,7 @@ def run(options: Options) -> int:
     with errors_in(source):
         text = export(policy, spec, ordering)
     show_warnings(warnings, source, options)
-    if options.output == "-":
+    if options.output == STANDARD_OUTPUT:
         write(text)
     else:
         save_text(text, Path(options.output), "theorem")

@@ -83,7 +83,7 @@ def _part(paths: Sequence[Path], options: Options, context: Context) -> list[tup
 
 def _parts(paths: Sequence[Path], jobs: int) -> list[list[Path]]:
     """The files, divided so that every process gets about as many bytes; undivided where there are few."""
-    sizes = {path: path.stat().st_size for path in paths}
+    sizes = {path: path.stat().st_size if path.exists() else 0 for path in paths}
     if sum(sizes.values()) < FEWEST_BYTES:
         return [list(paths)]
     parts: list[list[Path]] = [[] for _ in range(min(jobs, len(paths)))]
@@ -106,7 +106,8 @@ def _specification(path: Path, options: Options) -> Path:
     name = path.name.rsplit(".", 2)[0] + ".tum"
     examples = Path(os.path.normpath(path.parent / EXAMPLES))
     folders = [*map(Path, options.spec_folders), path.parent, examples]
-    found = next((folder / name for folder in folders if (folder / name).is_file()), None)
+    # Path.is_file() fails for names that are too long
+    found = next((folder / name for folder in folders if os.path.isfile(folder / name)), None)  # noqa: PTH113
     if found is None:
         message = f"there is no specification {name} for this file in {', '.join(map(str, folders))}"
         raise UserError((Diagnostic(Code.TUM501, message, help="say with --specs DIR where it is"),))

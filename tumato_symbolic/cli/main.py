@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import gc
 import os
+import sys
 from collections.abc import Sequence
 
 from tumato_symbolic.cli.console import close_quietly, flush, note, prepare_streams
 from tumato_symbolic.cli.exits import BROKEN_PIPE, BUG, INTERRUPTED, UNDECIDED, USAGE
-from tumato_symbolic.cli.parser import Options, parse
-from tumato_symbolic.diagnostics import UserError
+from tumato_symbolic.cli.parser import WRITING, Options, parse
+from tumato_symbolic.diagnostics import UserError, render
 from tumato_symbolic.limits import LimitReachedError
 
 _REPORT_THIS = (
@@ -62,12 +63,20 @@ def _run(arguments: Sequence[str] | None) -> int:
         options = parse(arguments)
     except SystemExit as done:  # argparse has printed its help, the version or what is wrong with the usage
         return done.code if isinstance(done.code, int) else USAGE
+    except UserError as error:
+        note(render(error.diagnostics, None))
+        return USAGE
     try:
+        if options.command in WRITING:
+            from tumato_symbolic.cli.targets import settled
+
+            options = settled(options)
         return _command(options)
     except UserError as error:
         from tumato_symbolic.cli.failure import show_user_error
+        from tumato_symbolic.cli.mixups import recognized
 
-        show_user_error(error, options)
+        show_user_error(recognized(error, options, sys.argv[1:] if arguments is None else arguments), options)
         return USAGE
     except LimitReachedError as limit:
         note(f"tumato-sym: undecided: {limit}")

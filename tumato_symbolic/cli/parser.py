@@ -3,20 +3,26 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
+from tumato_symbolic.cli.console import write
+from tumato_symbolic.cli.numbers import seconds, whole
 from tumato_symbolic.cli.questions import EXPLAIN, EXPLAIN_EXAMPLE, WHY, WHY_EXAMPLE, add_explain, add_why
 
 if TYPE_CHECKING:
+    from _typeshed import SupportsWrite
+
     from tumato_symbolic.spec import Ordering
     from tumato_symbolic.verify import ProverName
 
 OutputFormat = Literal["text", "json", "github", "sarif"]
 PROPERTIES = ("total", "safe", "goals", "minimal")
+WRITING = ("synth", "explain", "export-proof")
+"""The commands that write files."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,8 +128,9 @@ examples:
 _DECIDE = """\
 Ask a policy what to do in a state: one action a line, nothing where nothing is to be done.
 
-With --stdin, read one JSON object per line and answer each with one JSON list on a line of its own (null where the
-policy says nothing about the state; the exit code is then 1).
+With --stdin, read one JSON object per line and answer each with one JSON list on a line of its own: null where the
+policy says nothing about the state, {"error": "..."} where the line is no state. Every line is answered; the exit code
+is 1 where one of them was not answered with a list.
 """
 
 _DECIDE_EXAMPLE = """\
@@ -163,7 +170,10 @@ examples:
 
 
 def parse(arguments: Sequence[str] | None) -> Options:
-    """Read a command line. Help, version and usage errors end in `SystemExit`, as argparse does."""
+    """Read a command line. Help, version and usage errors end in `SystemExit`, as argparse does.
+
+    Raises `UserError` where help cannot be shown.
+    """
     typed = sys.argv[1:] if arguments is None else arguments
     found: dict[str, Any] = vars(_parser(typed).parse_args(typed))
     if found["command"] == "decide" and found["stdin"] == bool(found["assignments"]):
@@ -171,22 +181,44 @@ def parse(arguments: Sequence[str] | None) -> Options:
         _parser().error(f"decide: give the state as VAR=VALUE …, {what} (see tumato-sym decide --help)")
     if found["command"] in ("synth", "export-proof") and not found["output"]:
         _parser().error(f"{found['command']}: -o needs a file name (or - for the standard output)")
+    if found["command"] == "explain" and found["write"] == "":
+        _parser().error("explain: --write needs a file name (or - for the standard output)")
     if found["command"] == "verify":
         _check_verify(found)
+    _check_standard_input(found)
     settings: dict[str, Any] = {
         name: tuple(value) if isinstance(value, list) else value for name, value in found.items()
     }
     return Options(**settings)
 
 
+def _check_standard_input(found: dict[str, Any]) -> None:
+    """It can be read once."""
+    inputs = [found.get("policy"), *found.get("specs", ()), "-" if found.get("stdin") else None]
+    if inputs.count("-") > 1:
+        _parser().error(f"{found['command']}: only one input can be the standard input")
+
+
 def _check_verify(found: dict[str, Any]) -> None:
     """A policy needs one specification, a folder looks for its own; a certificate is judged beside a safe policy."""
-    if len(found["specs"]) > 1 or not (found["specs"] or Path(found["policy"]).is_dir()):
+    is_folder = os.path.isdir(found["policy"])  # noqa: PTH112 - Path.is_dir() fails for names that are too long
+    if len(found["specs"]) > 1 or not (found["specs"] or is_folder):
         _parser().error("verify: give a policy and its specification, or a folder of policies")
     if found["specs"] and found["spec_folders"]:
         _parser().error("verify: give either the specification, or --specs DIR for a folder of policies")
     if found["strict"] and not {"safe", "goals"} <= set(found["properties"]):
         _parser().error("verify: --strict judges the certificate, and needs safe and goals among the properties")
+
+
+class _Parser(argparse.ArgumentParser):
+    """A parser whose help is lost to nobody without a word."""
+
+    def print_help(self, file: SupportsWrite[str] | None = None) -> None:
+        """Put the help on the standard output. Raises `UserError` where it cannot be."""
+        if file is None:
+            write(self.format_help())
+        else:
+            super().print_help(file)
 
 
 class _Version(argparse.Action):
@@ -195,7 +227,8 @@ class _Version(argparse.Action):
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
         from tumato_symbolic import __version__
 
-        parser.exit(0, f"tumato-sym {__version__}\n")
+        write(f"tumato-sym {__version__}")
+        parser.exit()
 
 
 def _properties(text: str) -> tuple[str, ...]:
@@ -219,7 +252,7 @@ class _Help(argparse.RawDescriptionHelpFormatter):
 
 def _parser(typed: Sequence[str] = ()) -> argparse.ArgumentParser:
     """What may be typed. Only the commands that were typed know their arguments: making all takes its time."""
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="tumato-sym",
         description=_MAIN,
         epilog=_MAIN_EXAMPLE + _EXITS,
@@ -264,13 +297,13 @@ def _synth(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--timeout",
-        type=_seconds,
+        type=seconds,
         metavar="SECONDS",
         help="how long the search may take before it ends without a verdict (exit 3; default: no limit)",
     )
     parser.add_argument(
         "--memory",
-        type=_megabytes,
+        type=whole(1, "megabytes"),
         metavar="MB",
         help="how much memory the search may take for its diagrams before it ends without a verdict (exit 3; default: "
         "no limit; CUDD only)",
@@ -365,23 +398,6 @@ def _ordering(parser: argparse.ArgumentParser, default: str) -> None:
     )
 
 
-def _seconds(text: str) -> float:
-    try:
-        seconds = float(text)
-    except ValueError:
-        seconds = 0.0
-    if not 0 < seconds < float("inf"):
-        raise argparse.ArgumentTypeError(f"{text} is not a positive number of seconds")
-    return seconds
-
-
-def _megabytes(text: str) -> int:
-    megabytes = int(text) if text.isdecimal() else 0
-    if megabytes < 1:
-        raise argparse.ArgumentTypeError(f"{text} is not a positive number of megabytes")
-    return megabytes
-
-
 def _prover(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--prover",
@@ -396,7 +412,7 @@ def _prover(parser: argparse.ArgumentParser) -> None:
 def _jobs(parser: argparse.ArgumentParser, what: str) -> None:
     parser.add_argument(
         "--jobs",
-        type=_number_of_jobs,
+        type=whole(1, "processes"),
         metavar="N",
         help=f"how many processes may work at {what}; the answer is the same (default: one on every processor)",
     )
@@ -408,13 +424,6 @@ def _profile(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="show on the standard error stream where the time went, and how much memory was taken",
     )
-
-
-def _number_of_jobs(text: str) -> int:
-    jobs = int(text) if text.isdecimal() else 0
-    if jobs < 1:
-        raise argparse.ArgumentTypeError(f"{text} is not a positive number of processes")
-    return jobs
 
 
 def _format(parser: argparse.ArgumentParser, *more: str) -> None:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
+
+from tumato_symbolic.cli.numbers import whole
 
 EXPLAIN = """\
 Say why there is no policy for a specification, and what would change that.
@@ -39,18 +40,21 @@ def add_explain(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("specs", metavar="SPEC", nargs=1, help="the specification, a .tum file")
     parser.add_argument(
         "--max-cubes",
-        type=_number(1),
+        type=whole(1),
         metavar="N",
         help="list at most N groups of failing states (default: 1,000 for a program, the largest ones for a person)",
     )
     parser.add_argument(
-        "--cores", type=_number(1), default=1, metavar="N", help="give up to N reasons for each group (default: 1)"
+        "--cores", type=whole(1), default=1, metavar="N", help="give up to N reasons for each group (default: 1)"
     )
     parser.add_argument(
-        "--repairs", type=_number(0), default=3, metavar="N", help="look for N ways to drop lines (default: 3)"
+        "--repairs", type=whole(0), default=3, metavar="N", help="look for N ways to drop lines (default: 3)"
     )
     parser.add_argument(
-        "--write", metavar="FILE", help="write the specification with the assumption that makes it realizable"
+        "--write",
+        metavar="FILE",
+        help="write the specification with the assumption that makes it realizable (- for the standard output, the "
+        "report then goes to the standard error stream)",
     )
 
 
@@ -71,15 +75,3 @@ def add_why(parser: argparse.ArgumentParser) -> None:
         default="text",
         help="for a person, or for a program (one JSON object) (default: text)",
     )
-
-
-def _number(least: int) -> Callable[[str], int]:
-    """Reads a whole number that is not too small."""
-
-    def read(text: str) -> int:
-        value = int(text) if text.isascii() and text.isdigit() else -1
-        if value < least:
-            raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from {least} on")
-        return value
-
-    return read

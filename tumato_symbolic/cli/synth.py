@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 from tumato_symbolic.cli.console import Progress, write
 from tumato_symbolic.cli.exits import NO, UNDECIDED, YES
 from tumato_symbolic.cli.inputs import errors_in, read_spec, show_warnings
-from tumato_symbolic.cli.output import check_writable, show, show_profile
+from tumato_symbolic.cli.output import show, show_profile
 from tumato_symbolic.cli.parser import Options
+from tumato_symbolic.cli.targets import STANDARD_OUTPUT, certificate_path
 from tumato_symbolic.diagnostics import Code, UserError
 from tumato_symbolic.limits import Context, Limits
 from tumato_symbolic.policy import dumps, save
@@ -23,12 +24,9 @@ if TYPE_CHECKING:
     from tumato_symbolic.policy.unrealizable import Unrealizability
     from tumato_symbolic.verify import UnrealizabilityVerdict, Verification
 
-TO_STANDARD_OUTPUT = "-"
-
 
 def run(options: Options) -> int:
     """Exit with 0 only when there is a policy, it is proved (unless that was declined), and it is written."""
-    check_writable(options.output)
     proof = disproof = certificate = None
     with Progress() as progress:
         context = Context(Limits(options.timeout, options.memory), progress)
@@ -67,7 +65,7 @@ def run(options: Options) -> int:
     if isinstance(outcome, Realizable) and written:
         _write_policy(outcome, options.output)
     show_warnings(done.warnings, source, options)
-    show(synthesized, done, options, to_stderr=options.output == TO_STANDARD_OUTPUT)
+    show(synthesized, done, options, to_stderr=options.output == STANDARD_OUTPUT)
     show_profile(progress, options)
     if written:
         return YES
@@ -102,14 +100,6 @@ def _disprove(certificate: Unrealizability, ordering: Ordering, spec: Spec, cont
     return found
 
 
-def certificate_path(output: str) -> Path | None:
-    """Where the certificate belongs that there is no policy to write to `output`; None where there is no file."""
-    target = Path(output)
-    if output == TO_STANDARD_OUTPUT or (target.exists() and not target.is_file()):
-        return None
-    return target.with_name(f"{target.name.removesuffix('.json')}.unrealizable.json")
-
-
 def _write_certificate(outcome: Unrealizable, output: str) -> str | None:
     """Where the certificate was written; None where there is none or no place for it, or it is too large."""
     from tumato_symbolic.policy.unrealizable_file import save as save_certificate
@@ -127,7 +117,7 @@ def _write_certificate(outcome: Unrealizable, output: str) -> str | None:
 
 
 def _write_policy(outcome: Realizable, output: str) -> None:
-    if output == TO_STANDARD_OUTPUT:
+    if output == STANDARD_OUTPUT:
         write(dumps(outcome.policy))
     else:
         save(outcome.policy, Path(output))

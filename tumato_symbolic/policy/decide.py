@@ -144,7 +144,11 @@ class _DiagramDecider:
 
 
 def check_state(vocabulary: Vocabulary, state: Mapping[str, str]) -> None:
-    """Raise `UserError` with what keeps `state` from being one of the policy's states (TUM503, TUM504)."""
+    """Raise `UserError` with what keeps `state` from being one of the policy's states (TUM503, TUM504, TUM509)."""
+    if not isinstance(state, Mapping):
+        example = {name: values[0] for name, values in vocabulary.variables[:2]}
+        message = f"a state maps every variable to its value, and is not of type {type(state).__name__}"
+        raise fault(Code.TUM509, message, f"such as {example}")
     problems = tuple(islice(_problems(vocabulary, state), MOST))
     if problems:
         raise UserError(problems)
@@ -155,7 +159,12 @@ def _problems(vocabulary: Vocabulary, state: Mapping[str, str]) -> Iterator[Diag
     for name, value in state.items():
         if name not in known:
             message = f"the policy has no variable {show(name)}"
+            if not isinstance(name, str):
+                message = f"{show(name)} is not the name of a variable"
             yield Diagnostic(Code.TUM503, message, help=way_out(name, known, "variables"))
+        elif not isinstance(value, str):
+            message = f"the value of {show(name)} is {show(value)}"
+            yield Diagnostic(Code.TUM504, message, help=f"its values: {listed(known[name])}")
         elif value not in known[name]:
             message = f"{show(name)} has no value {show(value)}"
             yield Diagnostic(Code.TUM504, message, help=way_out(value, known[name], "values"))

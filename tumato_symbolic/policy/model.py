@@ -105,7 +105,7 @@ class Policy:
         """The actions to execute in `state` (value by variable), in the order of declaration; `()` is: none.
 
         Raises `UndecidedState` where the policy says nothing of the state, and `UserError` where `state` does not
-        name every variable of the policy with one of its values, and nothing else.
+        give every variable of the policy one of its values, and nothing else.
         """
         decider = self._decider
         if decider is None:

@@ -65,5 +65,7 @@ def _part(part: RealizablePart | None, written: str | None) -> Iterator[str]:
         yield "  (goals conflict: this is one choice among several)"
     if written is None:
         yield "`--write FILE` writes the specification with it."
+    elif written == "-":
+        yield "The specification with this assumption is on the standard output."
     else:
         yield f"{written} is written: the specification with this assumption."

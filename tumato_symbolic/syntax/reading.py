@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
+from typing import BinaryIO
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source, Span, UserError
 from tumato_symbolic.diagnostics.wording import quoted
@@ -30,11 +31,18 @@ def read_source(path: str) -> Source:
         raise _not_utf8(name, data, problem.start) from None
 
 
+def standard_input() -> BinaryIO:
+    """The bytes of standard input. Raises `OSError` where it is closed."""
+    if sys.stdin is None:
+        raise OSError("the standard input is closed")
+    return sys.stdin.buffer
+
+
 def _read(path: str, name: str) -> bytes:
     """At most one byte more than is allowed."""
     try:
         if path == "-":
-            return sys.stdin.buffer.read(MAX_BYTES + 1)
+            return standard_input().read(MAX_BYTES + 1)
         with Path(path).open("rb") as file:
             return file.read(MAX_BYTES + 1)
     except FileNotFoundError:

@@ -1,0 +1,64 @@
+"""Files that stand where the other kind belongs: a policy for a specification, or the two the wrong way round."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Literal
+
+from tumato_symbolic.cli.parser import Options
+from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
+from tumato_symbolic.diagnostics.wording import quoted
+
+Kind = Literal["specification", "policy", "certificate"]
+
+_LOOKED_AT = 100_000
+"""Bytes at the beginning of a file that tell its kind."""
+
+_BLOCK = re.compile(rb"\bBEGIN\s+[A-Z]")
+_CERTIFICATE = re.compile(rb'"Type"\s*:\s*"unrealizable"')
+
+
+def recognized(error: UserError, options: Options, typed: Sequence[str]) -> UserError:
+    """That an input is of the other kind, if it is, else what `error` says. `typed` are the words of the command."""
+    policy, first = options.policy, next(iter(options.specs), "")
+    found = [_kind(spec) for spec in options.specs]
+    given = _kind(policy) if policy else None
+    if given == "specification" and found and found[0] not in (None, "specification"):
+        message = f"{quoted(policy)} is a specification and {quoted(first)} a {found[0]}: change their places"
+        return _fault(message, _swapped(typed, policy, first))
+    if given == "specification":
+        help_ = f"`tumato-sym synth {shlex.quote(policy)} -o FILE` makes a policy"
+        return _fault(f"{quoted(policy)} is a specification, but a policy belongs here", help_)
+    for name, kind in zip(options.specs, found, strict=True):
+        if kind not in (None, "specification"):
+            message = f"{quoted(name)} is a {kind}, but a specification belongs here"
+            return _fault(message, f"`tumato-sym verify {shlex.quote(name)} SPEC` proves it")
+    return error
+
+
+def _fault(message: str, help_: str) -> UserError:
+    return UserError((Diagnostic(Code.TUM501, message, help=help_),))
+
+
+def _swapped(typed: Sequence[str], one: str, other: str) -> str:
+    """The command with its files the right way round."""
+    places = {one: other, other: one}
+    return f"say `tumato-sym {shlex.join(places.get(word, word) for word in typed)}`"
+
+
+def _kind(name: str) -> Kind | None:
+    """What a file seems to be; None where that cannot be told."""
+    try:
+        path = Path(name)
+        if not path.is_file():
+            return None
+        with path.open("rb") as file:
+            head = file.read(_LOOKED_AT)
+    except (OSError, ValueError):
+        return None
+    if head.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"{"):
+        return "certificate" if _CERTIFICATE.search(head) else "policy"
+    return "specification" if _BLOCK.search(head) else None

@@ -1,0 +1,42 @@
+"""Numbers on the command line, and what is wrong with those that are not."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from collections.abc import Callable
+
+from tumato_symbolic.diagnostics.wording import quoted
+
+MOST = 1_000_000_000
+"""The largest number of seconds (30 years), megabytes (a petabyte) or pieces; the solvers take no larger ones."""
+
+_DECIMAL = re.compile(r"\+?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.ASCII | re.IGNORECASE)
+_LONGEST = 50
+
+
+def whole(least: int, what: str = "") -> Callable[[str], int]:
+    """Reads a whole number from `least` on, of `what`."""
+
+    def read(text: str) -> int:
+        fits = text.isascii() and text.isdigit() and len(text) <= _LONGEST
+        value = int(text) if fits else -1
+        if not least <= value <= MOST:
+            kind = "a positive number" if least == 1 and what else f"a whole number from {least} on"
+            raise _not(text, f"{kind}{what and f' of {what}'}", too_large=value > MOST)
+        return value
+
+    return read
+
+
+def seconds(text: str) -> float:
+    """A time limit."""
+    value = float(text) if _DECIMAL.fullmatch(text) and len(text) <= _LONGEST else 0.0
+    if not 0 < value <= MOST:
+        raise _not(text, "a positive number of seconds", too_large=value > MOST)
+    return value
+
+
+def _not(text: str, what: str, *, too_large: bool) -> argparse.ArgumentTypeError:
+    reason = f"is more than {MOST:,}" if too_large else f"is not {what}"
+    return argparse.ArgumentTypeError(f"{quoted(text)[1:-1]} {reason}")

@@ -1,0 +1,169 @@
+"""Where a command writes: found out before the work that it can, and that it does not write over what it reads."""
+
+from __future__ import annotations
+
+import os
+import stat
+import sys
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TextIO
+
+from tumato_symbolic.cli.console import need_output
+from tumato_symbolic.cli.parser import Options
+from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
+from tumato_symbolic.diagnostics.wording import quoted
+from tumato_symbolic.policy.saving import open_file
+
+STANDARD_OUTPUT = "-"
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """A file that a command may write: its name, what is written there, and the option that names it."""
+
+    path: str
+    what: str
+    option: str = "-o"
+    example: str = "policy.json"
+
+
+def settled(options: Options) -> Options:
+    """The options of a command that may begin: whatever it writes can be written, and is none of its inputs.
+
+    Every name of the standard output becomes `-`. Raises `UserError` (TUM117, TUM118, TUM510).
+    """
+    options = replace(
+        options,
+        output=_name(options.output),
+        write=None if options.write is None else _name(options.write),
+    )
+    for target in _targets(options):
+        if target.path == STANDARD_OUTPUT:
+            need_output()
+        else:
+            _check_file(target)
+        _check_inputs(target, options)
+    return options
+
+
+def certificate_path(output: str) -> Path | None:
+    """Where the certificate belongs that there is no policy to write to `output`; None where there is no file."""
+    target = Path(output)
+    if output == STANDARD_OUTPUT or _is_stream(target):
+        return None
+    return target.with_name(f"{target.name.removesuffix('.json')}.unrealizable.json")
+
+
+def _is_stream(path: Path) -> bool:
+    """Whether a name stands for an open file, a device or a pipe: nothing belongs beside it."""
+    try:
+        return open_file(path) is not None or not stat.S_ISREG(path.stat().st_mode)
+    except FileNotFoundError:
+        return False
+
+
+def _name(output: str) -> str:
+    with suppress(OSError, RuntimeError):  # what is wrong with the name is said below
+        if open_file(Path(output)) == 1:
+            return STANDARD_OUTPUT
+    return output
+
+
+def _targets(options: Options) -> Iterator[Target]:
+    match options.command:
+        case "synth":
+            yield Target(options.output, "policy")
+            certificate = certificate_path(options.output)
+            if certificate is not None:
+                yield Target(str(certificate), "certificate that there is no policy")
+        case "export-proof":
+            yield Target(options.output, "theorem", example="policy.v")
+        case "explain" if options.write is not None:
+            yield Target(options.write, "specification", "--write", "assumed.tum")
+
+
+def _inputs(options: Options) -> list[str]:
+    return [name for name in (options.policy, *options.specs) if name]
+
+
+def _check_file(target: Target) -> None:
+    """Raise `UserError` (TUM510) where a file surely cannot be written."""
+    try:
+        problem = _obstacle(target)
+    except (OSError, RuntimeError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        problem = f"cannot be: {reason[:1].lower()}{reason[1:]}", _another(target)
+    if problem is None:
+        return
+    reason, way_out = problem
+    message = f"the {target.what} cannot be written: {quoted(target.path)[1:-1]} {reason}"
+    raise UserError((Diagnostic(Code.TUM510, message, help=way_out),))
+
+
+def _obstacle(target: Target) -> tuple[str, str] | None:
+    """What is wrong with the name of a file, and a way out."""
+    path = Path(target.path)
+    number = open_file(path)
+    if number is not None:
+        os.fstat(number)
+        return None
+    try:
+        found = path.stat()
+    except FileNotFoundError:
+        found = None
+    except NotADirectoryError:
+        return f"cannot be: {path.parent} is not a folder", _another(target)
+    if found is not None and stat.S_ISDIR(found.st_mode):
+        return "is a folder", f"name a file, such as {path / target.example}"
+    if found is not None and not stat.S_ISREG(found.st_mode):
+        return None  # a device or a pipe takes what is written to it
+    if found is not None and not os.access(path, os.W_OK):
+        return "may not be written to", _another(target)
+    folder = path.resolve().parent
+    if not folder.exists():
+        shown = path.parent if path.parent.resolve() == folder else folder
+        return "is in a folder that does not exist", f"make the folder {shown} first"
+    if not os.access(folder, os.W_OK | os.X_OK):
+        return "is in a folder that you may not write to", _another(target)
+    return None
+
+
+def _another(target: Target) -> str:
+    return f"name another file with {target.option} FILE"
+
+
+def _check_inputs(target: Target, options: Options) -> None:
+    """Raise `UserError` (TUM118) where the target is an input, be it by another name or through a link."""
+    written = _standard(sys.stdout) if target.path == STANDARD_OUTPUT else _status(target.path)
+    if written is None or stat.S_ISCHR(written.st_mode):
+        return
+    for name in _inputs(options):
+        read = _standard(sys.stdin) if name == "-" else _status(name)
+        if read is not None and os.path.samestat(read, written):
+            there = "the standard output" if target.path == STANDARD_OUTPUT else quoted(target.path)
+            message = f"the {target.what} is not written to {there}: that is {_input(name, target.path)}"
+            raise UserError((Diagnostic(Code.TUM118, message, help=_another(target)),))
+
+
+def _input(name: str, path: str) -> str:
+    if name == path:
+        return "an input of this command"
+    return f"the same file as the input {'<stdin>' if name == '-' else quoted(name)}"
+
+
+def _status(path: str) -> os.stat_result | None:
+    try:
+        return Path(path).stat()
+    except (OSError, ValueError):
+        return None
+
+
+def _standard(stream: TextIO | None) -> os.stat_result | None:
+    """What a standard stream leads to."""
+    try:
+        return None if stream is None else os.fstat(stream.fileno())
+    except (OSError, ValueError):
+        return None
