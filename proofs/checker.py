@@ -1604,15 +1604,15 @@ def judge_files(options: argparse.Namespace) -> int:
 
 
 def judge_policy(spec: Specification, policy: Policy, options: argparse.Namespace) -> int:
-    """The ordering is the command line's, else the policy's, the specification's, or `any`."""
-    ordering = options.effect_ordering or policy.ordering or spec.ordering or "any"
+    """The ordering is the command line's, else the specification's, else `any`."""
+    ordering = options.effect_ordering or spec.ordering or "any"
     world = World(spec, ordering)
     judge = Judge(world, policy.decide)
     unsafe = len(world.valid) - len(world.safe)
     print(f"{len(world.valid)} valid states: {len(world.safe)} safe, {unsafe} unsafe; effect ordering {ordering}")
     right = True
-    if options.effect_ordering is None and policy.ordering == "first" and spec.ordering == "any":
-        print("ordering FAILS: the policy was made for `first`, but the specification writes `any`")
+    if options.effect_ordering is None and policy.ordering == "first" and ordering == "any":
+        print("ordering FAILS: the policy was made for `first`, but the specification means `any`")
         right = False
     for name, (states, reason) in judge.verdicts().items():
         print(f"{name:8} " + (f"FAILS in {len(states)} states: {reason(states[0])}" if states else "holds"))

@@ -311,3 +311,16 @@ def test_an_unproved_policy_is_undecided_and_not_written(
     assert (ran.code, report["verdict"], report["policy"]) == (3, "undecided", None)
     assert "may be realizable" in cli("synth", "amr.tum").out
     assert not (tmp_path / "policy.json").exists()
+
+
+def test_another_ordering_has_to_be_said_again(cli: Cli) -> None:
+    """A policy that was asked for under `first` is no policy where nobody asks for `first`; the next steps say so."""
+    ran = cli("synth", "amr.tum", "--effect-ordering", "first")
+    assert (ran.code, ran.out.splitlines()[-1]) == (
+        0,
+        "  tumato-sym verify policy.json amr.tum --effect-ordering first",
+    )
+    assert cli("verify", "policy.json", "amr.tum", "--effect-ordering", "first").code == 0
+    refused = cli("verify", "policy.json", "amr.tum")
+    assert refused.code == 1
+    assert "ordering refuted" in refused.out

@@ -18,19 +18,25 @@ def test_the_theorem_goes_where_it_is_asked_for(cli: Cli, tmp_path: Path) -> Non
     assert (tmp_path / "amr.v").read_text(encoding="utf-8") == ran.out
 
 
-def test_the_ordering_is_the_strict_one(cli: Cli, tmp_path: Path) -> None:
-    """The command line's; else `any` where the specification writes it, whatever the policy records."""
+def test_the_ordering_is_that_of_the_specification(cli: Cli, tmp_path: Path) -> None:
+    """The command line's, else what the specification means, whatever the policy records."""
     policy = (tmp_path / "amr.json").read_text().replace('"EffectOrdering": "any"', '"EffectOrdering": "first"')
     (tmp_path / "first.json").write_text(policy)
     spec = (tmp_path / "amr.tum").read_text()
     (tmp_path / "writes.tum").write_text(spec.replace("BEGIN CONFIG", "BEGIN CONFIG\neffect_ordering: any"))
+    (tmp_path / "weaker.tum").write_text(spec.replace("BEGIN CONFIG", "BEGIN CONFIG\neffect_ordering: first"))
     for arguments, wanted in (
-        (("first.json", "amr.tum"), "First"),
-        (("first.json", "writes.tum"), "Any"),
+        (("first.json", "amr.tum", "--effect-ordering", "any"), "Any"),
         (("first.json", "writes.tum", "--effect-ordering", "first"), "First"),
+        (("first.json", "weaker.tum"), "First"),
+        (("amr.json", "weaker.tum"), "First"),
         (("amr.json", "amr.tum"), "Any"),
     ):
         assert f"minimal spec {wanted} " in cli("export-proof", *arguments).out
+    for meant in ("amr.tum", "writes.tum"):
+        refused = cli("export-proof", "first.json", meant)
+        assert (refused.code, refused.out) == (2, "")
+        assert "TUM511" in refused.err
 
 
 def test_what_cannot_be_exported_is_2(cli: Cli) -> None:

@@ -31,9 +31,9 @@ Numbers = dict[State, int | None]
 def is_right(policy: Policy, spec: Spec) -> bool:
     """Whether a policy that was read for a specification passes `--strict`."""
     bound = bind(policy, spec)
-    if bound.ordering == "first" and spec.effect_ordering == "any":
+    ordering: Ordering = spec.effect_ordering or "any"
+    if (bound.ordering, ordering) == ("first", "any"):
         return False
-    ordering: Ordering = bound.ordering or spec.effect_ordering or "any"
     table = as_table(bound, count_states(spec))
     assert table is not None
     rows = dict(table.rows)

@@ -10,9 +10,9 @@ from tests.verify.policies import certified, exact_ranks
 from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.limits import Context, Limits
 from tumato_symbolic.policy import Policy, as_diagram, policy_from_rows
-from tumato_symbolic.semantics import State
-from tumato_symbolic.spec import FALSE, Executing, Not, Ordering, Spec
-from tumato_symbolic.verify import PROPERTIES, decisions, verify
+from tumato_symbolic.semantics import State, all_states
+from tumato_symbolic.spec import FALSE, And, Executing, Iff, Not, Ordering, Spec
+from tumato_symbolic.verify import PROPERTIES, ProverName, decisions, verify
 
 
 def _ring(length: int = 4, bound: int | None = None) -> tuple[Spec, dict[State, frozenset[int]]]:
@@ -39,16 +39,20 @@ def _restoring(*durations: int) -> tuple[Build, Spec]:
     ("argument", "recorded", "written", "expected"),
     [
         ("first", "any", "any", ("first", "command line")),
-        (None, "first", None, ("first", "policy")),
-        (None, "any", "first", ("any", "policy")),
+        ("first", "first", None, ("first", "command line")),
+        ("any", "first", None, ("any", "command line")),
+        (None, "any", "first", ("first", "specification")),
+        (None, "first", "first", ("first", "specification")),
         (None, None, "first", ("first", "specification")),
+        (None, "any", "any", ("any", "specification")),
+        (None, "any", None, ("any", "default")),
         (None, None, None, ("any", "default")),
     ],
 )
 def test_whose_ordering_counts(
     argument: Ordering | None, recorded: Ordering | None, written: Ordering | None, expected: tuple[str, str]
 ) -> None:
-    """The argument, else the policy's record, else what the specification writes, else `any`."""
+    """The argument, else what the specification writes, else `any`; what the policy records does not count."""
     spec, rows = _ring()
     spec = replace(spec, effect_ordering=written)
     answer = verify(policy_from_rows(spec, rows, recorded), spec, ordering=argument)
@@ -56,17 +60,57 @@ def test_whose_ordering_counts(
     assert answer.verdict == "proved"
 
 
-def test_a_policy_for_first_where_any_is_written() -> None:
-    """Recording `first` where the specification writes `any` is refuted, unless the argument says `first`."""
+@pytest.mark.parametrize("prover", ["auto", "z3", "walk", "both"])
+@pytest.mark.parametrize("written", ["any", None])
+def test_a_policy_for_first_where_any_is_meant(written: Ordering | None, prover: ProverName) -> None:
+    """Recording `first` where the specification means `any` is refuted, unless the argument says what to judge by."""
     spec, rows = _ring()
-    spec = replace(spec, effect_ordering="any")
+    spec = replace(spec, effect_ordering=written)
     policy = policy_from_rows(spec, rows, "first")
-    answer = verify(policy, spec)
-    assert answer.verdict == "refuted"
+    answer = verify(policy, spec, prover=prover)
+    assert (answer.verdict, answer.ordering) == ("refuted", "any")
     refutation = answer.properties[0].refutation
     assert (answer.properties[0].name, refutation and refutation.kind) == ("ordering", "ordering")
-    assert verify(policy, spec, ordering="first").verdict == "proved"
-    assert verify(policy, spec, ordering="any").verdict == "proved"
+    assert [result.verdict for result in answer.properties[1:]] == ["proved"] * 4
+    assert verify(policy, spec, ordering="first", prover=prover).verdict == "proved"
+    assert verify(policy, spec, ordering="any", prover=prover).verdict == "proved"
+
+
+def _late_effects(ordering: Ordering | None) -> tuple[Spec, dict[State, frozenset[int]]]:
+    """Two actions, each of which may break nothing alone; one after the other, they do."""
+    build = Build({"x": "ab", "y": "ab"})
+    p, q = build.action(alternatives=["x=b"]), build.action(alternatives=["y=b"])
+    apart = Not(And((build.atom("x=b"), build.atom("y=b"))))
+    spec = replace(build.spec(assumptions=[apart]), effect_ordering=ordering)
+    return spec, {(0, 0): chosen(p, q), (0, 1): chosen(), (1, 0): chosen()}
+
+
+@pytest.mark.parametrize("prover", ["auto", "z3", "walk", "both"])
+def test_a_policy_does_not_choose_a_weaker_meaning(prover: ProverName) -> None:
+    """Silence means `any`: a policy that is safe under `first` alone is refuted for that as well."""
+    spec, rows = _late_effects(None)
+    policy = policy_from_rows(spec, rows, "first")
+    verdicts = {result.name: result.verdict for result in verify(policy, spec, prover=prover).properties}
+    assert (verdicts["ordering"], verdicts["safe"]) == ("refuted", "refuted")
+    assert verify(policy, spec, ordering="first", prover=prover).verdict == "proved"
+    assert verify(policy, replace(spec, effect_ordering="first"), prover=prover).verdict == "proved"
+
+
+@pytest.mark.parametrize("prover", ["auto", "z3", "walk", "both"])
+def test_any_is_the_weaker_meaning_of_minimal(prover: ProverName) -> None:
+    """Under `first` more sets are allowed, and one of them may be cheaper: recording `any` does not rule it out."""
+    build = Build({"x": "abc", "y": "ab"})
+    one, other = build.action("x=a", duration=1), build.action("x=a", alternatives=["x=c y=b"], duration=1)
+    slow = build.action("x=a y=a", duration=5)
+    crossed = And((build.atom("x=a"), build.atom("y=b")))
+    spec = build.spec(state_rules=[Not(build.atom("x=b")), Not(crossed)], reaction_rules=[Iff(one, other)])
+    unsafe = {build.state(text) for text in ("ba", "bb", "ab")}
+    rows = {state: chosen(slow) if state in unsafe else chosen() for state in all_states(spec)}
+    policy = policy_from_rows(spec, rows, "any")
+    assert verify(policy, spec, prover=prover).verdict == "proved"
+    answer = verify(policy, replace(spec, effect_ordering="first"), prover=prover)
+    assert [result.verdict for result in answer.properties] == ["proved", "proved", "proved", "refuted"]
+    assert answer.properties[-1].refutation.cheaper == chosen(one, other)
 
 
 def test_only_what_is_asked_is_answered() -> None:

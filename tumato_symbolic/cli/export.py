@@ -9,17 +9,20 @@ from tumato_symbolic.cli.exits import YES
 from tumato_symbolic.cli.inputs import errors_in, read_spec, show_warnings
 from tumato_symbolic.cli.parser import Options
 from tumato_symbolic.cli.targets import STANDARD_OUTPUT
+from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.export.coq import export
 from tumato_symbolic.policy import Policy
+from tumato_symbolic.policy.bind import made_for_less
 from tumato_symbolic.policy.saving import save_text
-from tumato_symbolic.spec import Ordering, Spec
 
 
 def run(options: Options) -> int:
     """Exit with 0 when the theorem is written; whether it holds, Coq says."""
     source, spec, warnings = read_spec(options.specs[0])
     policy = Policy.load(options.policy)
-    ordering = options.effect_ordering or _ordering(policy, spec)
+    if options.effect_ordering is None and made_for_less(policy, spec):
+        raise _made_for_less(options.policy)
+    ordering = options.effect_ordering or spec.ordering
     with errors_in(source):
         text = export(policy, spec, ordering)
     show_warnings(warnings, source, options)
@@ -33,6 +36,7 @@ def run(options: Options) -> int:
     return YES
 
 
-def _ordering(policy: Policy, spec: Spec) -> Ordering:
-    """What has to be proved: a policy that records `first` proves nothing where the specification writes `any`."""
-    return "any" if spec.effect_ordering == "any" else policy.ordering or spec.effect_ordering or "any"
+def _made_for_less(path: str) -> UserError:
+    message = f"{path} was made for the effect ordering first, but the specification means any"
+    help_ = "synthesize it again, or say with --effect-ordering which of them the theorem is about"
+    return UserError((Diagnostic(Code.TUM511, message, help=help_),))

@@ -23,7 +23,7 @@ def run(options: Options) -> int:
     policy = Policy.load(options.policy)
     with errors_in(source):
         policy = bind(policy, spec)
-    ordering = options.effect_ordering or policy.ordering or spec.effect_ordering or "any"
+    ordering = options.effect_ordering or spec.ordering
     asked = parse_assignments(policy, options.assignments)
     state = tuple(variable.values.index(asked[variable.name]) for variable in spec.variables)
     decisions = Decisions(spec, policy)

@@ -72,7 +72,7 @@ def explain(
     context = context or Context()
     tell = context.tell
     tell("encoding states and steps")
-    conditions = Conditions(spec, ordering or spec.effect_ordering or "any", backend or available_backend())
+    conditions = Conditions(spec, ordering or spec.ordering, backend or available_backend())
     failing = failing_states(conditions)
     if (failing.no_allowed_set | failing.no_plan) == conditions.false:
         tell("synthesizing")

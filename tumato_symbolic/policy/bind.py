@@ -30,6 +30,14 @@ def bind(policy: Policy, spec: Spec) -> Policy:
     return replace(policy, vocabulary=target, decisions=bound, certificate=certificate, certificate_problem=problem)
 
 
+def made_for_less(policy: Policy, spec: Spec) -> bool:
+    """Whether a policy records the effect ordering `first` where the specification means `any`.
+
+    It was made for a weaker meaning of *safe*, and is no policy for this specification, unless the user says so.
+    """
+    return (policy.ordering, spec.ordering) == ("first", "any")
+
+
 def _problems(source: Vocabulary, target: Vocabulary, what: str) -> Iterator[Diagnostic]:
     ours, theirs = dict(target.variables), dict(source.variables)
     for name, known in source.variables:

@@ -20,7 +20,7 @@ _CLAIMS: Final[dict[PropertyName, str]] = {
     "safe": "every decision is allowed: whatever effects occur, no rule is broken",
     "goals": "from every valid state, the nominal run reaches the active goals",
     "minimal": "where safety is restored, no cheaper set would do as well",
-    "ordering": "the policy assumes the effect ordering that the specification writes",
+    "ordering": "the policy was made for the effect ordering that the specification means",
 }
 
 _PROVERS: Final = {"z3": "Z3", "walk": "the walk"}
@@ -63,8 +63,8 @@ def refutation_text(place: Place, refutation: Refutation) -> str:
     """The state, the decision, and what goes wrong, as one or more lines."""
     if refutation.state is None or refutation.kind == "ordering":
         return (
-            "the policy records the effect ordering first, but the specification writes any\n"
-            "say --effect-ordering first if that is what you mean"
+            "the policy was made for the effect ordering first, under which fewer outcomes count, while the\n"
+            "specification means any: make it again, or say with --effect-ordering which of them to judge it by"
         )
     state = refutation.state
     lines = [f"in the state {place.state(state)}"]

@@ -124,7 +124,13 @@ def _next(done: Synthesized, outcome: Realizable) -> str:
     example = next(iter(decisions.rows), None) if isinstance(decisions, Table) else None
     state = "VARIABLE=VALUE …" if example is None else done.place.state(example)
     lines = [f"{done.output} is written. Next:", f"  tumato-sym decide {file} {state}"]
-    return "\n".join((*lines, f"  tumato-sym verify {file} {shlex.quote(done.source.name)}"))
+    overrule = _overruling(done.spec, outcome.statistics.ordering)
+    return "\n".join((*lines, f"  tumato-sym verify {file} {shlex.quote(done.source.name)}{overrule}"))
+
+
+def _overruling(spec: Spec, ordering: Ordering) -> str:
+    """The option that `verify` needs to judge by another ordering than that of the specification."""
+    return "" if ordering == spec.ordering else f" --effect-ordering {ordering}"
 
 
 def _unrealizable(done: Synthesized, outcome: Unrealizable, paint: Paint) -> list[str]:
@@ -162,9 +168,9 @@ def _certified(done: Synthesized, ordering: Ordering, paint: Paint) -> list[str]
         return lines
     if done.disproof is None:
         lines.append(paint.doubt("Its certificate is not proved: --no-verify was given."))
-    overrule = f" --effect-ordering {ordering}" if (ordering, done.spec.effect_ordering) == ("any", "first") else ""
     files = f"{shlex.quote(done.certificate)} {shlex.quote(done.source.name)}"
-    return [*lines, f"{done.certificate} is written. Next:", f"  tumato-sym verify {files}{overrule}"]
+    verify = f"  tumato-sym verify {files}{_overruling(done.spec, ordering)}"
+    return [*lines, f"{done.certificate} is written. Next:", verify]
 
 
 def as_json(done: Synthesized) -> dict[str, object]:

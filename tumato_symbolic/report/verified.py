@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shlex
 from dataclasses import dataclass
+from typing import Final
 
 from tumato_symbolic.diagnostics import Diagnostic, Source
 from tumato_symbolic.report.findings import finding_json, github_command, github_commands
@@ -11,7 +12,7 @@ from tumato_symbolic.report.layout import Paint, enumeration, seconds
 from tumato_symbolic.report.proof import ORDERINGS, proof_json, property_line, provers, refutation_text
 from tumato_symbolic.report.reasons import Place
 from tumato_symbolic.spec import Spec
-from tumato_symbolic.verify.result import PROPERTIES, CertificateUse, Verdict, Verification
+from tumato_symbolic.verify.result import PROPERTIES, CertificateUse, OrderingSource, Verdict, Verification
 
 _CERTIFICATES = {
     "used": "its ranks carry the proof",
@@ -21,6 +22,12 @@ _CERTIFICATES = {
     "wrong": "made for this specification, but false, and set aside",
     "unneeded": "not needed for these properties",
     "set aside": "set aside",
+}
+
+_SOURCES: Final[dict[OrderingSource, str]] = {
+    "command line": "from the command line",
+    "specification": "from the specification",
+    "default": "which is the default",
 }
 
 
@@ -60,7 +67,7 @@ def as_text(done: Verified, colour: bool) -> str:
     paint, found = Paint(colour), done.verification
     lines = [
         f"{_verdict(done, paint)} In {seconds(done.took)}.",
-        f"  effects: {ORDERINGS[found.ordering]}, from the {found.ordering_source}",
+        f"  effects: {ORDERINGS[found.ordering]}, {_SOURCES[found.ordering_source]}",
         f"  certificate: {_certificate(found.certificate)}",
         "",
     ]

@@ -114,3 +114,8 @@ class Spec:
     max_plan_length: int | None
     effect_ordering: Ordering | None
     bound_span: Span | None = field(default=None, compare=False)
+
+    @property
+    def ordering(self) -> Ordering:
+        """The effect ordering that the text means: `any` where it does not say."""
+        return self.effect_ordering or "any"

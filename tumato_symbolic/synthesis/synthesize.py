@@ -56,7 +56,7 @@ def synthesize(
     """
     context = context or Context()
     try:
-        problem = pose(spec, ordering or spec.effect_ordering or "any", backend or available_backend(), context)
+        problem = pose(spec, ordering or spec.ordering, backend or available_backend(), context)
         with problem.encoding.manager.within_memory():
             return _solve(problem, policy_format)
     except LimitReachedError as limit:

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.limits import Budget, Context, LimitReachedError
-from tumato_symbolic.policy.bind import bind
+from tumato_symbolic.policy.bind import bind, made_for_less
 from tumato_symbolic.policy.model import Policy
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.children import can_fork
@@ -42,7 +42,8 @@ def verify(
 ) -> Verification:
     """Prove `policy` for all valid states of `spec`, or refute it with a witness.
 
-    `ordering` overrules what policy and specification say of the order of effects. `properties` are some of `total`,
+    `ordering` overrules what the specification says of the order of effects; where there is none, a policy that
+    was made for `first` is refuted if the specification means `any`. `properties` are some of `total`,
     `safe`, `goals` and `minimal`. `prover` is `z3`; `walk`, which does without Z3; `both`, which must agree; or `auto`:
     Z3 for what it answers soon, the walk for the rest. `timeout` limits the time, in seconds, of each obligation of Z3
     and of each property of the walk (None: no limit); what is not proved in time is undecided. Up to `jobs`
@@ -54,9 +55,9 @@ def verify(
     """
     context, asked = context or Context(), _asked(properties)
     bound = bind(policy, spec)
-    judged, source = _ordering(bound, spec, ordering)
+    judged, source = _ordering(spec, ordering)
     results: list[PropertyResult] = []
-    if source == "policy" and judged == "first" and spec.effect_ordering == "any":
+    if ordering is None and made_for_less(bound, spec):
         results.append(PropertyResult("ordering", "refuted", refutation=Refutation("ordering")))
     so_far = Verification("undecided", (), judged, source, CertificateUse("unneeded"), None)
     try:
@@ -124,14 +125,10 @@ def _asked(properties: Sequence[str]) -> list[PropertyName]:
     return [name for name in PROPERTIES if name in properties]
 
 
-def _ordering(policy: Policy, spec: Spec, argument: Ordering | None) -> tuple[Ordering, OrderingSource]:
+def _ordering(spec: Spec, argument: Ordering | None) -> tuple[Ordering, OrderingSource]:
     if argument is not None:
         return argument, "command line"
-    if policy.ordering is not None:
-        return policy.ordering, "policy"
-    if spec.effect_ordering is not None:
-        return spec.effect_ordering, "specification"
-    return "any", "default"
+    return spec.ordering, "default" if spec.effect_ordering is None else "specification"
 
 
 def _overall(verdicts: list[Verdict]) -> Verdict:

@@ -10,7 +10,7 @@ from tumato_symbolic.spec import Ordering
 
 Verdict: TypeAlias = Literal["proved", "refuted", "undecided"]
 PropertyName: TypeAlias = Literal["total", "safe", "goals", "minimal", "ordering"]
-OrderingSource: TypeAlias = Literal["command line", "policy", "certificate", "specification", "default"]
+OrderingSource: TypeAlias = Literal["command line", "certificate", "specification", "default"]
 ProverName: TypeAlias = Literal["z3", "walk", "both", "auto"]
 UnrealizabilityKind: TypeAlias = Literal["no-allowed-set", "no-plan", "conflict"]
 
@@ -24,7 +24,7 @@ class Refutation:
 
     `not-allowed` comes with `objection`, the first condition that fails; `goal-missed` with `run`, the run that loops,
     ends without a decision or exceeds the bound; `not-minimal` with `cheaper`, the cheapest set that serves as well,
-    and its `run`. `ordering` has no state: the policy records `first` where the specification writes `any`.
+    and its `run`. `ordering` has no state: the policy records `first` where the specification means `any`.
     """
 
     kind: Literal["missing", "not-allowed", "goal-missed", "not-minimal", "ordering"]
