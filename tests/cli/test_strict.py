@@ -180,3 +180,57 @@ def test_an_empty_folder_proves_nothing(cli: Cli, folder: Path) -> None:
     ran = cli("verify", "examples")
     assert ran.code == 2
     assert "there is nothing to verify in the folder examples" in ran.err
+
+
+def test_specifications_are_found_by_what_they_mean(cli: Cli, folder: Path) -> None:
+    """Whatever `synth -o` was called with: a file without a namesake belongs to the specification with its digest."""
+    for output in ("left.policy.json", "right.json", "sub.policy"):
+        assert cli("synth", "examples/two_robots.tum", "-o", f"policies/{output}").code == 1
+    assert cli("synth", "examples/coin.tum", "-o", "policies/heads.policy.json").code == 0
+    ran = cli("verify", "policies", "--strict")
+    assert ran.code == 0
+    found = dict(line.split()[::2][:2] for line in ran.out.splitlines()[:-1])
+    assert found["policies/left.unrealizable.json"] == "examples/two_robots.tum,"
+    assert found["policies/right.unrealizable.json"] == "examples/two_robots.tum,"
+    assert found["policies/sub.unrealizable.json"] == "examples/two_robots.tum,"
+    assert found["policies/heads.policy.json"] == "examples/coin.tum,"
+
+
+def test_a_namesake_comes_before_the_digest(cli: Cli, folder: Path) -> None:
+    """A copy of the old specification does not keep a policy from going stale."""
+    spec = folder / "examples" / "amr.tum"
+    (folder / "examples" / "old.tum").write_text(spec.read_text())
+    spec.write_text(spec.read_text().replace("max_plan_length: 5", "max_plan_length: 6"))
+    assert cli("verify", "policies", "--strict").code == 1
+
+
+def test_certificates_with_a_policy_in_their_name(cli: Cli, folder: Path) -> None:
+    """`NAME.policy.unrealizable.json` is about NAME."""
+    certificate = folder / "policies" / "two_robots.unrealizable.json"
+    text = certificate.read_text().replace("sha256:", "sha257:")
+    certificate.with_name("two_robots.policy.unrealizable.json").write_text(text)
+    assert "two_robots.tum, unrealizable: no-allowed-set, certificate stale" in cli("verify", "policies").out
+
+
+def test_every_specification_may_be_required(cli: Cli, folder: Path) -> None:
+    """`--require-all`: a specification with neither policy nor certificate fails, one that means the same does not."""
+    (folder / "examples" / "copy.tmt").write_text(
+        f"// another comment\n{(folder / 'examples' / 'coin.tum').read_text()}"
+    )
+    (folder / "robots").mkdir()
+    assert cli("verify", "policies", "--require-all").code == 0
+    (folder / "policies" / "coin.policy.json").write_text("{")
+    (folder / "policies" / "amr.policy.json").unlink()
+    (folder / "examples" / "broken.tmt").write_text("BEGIN")
+    ran = cli("verify", "policies", "--require-all", "--output-format", "json")
+    found = json.loads(ran.out)
+    assert (ran.code, found["verdict"]) == (2, "error")
+    missing = {each["file"] for each in found["files"] if each["verdict"] == "missing"}
+    assert missing == {"examples/amr.tum", "examples/broken.tmt"}
+    (folder / "policies" / "coin.policy.json").unlink()
+    ran = cli("verify", "policies", "--require-all")
+    assert ran.code == 1
+    assert "5 files: 1 proved, 4 missing" in ran.out
+    assert cli("verify", "policies", "--require-all", "--specs", "robots").code == 0
+    assert cli("verify", "policies").code == 0
+    assert cli("verify", "amr.json", "amr.tum", "--require-all").code == 2

@@ -27,7 +27,7 @@ def repository(tmp_path: Path) -> Path:
     for folder in ("robots/small", "proofs"):
         (tmp_path / folder).mkdir(parents=True)
     (tmp_path / "robots/amr.tum").write_text((ROOT / "examples/amr.tum").read_text())
-    (tmp_path / "robots/small/coin.tum").write_text((ROOT / "examples/coin.tum").read_text())
+    (tmp_path / "robots/small/coin.tmt").write_text((ROOT / "examples/coin.tum").read_text())
     for name in ("amr", "coin"):
         (tmp_path / f"proofs/{name}.policy.json").write_text((ROOT / f"proofs/{name}.policy.json").read_text())
     return tmp_path
@@ -94,7 +94,7 @@ def test_the_verify_hook_proves_a_folder(repository: Path) -> None:
     (repository / "robots/amr.tum").write_text(text.replace("max_plan_length: 5", "max_plan_length: 6"))
     assert hook("tumato-verify", repository, *folders).returncode == 1
     (repository / "robots").rename(repository / "examples")
-    (repository / "proofs/coin.policy.json").unlink()
+    (repository / "examples/small/coin.tmt").rename(repository / "examples/coin.tmt")
     (repository / "examples/amr.tum").write_text(text)
     assert hook("tumato-verify", repository).returncode == 0, "without arguments: proofs/ and ../examples"
 
@@ -138,6 +138,12 @@ def test_the_action_verifies(repository: Path) -> None:
     policy.write_text(policy.read_text().replace("sha256:", "sha257:"))
     assert step("Verify the policies", repository, **inputs).returncode == 1
     assert step("Verify the policies", repository, **inputs, strict="false").returncode == 0
+    every = {**inputs, "strict": "false", "require-all": "true"}
+    assert step("Verify the policies", repository, **every).returncode == 0
+    policy.unlink()
+    missing = step("Verify the policies", repository, **every)
+    assert missing.returncode == 1
+    assert "::error file=robots/amr.tum,title=missing" in missing.stdout
 
 
 def test_the_documented_settings_are_the_real_ones() -> None:
@@ -146,7 +152,7 @@ def test_the_documented_settings_are_the_real_ones() -> None:
     for block in re.findall(r"```yaml\n(.*?)```", text, re.DOTALL):
         assert yaml.safe_load(block)
     assert {each["id"] for each in HOOKS} == set(re.findall(r"- id: ([\w-]+)", text))
-    table = dict(re.findall(r"^\| `([\w-]+)` \| (\S+) \|", text, re.MULTILINE))
+    table = dict(re.findall(r"^\| `([\w-]+)` \| ([^|]+) \|", text, re.MULTILINE))
     defaults = {
         key: f"`{value['default']}`" if value["default"] else "empty" for key, value in ACTION["inputs"].items()
     }

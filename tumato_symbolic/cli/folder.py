@@ -1,8 +1,7 @@
-"""`tumato-sym verify FOLDER`: every policy and certificate in it against the specification of the same name."""
+"""`tumato-sym verify FOLDER`: every policy and certificate in it against its specification."""
 
 from __future__ import annotations
 
-import os
 import time
 from collections.abc import Sequence
 from functools import partial
@@ -12,6 +11,7 @@ from tumato_symbolic.cli.console import Progress
 from tumato_symbolic.cli.exits import NO, UNDECIDED, USAGE, YES
 from tumato_symbolic.cli.inputs import show_warnings
 from tumato_symbolic.cli.judging import exit_code, judge, wanted_jobs
+from tumato_symbolic.cli.matching import Specifications
 from tumato_symbolic.cli.output import show, show_profile
 from tumato_symbolic.cli.parser import Options
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
@@ -23,9 +23,6 @@ from tumato_symbolic.verify.children import Lost, can_fork, in_children
 
 SUFFIXES = (".policy.json", ".unrealizable.json")
 """How the names of files end that are verified by folder."""
-
-EXAMPLES = Path("..", "examples")
-"""Where a specification is looked for last, seen from the folder of its policy."""
 
 FEWEST_BYTES = 100_000
 """Smaller folders are verified sooner than children are made."""
@@ -45,8 +42,11 @@ def run_folder(options: Options) -> int:
             f"there is nothing to verify in the folder {folder}: no file is called NAME{' or NAME'.join(SUFFIXES)}"
         )
         raise UserError((Diagnostic(Code.TUM501, message, help="write one with `tumato-sym synth SPEC -o FILE`"),))
+    specs = Specifications(options)
     with Progress() as progress:
-        entries = _entries(paths, options, Context(progress=progress))
+        entries = _entries(paths, specs, options, Context(progress=progress))
+    if options.require_all:
+        entries += [(Entry(str(path), missing=True), NO) for path in _without(entries, specs)]
     for entry, _ in entries:
         if entry.done is not None:
             show_warnings(entry.done.warnings, entry.done.source, options)
@@ -56,14 +56,22 @@ def run_folder(options: Options) -> int:
     return min((code for _, code in entries), key=_WORST_FIRST.index)
 
 
-def _entries(paths: Sequence[Path], options: Options, context: Context) -> list[tuple[Entry, int]]:
+def _without(entries: Sequence[tuple[Entry, int]], specs: Specifications) -> list[Path]:
+    """The specifications with neither policy nor certificate. A file that cannot be used counts for its namesake."""
+    used = [Path(entry.done.source.name) if entry.done else specs.named(Path(entry.path)) for entry, _ in entries]
+    return specs.without(path for path in used if path is not None)
+
+
+def _entries(
+    paths: Sequence[Path], specs: Specifications, options: Options, context: Context
+) -> list[tuple[Entry, int]]:
     """All files, in their order, each with its exit code; by several processes where that pays."""
     jobs = wanted_jobs(options)
     parts = _parts(paths, jobs) if jobs > 1 and can_fork() else []
     if len(parts) < 2:
-        return [_entry(path, options, context, jobs) for path in paths]
+        return [_entry(path, specs, options, context, jobs) for path in paths]
     context.tell(f"verifying {len(paths)} files")
-    answers = in_children([partial(_part, part, options, context) for part in parts], jobs)
+    answers = in_children([partial(_part, part, specs, options, context) for part in parts], jobs)
     found: dict[Path, tuple[Entry, int]] = {}
     for part, answer in zip(parts, answers, strict=True):
         found.update(zip(part, _kept(answer), strict=True))
@@ -77,8 +85,8 @@ def _kept(answer: list[tuple[Entry, int]] | Lost) -> list[tuple[Entry, int]]:
     raise MemoryError(answer.reason)
 
 
-def _part(paths: Sequence[Path], options: Options, context: Context) -> list[tuple[Entry, int]]:
-    return [_entry(path, options, context, 1) for path in paths]
+def _part(paths: Sequence[Path], specs: Specifications, options: Options, context: Context) -> list[tuple[Entry, int]]:
+    return [_entry(path, specs, options, context, 1) for path in paths]
 
 
 def _parts(paths: Sequence[Path], jobs: int) -> list[list[Path]]:
@@ -92,23 +100,10 @@ def _parts(paths: Sequence[Path], jobs: int) -> list[list[Path]]:
     return parts
 
 
-def _entry(path: Path, options: Options, context: Context, jobs: int) -> tuple[Entry, int]:
+def _entry(path: Path, specs: Specifications, options: Options, context: Context, jobs: int) -> tuple[Entry, int]:
     try:
-        spec, claim = str(_specification(path, options)), load_claim(str(path))
-        done = judge(claim, str(path), spec, options, context, jobs=jobs)
+        claim = load_claim(str(path))
+        done = judge(claim, str(path), str(specs.of(path, claim.digest)), options, context, jobs=jobs)
     except UserError as error:
         return Entry(str(path), error=error), USAGE
     return Entry(str(path), done), exit_code(done)
-
-
-def _specification(path: Path, options: Options) -> Path:
-    """The specification that a file belongs to. Raises `UserError` (TUM501) where there is none."""
-    name = path.name.rsplit(".", 2)[0] + ".tum"
-    examples = Path(os.path.normpath(path.parent / EXAMPLES))
-    folders = [*map(Path, options.spec_folders), path.parent, examples]
-    # Path.is_file() fails for names that are too long
-    found = next((folder / name for folder in folders if os.path.isfile(folder / name)), None)  # noqa: PTH113
-    if found is None:
-        message = f"there is no specification {name} for this file in {', '.join(map(str, folders))}"
-        raise UserError((Diagnostic(Code.TUM501, message, help="say with --specs DIR where it is"),))
-    return found

@@ -43,6 +43,7 @@ class Options:
     jobs: int | None = None
     profile: bool = False
     strict: bool = False
+    require_all: bool = False
     spec_folders: tuple[str, ...] = ()
     assignments: tuple[str, ...] = ()
     stdin: bool = False
@@ -100,8 +101,9 @@ For all valid states at once: total (there is a decision), safe (every outcome k
 effects), goals (the nominal run reaches the active goals), minimal (no cheaper set of actions would restore safety as
 well). A property that does not hold is refuted by a state and the story of what goes wrong there.
 
-Given a folder, every NAME.policy.json in it is verified against NAME.tum, which is looked for in the folders given with
---specs, beside it, and in ../examples. The exit code is that of the worst file: 2, then 1, then 3, then 0.
+Given a folder, every NAME.policy.json and NAME.unrealizable.json in it is verified against NAME.tum, which is looked
+for in the folders given with --specs, beside it, and in ../examples; where there is no such name, against the
+specification there that it was made for. The exit code is that of the worst file: 2, then 1, then 3, then 0.
 """
 
 _VERIFY_EXAMPLE = """\
@@ -206,6 +208,8 @@ def _check_verify(found: dict[str, Any]) -> None:
         _parser().error("verify: give a policy and its specification, or a folder of policies")
     if found["specs"] and found["spec_folders"]:
         _parser().error("verify: give either the specification, or --specs DIR for a folder of policies")
+    if found["specs"] and found["require_all"]:
+        _parser().error("verify: --require-all is for a folder of policies")
     if found["strict"] and not {"safe", "goals"} <= set(found["properties"]):
         _parser().error("verify: --strict judges the certificate, and needs safe and goals among the properties")
 
@@ -342,6 +346,12 @@ def _verify(parser: argparse.ArgumentParser) -> None:
         help="fail as well (exit 1) where the certificate is wrong, or stale: made for another specification",
     )
     _ordering(parser, "the one that the policy records, else the specification's, else any")
+    parser.add_argument(
+        "--require-all",
+        action="store_true",
+        help="fail as well (exit 1) where a specification has neither a policy nor a certificate in the folder: one of "
+        "those in the folders given with --specs, else of those in the folder itself and in ../examples",
+    )
     parser.add_argument(
         "--properties",
         type=_properties,

@@ -54,7 +54,7 @@ def certificate_path(output: str) -> Path | None:
     target = Path(output)
     if output == STANDARD_OUTPUT or _is_stream(target):
         return None
-    return target.with_name(f"{target.name.removesuffix('.json')}.unrealizable.json")
+    return target.with_name(f"{target.name.removesuffix('.json').removesuffix('.policy')}.unrealizable.json")
 
 
 def _is_stream(path: Path) -> bool:

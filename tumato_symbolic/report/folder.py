@@ -14,22 +14,25 @@ from tumato_symbolic.report.unrealizable import Disproved
 from tumato_symbolic.report.verified import Verified
 from tumato_symbolic.verify.result import Verdict
 
-Outcome = Literal["error", "refuted", "not accepted", "undecided", "proved"]
+Outcome = Literal["error", "refuted", "not accepted", "missing", "undecided", "proved"]
+
+_MISSING = "no NAME.policy.json and no NAME.unrealizable.json is about this specification (--require-all)"
 
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """One file: its verification, or the error for which there is none."""
+    """One file: its verification, or the error for which there is none; or a specification that misses both."""
 
     path: str
     done: Verified | Disproved | None = None
     error: UserError | None = None
+    missing: bool = False
 
     @property
     def outcome(self) -> Outcome:
         """The verdict; *not accepted* is what is not refuted, with a certificate that fails."""
         if self.done is None:
-            return "error"
+            return "missing" if self.missing else "error"
         verdict: Verdict = self.done.verdict
         return "not accepted" if self.done.not_accepted and verdict != "refuted" else verdict
 
@@ -47,7 +50,7 @@ class Folder:
     def counts(self) -> list[tuple[Outcome, int]]:
         """How many files have which outcome, the worst outcome first."""
         found = Counter(entry.outcome for entry in self.entries)
-        order: tuple[Outcome, ...] = ("error", "refuted", "not accepted", "undecided", "proved")
+        order: tuple[Outcome, ...] = ("error", "refuted", "not accepted", "missing", "undecided", "proved")
         return [(outcome, found[outcome]) for outcome in order if found[outcome]]
 
 
@@ -74,6 +77,8 @@ def _words(entry: Entry, width: int, paint: Paint) -> str:
     outcome = f"{entry.outcome:<{width}}"
     painted = paint.good(outcome) if entry.outcome == "proved" else paint.bad(outcome)
     match entry.done:
+        case None if entry.missing:
+            return f"{painted}  {_MISSING}"
         case None:
             return painted.rstrip()
         case Disproved():
@@ -97,7 +102,7 @@ def as_json(folder: Folder) -> dict[str, object]:
     """One object: the worst outcome, and for every file what `verify` says of it."""
     worst = folder.counts[0][0]
     return {
-        "verdict": "refuted" if worst == "not accepted" else worst,
+        "verdict": "refuted" if worst in ("not accepted", "missing") else worst,
         "folder": folder.path,
         "strict": folder.strict,
         "counts": {outcome.replace(" ", "_"): number for outcome, number in folder.counts},
@@ -112,6 +117,8 @@ def _json(entry: Entry) -> dict[str, object]:
             return {"file": entry.path, **verified.as_json(entry.done)}
         case Disproved():
             return {"file": entry.path, **unrealizable.as_json(entry.done)}
+    if entry.missing:
+        return {"file": entry.path, "verdict": "missing", "accepted": False}
     found = entry.error.diagnostics if entry.error is not None else ()
     findings = [finding_json(diagnostic, _blamed(entry)) for diagnostic in found]
     return {"file": entry.path, "verdict": "error", "accepted": False, "diagnostics": findings}
@@ -131,6 +138,8 @@ def as_github(folder: Folder) -> str:
                 commands.append(verified.as_github(entry.done))
             case Disproved():
                 commands.append(unrealizable.as_github(entry.done))
+            case None if entry.missing:
+                commands.append(github_command("error", _MISSING, entry.path, None, "missing"))
             case None if entry.error is not None:
                 commands.append(github_commands(entry.error.diagnostics, _blamed(entry)))
     return "\n".join([*commands, github_command("notice", _summary(folder))])
