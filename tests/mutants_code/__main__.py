@@ -1,0 +1,127 @@
+"""Faults planted in the trusted base: `python -m tests.mutants_code --sample 300 --seed 1`.
+
+Every module's share is drawn; the tests that are meant for a module run against each of its faults. Prints the faults
+that no test noticed and that are not listed as harmless, with the lines where they were planted, and how many died.
+Exits with 1 where fewer than 95 of 100 that are not harmless die.
+
+Why no library: what there is starts an interpreter and the whole test run for every fault (two seconds before the first
+test), or changes functions only and needs one run of all tests to learn which test meets which function. Here a fault
+is one fork, with the tests that are named in `covering.py`. They also know nothing of forgotten conjuncts.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections import Counter
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from random import Random
+
+from tests.mutants_code.covering import Covered, covered
+from tests.mutants_code.harmless import harmless
+from tests.mutants_code.run import Ending, load_what_tests_need, run_tests
+from tests.mutants_code.sites import Site, sites
+
+ROOT = Path(__file__).parents[2]
+LEAST = 3
+"""So many faults of every module at least, where it has as many places."""
+
+
+def drawn(everything: dict[str, list[Site]], count: int, seed: int) -> list[tuple[str, Site]]:
+    """About `count` faults, of every module its share."""
+    total = sum(map(len, everything.values()))
+    found = []
+    for module, places in everything.items():
+        share = max(LEAST, round(count * len(places) / total))
+        found += [(module, site) for site in Random(f"{seed} {module}").sample(places, min(share, len(places)))]
+    return found
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the campaign."""
+    parser = argparse.ArgumentParser(prog="python -m tests.mutants_code", description=__doc__)
+    parser.add_argument("--sample", type=int, default=300, help="how many faults (default 300)")
+    parser.add_argument("--seed", type=int, default=0, help="which ones are drawn (default 0)")
+    parser.add_argument("--module", default="", help="only modules with this in their names")
+    parser.add_argument("--named", default="", help="only faults with this in their names, all of them")
+    parser.add_argument("--processes", type=int, default=2)
+    parser.add_argument("--list", action="store_true", help="only list the faults")
+    options = parser.parse_args(arguments)
+    modules = {each.module: each for each in covered(ROOT) if options.module in each.module}
+    everything = {module: sites(ROOT / each.path, module) for module, each in modules.items()}
+    known = harmless()
+    if options.named:
+        chosen = [
+            (module, site) for module, all_of in everything.items() for site in all_of if options.named in site.name
+        ]
+    else:
+        chosen = drawn(everything, options.sample, options.seed)
+    if options.list:
+        print(*(f"{site.line}: {site.name}" for _, site in chosen), sep="\n")
+        return 0
+    load_what_tests_need()
+    limits = _limits({modules[module] for module, _ in chosen}, options.processes)
+    return _campaign(chosen, modules, limits, known, options.processes)
+
+
+def _limits(modules: set[Covered], processes: int) -> dict[tuple[str, ...], float]:
+    """How many seconds each list of tests may take: several times what they take without a fault."""
+    lists = sorted({each.tests for each in modules})
+    with ThreadPoolExecutor(processes) as pool:
+        endings = pool.map(lambda tests: run_tests(tests, None, "", 0, 600), lists)
+    limits = {}
+    for tests, ending in zip(lists, endings, strict=True):
+        if ending.killed:
+            raise SystemExit(f"without a fault these tests fail ({ending.how}): {' '.join(tests)}")
+        limits[tests] = 3 * ending.seconds + 3
+        print(f"{ending.seconds:.1f} s: {' '.join(tests)}", flush=True)
+    return limits
+
+
+def _campaign(
+    chosen: list[tuple[str, Site]],
+    modules: dict[str, Covered],
+    limits: dict[tuple[str, ...], float],
+    known: dict[str, str],
+    processes: int,
+) -> int:
+    started = time.monotonic()
+    ends: Counter[str] = Counter()
+    seconds, excused = 0.0, 0
+    mine: Counter[str] = Counter()
+    died: Counter[str] = Counter()
+
+    def run(item: tuple[str, Site]) -> Ending:
+        module, site = item
+        each = modules[module]
+        return run_tests(each.tests, ROOT / each.path, module, site.number, limits[each.tests])
+
+    with ThreadPoolExecutor(processes) as pool:
+        for (module, site), ending in zip(chosen, pool.map(run, chosen), strict=True):
+            seconds += ending.seconds
+            if not ending.killed and site.name in known:
+                excused += 1
+                continue
+            if ending.killed and site.name in known:
+                print(f"KILLED, and listed as harmless: {site.name}", flush=True)
+            ends[ending.how] += 1
+            mine[module] += 1
+            died[module] += ending.killed
+            if not ending.killed:
+                print(f"SURVIVED line {site.line}: {site.name}", flush=True)
+    for module in sorted(mine):
+        print(f"{died[module]:4} of {mine[module]:4}  {module}")
+    total, killed = sum(mine.values()), sum(died.values())
+    share = 100 * killed / max(1, total)
+    print(
+        f"{len(chosen)} faults, {excused} of them harmless: {killed} of {total} others died ({share:.1f} %): {dict(ends)}"
+    )
+    print(f"{seconds:.0f} s of the processor, {time.monotonic() - started:.0f} s")
+    return 0 if share >= 95 else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
