@@ -3,13 +3,14 @@ PYTHON ?= python3
 VENV ?= .venv
 BIN := $(VENV)/bin
 
-.PHONY: help demo test proofs mutants check format regenerate bench bench-compare clean
+.PHONY: help demo test proofs mutants mutants-code check format regenerate bench bench-compare clean
 
 help:
 	@echo "make demo        install what is needed into $(VENV) and show the main job on a mobile robot"
 	@echo "make test        install the development tools too; lint, types, import walls, tests"
 	@echo "make proofs      compile the theorems in proofs/coq, and that of every example's policy (needs Coq)"
 	@echo "make mutants     20,000 changed policies, certificates and specifications through every prover (half an hour)"
+	@echo "make mutants-code  300 faults in the trusted base, one at a time, through the tests meant for them (half an hour)"
 	@echo "make format      put the sources into shape"
 	@echo "make regenerate  write proofs/ and the generated tables anew"
 	@echo "make bench       measure every family of benchmarks/ (minutes; ARGUMENTS=--quick: about one)"
@@ -32,6 +33,9 @@ proofs: $(VENV)/.development
 
 mutants: $(VENV)/.development
 	$(BIN)/python -m tests.mutants $(ARGUMENTS)
+
+mutants-code: $(VENV)/.development
+	$(BIN)/python -m tests.mutants_code $(ARGUMENTS)
 
 format: $(VENV)/.development
 	$(BIN)/ruff check --fix .

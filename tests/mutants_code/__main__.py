@@ -116,9 +116,8 @@ def _campaign(
         print(f"{died[module]:4} of {mine[module]:4}  {module}")
     total, killed = sum(mine.values()), sum(died.values())
     share = 100 * killed / max(1, total)
-    print(
-        f"{len(chosen)} faults, {excused} of them harmless: {killed} of {total} others died ({share:.1f} %): {dict(ends)}"
-    )
+    figures = f"{killed} of {total} others died ({share:.1f} %)"
+    print(f"{len(chosen)} faults, {excused} of them harmless: {figures}: {dict(ends)}")
     print(f"{seconds:.0f} s of the processor, {time.monotonic() - started:.0f} s")
     return 0 if share >= 95 else 1
 
