@@ -38,10 +38,11 @@ def is_right(policy: Policy, spec: Spec) -> bool:
     assert table is not None
     rows = dict(table.rows)
     judgement = judge(spec, rows, ordering)
-    return judgement.sound_and_complete and judgement.minimal and _claims_hold(bound, spec, rows, ordering)
+    return judgement.sound_and_complete and judgement.minimal and claims_hold(bound, spec, rows, ordering)
 
 
-def _claims_hold(policy: Policy, spec: Spec, rows: Rows, ordering: Ordering) -> bool:
+def claims_hold(policy: Policy, spec: Spec, rows: Rows, ordering: Ordering) -> bool:
+    """Whether there is no certificate, or one for this specification that claims nothing false."""
     if policy.certificate is None and policy.certificate_problem is None:
         return True
     if policy.digest != digest(spec) or policy.certificate is None:

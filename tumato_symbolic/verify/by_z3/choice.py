@@ -27,8 +27,11 @@ class Choice:
 
     def __init__(self, spec: Spec, here: Place, solver: Solver) -> None:
         self._spec = spec
+        self._context = solver.context
         self._here = here
-        self.executed: list[Term] = [z3.Bool(f"a.{number}") for number in range(len(self._spec.actions))]
+        self.executed: list[Term] = [
+            z3.Bool(f"a.{number}", solver.context) for number in range(len(self._spec.actions))
+        ]
         bits = successor_place(spec, here, self.executed).bits
         self.after = Place([[_named(solver, bit) for bit in code] for code in bits])
 
@@ -73,7 +76,7 @@ class Choice:
         unit, width = self._scale()
         if duration < 0:
             return False
-        return z3.ULE(self._duration(self.executed), z3.BitVecVal(min(duration // unit, (1 << width) - 1), width))
+        return z3.ULE(self._duration(self.executed), self._amount(min(duration // unit, (1 << width) - 1)))
 
     def _scale(self) -> tuple[int, int]:
         """The greatest common divisor of all durations, and the bits that their sum takes in this unit."""
@@ -82,13 +85,16 @@ class Choice:
         return unit, max(1, (sum(durations) // unit).bit_length())
 
     def _duration(self, executed: Sequence[Term]) -> Number:
-        unit, width = self._scale()
-        total = zero = z3.BitVecVal(0, width)
+        unit, _ = self._scale()
+        total = zero = self._amount(0)
         for term, action in zip(executed, self._spec.actions, strict=True):
             if action.duration and term is not False:
-                amount = z3.BitVecVal(action.duration // unit, width)
+                amount = self._amount(action.duration // unit)
                 total = total + (amount if term is True else z3.If(term, amount, zero))
         return total
+
+    def _amount(self, units: int) -> Number:
+        return z3.BitVecVal(units, self._scale()[1], self._context)
 
     def read(self, model: Any) -> ActionSet:  # noqa: ANN401 - z3 has no types
         """The set that a model gives."""
@@ -98,6 +104,6 @@ class Choice:
 def _named(solver: Solver, term: Term) -> Term:
     if isinstance(term, bool):
         return term
-    name = z3.FreshBool("next")
+    name = z3.FreshBool("next", solver.context)
     solver.add(name == term)
     return name

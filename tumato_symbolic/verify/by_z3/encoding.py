@@ -11,6 +11,7 @@ from tumato_symbolic.policy.diagram import Diagram, Reference
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import And, Assignment, Constant, Executing, Formula, Iff, Is, Not, Or, Spec
 from tumato_symbolic.verify.by_z3.terms import (
+    Context,
     Number,
     Term,
     at_most_one,
@@ -30,11 +31,14 @@ class Place:
         self.bits = tuple(tuple(code) for code in bits)
 
     @classmethod
-    def fresh(cls, spec: Spec, name: str) -> Place:
+    def fresh(cls, spec: Spec, name: str, context: Context) -> Place:
         """A state of unknowns."""
         widths = [(len(variable.values) - 1).bit_length() for variable in spec.variables]
         return cls(
-            [[z3.Bool(f"{name}.{number}.{place}") for place in range(width)] for number, width in enumerate(widths)]
+            [
+                [z3.Bool(f"{name}.{number}.{place}", context) for place in range(width)]
+                for number, width in enumerate(widths)
+            ]
         )
 
     def has(self, variable: int, value: int) -> Term:

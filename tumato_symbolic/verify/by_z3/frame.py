@@ -39,11 +39,12 @@ class Frame:
         self._budget = budget
         self.latest = math.inf
         self.solver = Solver()
+        self.context = self.solver.context
         self._solvers = [self.solver]
         self._definitions: list[Term] = []
         self._decisions: list[list[Term]] | None = None
         self._names = 0
-        self.state = Place.fresh(spec, "s")
+        self.state = Place.fresh(spec, "s", self.context)
         self.assume(self.state.in_range(spec))
         roots = (*decisions.roots, decisions.defined)
         *executed, defined = diagram_terms(decisions.diagram, roots, self.state, bool)
@@ -64,13 +65,13 @@ class Frame:
         if isinstance(term, bool) or z3.is_const(term):
             return term
         self._names += 1
-        name = z3.Bool(f"{hint}!{self._names}")
+        name = z3.Bool(f"{hint}!{self._names}", self.context)
         self.assume(same(name, term))
         return name
 
     def new_solver(self) -> Solver:
         """Another solver that knows the same definitions, those to come included."""
-        solver = Solver()
+        solver = Solver(self.context)
         solver.add(*self._definitions)
         self._solvers.append(solver)
         return solver

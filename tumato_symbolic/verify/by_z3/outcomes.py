@@ -23,7 +23,16 @@ from tumato_symbolic.semantics import (
 from tumato_symbolic.spec import Action, Ordering, Spec
 from tumato_symbolic.verify.by_z3.encoding import Place, agreement_terms, is_true, safe_term
 from tumato_symbolic.verify.by_z3.solver import Solver, UndecidedError
-from tumato_symbolic.verify.by_z3.terms import Number, Term, at_most_one, conjunction, disjunction, implies, negation
+from tumato_symbolic.verify.by_z3.terms import (
+    Context,
+    Number,
+    Term,
+    at_most_one,
+    conjunction,
+    disjunction,
+    implies,
+    negation,
+)
 
 LISTED_ACTIONS = 6
 """Of up to so many actions all outcomes are listed."""
@@ -37,10 +46,13 @@ class UnsafeOutcome:
     actions that may run together and write a common variable; for the others any order is the same.
     """
 
-    def __init__(self, spec: Spec, place: Place, executed: Sequence[Term], ordering: Ordering) -> None:
+    def __init__(
+        self, spec: Spec, place: Place, executed: Sequence[Term], ordering: Ordering, context: Context
+    ) -> None:
         self._spec = spec
+        self._context = context
         self._taken: dict[int, list[Term]] = {
-            number: [z3.Bool(f"u.{number}.{effect}") for effect in range(len(action.effects))]
+            number: [z3.Bool(f"u.{number}.{effect}", context) for effect in range(len(action.effects))]
             for number, action in enumerate(spec.actions)
             if executed[number] is not False
         }
@@ -79,7 +91,7 @@ class UnsafeOutcome:
             }
         )
         width = max(1, (len(ordered) - 1).bit_length())
-        return {number: z3.BitVec(f"o.{number}", width) for number in ordered}
+        return {number: z3.BitVec(f"o.{number}", width, self._context) for number in ordered}
 
     def _code(self, variable: int, code: Sequence[Term]) -> list[Term]:
         """The bits of a variable after the outcome."""
@@ -89,7 +101,7 @@ class UnsafeOutcome:
         ranked = [number for number in writers if number in self._ranks]
         wins: dict[int, Term] = dict.fromkeys(writers, True)
         if len(ranked) > 1:
-            wins.update({number: z3.Bool(f"w.{number}.{variable}") for number in ranked})
+            wins.update({number: z3.Bool(f"w.{number}.{variable}", self._context) for number in ranked})
             self.constraints.extend(self._winner(ranked, wins, uses))
         untouched = negation(disjunction(uses.values()))
         return [
@@ -166,9 +178,10 @@ def objections_to(
     single = [each for each in objections(spec, state, chosen, "first") if each.kind != "nominal-unsafe"]
     if single:
         return single[:OBJECTIONS_AT_ONCE]
-    here = Place.fresh(spec, "fixed").after(tuple(enumerate(state)))
-    unsafe = UnsafeOutcome(spec, here, [number in chosen for number in range(len(spec.actions))], ordering)
     solver = Solver()
+    here = Place.fresh(spec, "fixed", solver.context).after(tuple(enumerate(state)))
+    executed = [number in chosen for number in range(len(spec.actions))]
+    unsafe = UnsafeOutcome(spec, here, executed, ordering, solver.context)
     answer = solver.ask(*unsafe.constraints, deadline=deadline)
     if answer == "unknown":
         raise UndecidedError("every outcome of a set is safe")

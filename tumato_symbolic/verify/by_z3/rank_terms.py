@@ -16,7 +16,8 @@ from tumato_symbolic.verify.by_z3.encoding import Place, diagram_terms
 from tumato_symbolic.verify.by_z3.frame import Frame
 from tumato_symbolic.verify.by_z3.goal_terms import reached_term
 from tumato_symbolic.verify.by_z3.solver import Answer, UndecidedError
-from tumato_symbolic.verify.by_z3.terms import Number, Term, conjunction, disjunction, either, negation
+from tumato_symbolic.verify.by_z3.step_counts import StepCounts
+from tumato_symbolic.verify.by_z3.terms import Number, Term, conjunction, either, negation
 
 AT_ONCE = 1.0
 """How many seconds Z3 may think about all ranks and decisions at once, before they are asked one by one."""
@@ -56,19 +57,15 @@ class RankFunction:
         """All ranks that may occur."""
         return sorted({0, *(leaf for leaf in self.diagram.leaves if leaf is not None)})
 
-    @property
-    def width(self) -> int:
-        """How many bits a rank has as a number; all ones are None."""
-        return (self.ranks[-1] + 1).bit_length()
+    def counts(self, frame: Frame) -> StepCounts:
+        """How ranks are coded."""
+        return StepCounts(self.ranks[-1], frame.context)
 
-    def number(self, frame: Frame, place: Place) -> Number:
-        """The rank of `place` as a number; None is larger than every rank."""
-        never = (1 << self.width) - 1
-        numbers = {leaf: z3.BitVecVal(never if leaf is None else leaf, self.width) for leaf in self.diagram.leaves}
-        (rank,) = diagram_terms(self.diagram, [self.root], place, numbers.__getitem__)
-        if self.given:
-            return rank
-        return either(reached_term(frame.spec, self.goal, place), z3.BitVecVal(0, self.width), rank)
+    def count(self, frame: Frame, place: Place) -> Number:
+        """The rank of `place`; None is never."""
+        code = self.counts(frame).code
+        (rank,) = diagram_terms(self.diagram, [self.root], place, code)
+        return rank if self.given else either(reached_term(frame.spec, self.goal, place), code(0), rank)
 
     def where(self, frame: Frame, place: Place, wanted: Callable[[Rank], bool]) -> Term:
         """The rank of `place` is a wanted one."""
@@ -92,18 +89,17 @@ class RankProof:
         self._ranks = ranks
         self._covered: Term = frame.safe if ranks.given else True
         self._covered_after: Term = frame.safe_after if ranks.given else True
+        self._coded = ranks.counts(frame)
         self._reached = frame.name(reached_term(frame.spec, ranks.goal, frame.state), "reached")
 
     def decreases(self) -> bool:
         """`N` is an upper bound: 0 means that the goal holds, `j > 0` that the next state has a smaller rank."""
-        here, after, names = self._numbers()
-        never = (1 << self._ranks.width) - 1
+        here, after, names = self._counts()
+        known = self._coded.is_number(here)
         steps = conjunction((self._frame.acting, self._covered_after))
         goes_down = conjunction((steps, z3.ULT(after, here)))
         wrong = either(here == 0, negation(self._reached), negation(goes_down))
-        return self._holds(
-            "ranks decrease", [*names, self._covered, here != never, wrong], self._decreases_by_parts(steps)
-        )
+        return self._holds("ranks decrease", [*names, self._covered, known, wrong], self._decreases_by_parts(steps))
 
     def _decreases_by_parts(self, steps: Term) -> Iterator[Term]:
         yield conjunction((self._here(exactly(0)), negation(self._reached)))
@@ -112,9 +108,8 @@ class RankProof:
 
     def is_lower_bound(self) -> bool:
         """`N` is 0 where the goal holds, and nowhere over one more than in the next state; None is infinite."""
-        here, after, names = self._numbers()
-        never = (1 << self._ranks.width) - 1
-        follows = conjunction((self._covered_after, disjunction((after == never, z3.ULE(here, after + 1)))))
+        here, after, names = self._counts()
+        follows = conjunction((self._covered_after, negation(self._coded.exceeds_by_two(here, after))))
         wrong = either(self._reached, here != 0, conjunction((self._frame.acting, negation(follows))))
         return self._holds("ranks are nowhere too large", [*names, self._covered, wrong], self._bounds_by_parts())
 
@@ -159,14 +154,11 @@ class RankProof:
     def _after(self, wanted: Callable[[Rank], bool]) -> Term:
         return self._ranks.where(self._frame, self._frame.after, wanted)
 
-    def _numbers(self) -> tuple[Number, Number, list[Term]]:
+    def _counts(self) -> tuple[Number, Number, list[Term]]:
         """The ranks of `s` and of its successor, and what defines them."""
-        here, after = z3.BitVec("rank", self._ranks.width), z3.BitVec("rank_after", self._ranks.width)
-        frame = self._frame
-        definitions = [
-            here == self._ranks.number(frame, frame.state),
-            after == self._ranks.number(frame, frame.after),
-        ]
+        width, frame = self._coded.width, self._frame
+        here, after = (z3.BitVec(name, width, frame.context) for name in ("rank", "rank_after"))
+        definitions = [here == self._ranks.count(frame, frame.state), after == self._ranks.count(frame, frame.after)]
         return here, after, definitions
 
     def _holds(self, claim: str, violation: list[Term], parts: Iterator[Term]) -> bool:

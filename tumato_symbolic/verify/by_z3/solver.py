@@ -10,7 +10,7 @@ from typing import Any, Literal, TypeAlias
 
 import z3
 
-from tumato_symbolic.verify.by_z3.terms import Term, z3_term
+from tumato_symbolic.verify.by_z3.terms import Context, Term
 
 Answer: TypeAlias = Literal["sat", "unsat", "unknown"]
 
@@ -28,10 +28,11 @@ class UndecidedError(Exception):
 
 
 class Solver:
-    """A Z3 solver for finite domains."""
+    """A Z3 solver for finite domains, in a given context or in one of its own."""
 
-    def __init__(self) -> None:
-        self._solver = z3.SolverFor("QF_FD")
+    def __init__(self, context: Context | None = None) -> None:
+        self.context: Context = z3.Context() if context is None else context
+        self._solver = z3.SolverFor("QF_FD", ctx=self.context)
         self._depth = 0
         self._lost: list[Term] = []
         self._model: Any = None
@@ -40,7 +41,7 @@ class Solver:
         """Assume `terms` from now on."""
         for term in terms:
             if term is not True:
-                self._solver.add(z3_term(term))
+                self._solver.add(z3.BoolVal(term, self.context) if term is False else term)
 
     def define(self, term: Term) -> None:
         """Assume a definition for good, also when a scope is open."""

@@ -83,7 +83,7 @@ def _conditions(frame: Frame) -> Iterator[Obligation]:
 
 def _outcomes(frame: Frame, ordering: Ordering) -> Obligation:
     """Condition 5 of section 3."""
-    unsafe = UnsafeOutcome(frame.spec, frame.state, frame.executed, ordering)
+    unsafe = UnsafeOutcome(frame.spec, frame.state, frame.executed, ordering, frame.context)
     return Obligation("every outcome is safe", conjunction(unsafe.constraints), unsafe.objection)
 
 

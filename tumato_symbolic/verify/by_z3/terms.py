@@ -16,6 +16,8 @@ Term: TypeAlias = Any
 """`bool` or `z3.BoolRef`."""
 Number: TypeAlias = Any
 """`z3.BitVecRef`."""
+Context: TypeAlias = Any
+"""`z3.Context`: where terms live. Each prover has its own, so that no answer depends on what others were asked."""
 
 
 def negation(term: Term) -> Term:
@@ -80,7 +82,10 @@ def either(condition: Term, then: Term, otherwise: Term) -> Term:
 def at_most_one(terms: Iterable[Term]) -> Term:
     """No two of `terms`."""
     kept = [term for term in terms if term is not False]
-    return True if len(kept) < 2 else z3.AtMost(*map(z3_term, kept), 1)
+    others = [term for term in kept if term is not True]
+    if len(others) < len(kept):
+        return len(others) == len(kept) - 1 and conjunction(map(negation, others))
+    return True if len(kept) < 2 else z3.AtMost(*kept, 1)
 
 
 def code_at_most(bits: Sequence[Term], largest: int) -> Term:
@@ -95,8 +100,3 @@ def code_at_most(bits: Sequence[Term], largest: int) -> Term:
 def _joined(make: Callable[..., Any], terms: list[Term]) -> Term:
     parts = (z3.Ast * len(terms))(*(term.as_ast() for term in terms))
     return z3.BoolRef(make(terms[0].ctx_ref(), len(parts), parts), terms[0].ctx)
-
-
-def z3_term(term: Term) -> Any:  # noqa: ANN401 - z3 has no types
-    """The same as a Z3 Boolean."""
-    return z3.BoolVal(term) if isinstance(term, bool) else term

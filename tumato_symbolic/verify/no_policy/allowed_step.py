@@ -47,8 +47,10 @@ class AllowedStep:
         self.walked = 0
         self._budget = budget
         self._names = 0
-        self._states, self._steps = Solver(), Solver()
-        self.state = Place.fresh(spec, "s")
+        self._states = Solver()
+        self.context = self._states.context
+        self._steps = Solver(self.context)
+        self.state = Place.fresh(spec, "s", self.context)
         self._choice = Choice(spec, self.state, self._steps)
         self.executed = self._choice.executed
         self.after = self._choice.after
@@ -63,7 +65,7 @@ class AllowedStep:
         if isinstance(term, bool) or z3.is_const(term):
             return term
         self._names += 1
-        name = z3.Bool(f"n!{self._names}")
+        name = z3.Bool(f"n!{self._names}", self.context)
         self._define(name == term)
         return name
 

@@ -15,7 +15,7 @@ from tumato_symbolic.semantics import Residual, is_valid, reached, residual_goal
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.verify.by_z3.goal_terms import reached_term
 from tumato_symbolic.verify.by_z3.solver import Solver, UndecidedError
-from tumato_symbolic.verify.by_z3.terms import Term, at_most_one, conjunction, disjunction, negation
+from tumato_symbolic.verify.by_z3.terms import Context, Term, at_most_one, conjunction, disjunction, negation
 from tumato_symbolic.verify.no_policy.allowed_step import AllowedStep, FalseClaimError, is_state
 from tumato_symbolic.verify.no_policy.distances import Distances
 from tumato_symbolic.verify.no_policy.named_goals import goal_text, named_goal, set_text, state_text
@@ -26,7 +26,7 @@ Pick: TypeAlias = tuple[int, int]
 
 def check_conflict(reason: Conflict, step: AllowedStep) -> int:
     """How many claims were checked without Z3. Raises `FalseClaimError` and `UndecidedError`."""
-    goals = _Goals(reason, step.spec)
+    goals = _Goals(reason, step.spec, step.context)
     for choice in reason.choices:
         if not is_valid(step.spec, choice.state):
             text = state_text(step.spec, choice.state)
@@ -41,18 +41,18 @@ def check_conflict(reason: Conflict, step: AllowedStep) -> int:
 class _Goals:
     """The goals of a certificate by class: goals with one root are one."""
 
-    def __init__(self, reason: Conflict, spec: Spec) -> None:
+    def __init__(self, reason: Conflict, spec: Spec, context: Context) -> None:
         self.members: dict[int, list[Residual]] = {}
         for goal in reason.goals:
             self.members.setdefault(goal.root, []).append(named_goal(spec, goal.bodies, goal.executed))
-        self.distances = Distances(reason.distances, spec.max_plan_length)
+        self.distances = Distances(reason.distances, spec.max_plan_length, context)
 
 
 def _check_distances(reason: Conflict, goals: _Goals, step: AllowedStep) -> None:
     """`D(t) = 0` in every safe state that meets the goal, and no allowed step makes `D` smaller by more than one."""
     spec = step.spec
     for root, members in goals.members.items():
-        here, after = goals.distances.number(root, step.state), goals.distances.number(root, step.after)
+        here, after = goals.distances.count(root, step.state), goals.distances.count(root, step.after)
         for goal in members:
             state = step.some_state(
                 "distances are 0 at the goal", step.safe, reached_term(spec, goal, step.state), here != 0
@@ -149,7 +149,7 @@ def _refute(reason: Conflict, clauses: list[list[Pick]], step: AllowedStep) -> N
     """No choice of one option everywhere respects all cuts."""
     solver = Solver()
     picked: list[list[Term]] = [
-        [z3.Bool(f"p.{place}.{option}") for option in range(len(choice.options))]
+        [z3.Bool(f"p.{place}.{option}", solver.context) for option in range(len(choice.options))]
         for place, choice in enumerate(reason.choices)
     ]
     for terms in picked:

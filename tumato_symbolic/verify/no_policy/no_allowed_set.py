@@ -144,12 +144,13 @@ def _reaction_rule(step: AllowedStep, state: State, cube: Cube) -> str | None:
     truth = settled_truth(formula, state, cube.executed, cube.idle)
     if truth is not None:
         return "its sets keep the rule" if truth else None
+    solver = Solver()
     executed: list[Term] = [
-        True if number in cube.executed else False if number in cube.idle else z3.Bool(f"open.{number}")
+        True if number in cube.executed else False if number in cube.idle else z3.Bool(f"open.{number}", solver.context)
         for number in range(len(spec.actions))
     ]
-    here = Place.fresh(spec, "fixed").after(tuple(enumerate(state)))
-    answer = Solver().ask(formula_term(formula, here, executed), deadline=step.deadline())
+    here = Place.fresh(spec, "fixed", solver.context).after(tuple(enumerate(state)))
+    answer = solver.ask(formula_term(formula, here, executed), deadline=step.deadline())
     if answer == "unknown":
         raise UndecidedError("a reaction rule is false for all sets of a cube")
     if answer == "sat":
