@@ -76,7 +76,7 @@ def _limits(modules: set[Covered], processes: int) -> dict[tuple[str, ...], floa
     for tests, ending in zip(lists, endings, strict=True):
         if ending.killed:
             raise SystemExit(f"without a fault these tests fail ({ending.how}): {' '.join(tests)}")
-        limits[tests] = 3 * ending.seconds + 3
+        limits[tests] = 2 * ending.seconds + 2
         print(f"{ending.seconds:.1f} s: {' '.join(tests)}", flush=True)
     return limits
 

@@ -73,7 +73,8 @@ def test_every_module_of_the_trusted_base_has_its_share() -> None:
     assert {"tumato_symbolic.semantics.step", "tumato_symbolic.verify.by_z3.outcomes", "proofs.checker"} <= names
     assert {"tumato_symbolic.symbolic.steps", "tumato_symbolic.policy.bind"} <= names
     for each in modules:
-        assert all((ROOT / test).exists() for test in each.tests)
+        paths = [test.split("::")[0] for test in each.tests if test.startswith("tests/")]
+        assert paths and all((ROOT / path).exists() for path in paths)
     everything = {each.module: sites(ROOT / each.path, each.module) for each in modules[:4]}
     assert {module for module, _ in drawn(everything, 40, 1)} == set(everything)
     assert drawn(everything, 40, 1) == drawn(everything, 40, 1) != drawn(everything, 40, 2)
