@@ -512,6 +512,7 @@ class World:
         self.spec = spec
         self.ordering = ordering
         self.known: dict[State, bool] = {}  # whether a state is safe
+        self.answers: dict[tuple[State, ActionSet], bool] = {}  # of `stays_safe`
 
     @cached_property
     def valid(self) -> list[State]:
@@ -544,7 +545,10 @@ class World:
 
     def apply(self, state: State, effect: Effect) -> State:
         """The state after an effect: variables that it does not mention keep their values."""
-        return tuple(effect.get(place, value) for place, value in enumerate(state))
+        values = list(state)
+        for place, value in effect.items():
+            values[place] = value
+        return tuple(values)
 
     def effects(self, name: str) -> list[Effect]:
         """Every effect of an action, the nominal one first."""
@@ -581,8 +585,19 @@ class World:
                     if self.ordering == "any":
                         waiting.append((after, rest, [*way, after]))
 
+    def stays_safe(self, state: State, chosen: ActionSet) -> bool:
+        """Whether every outcome is safe, of a set that is not empty. Answers are kept: orders have states in common."""
+        if (state, chosen) not in self.answers:
+            within_limit(len(self.answers), "outcomes of sets of actions")
+            rests = {name: chosen - {name} if self.ordering == "any" else frozenset() for name in chosen}
+            after = ((self.apply(state, effect), rests[name]) for name in chosen for effect in self.effects(name))
+            self.answers[state, chosen] = all(self.is_safe(there) and self.stays_safe(there, r) for there, r in after)
+        return self.answers[state, chosen]
+
     def objection(self, state: State, chosen: ActionSet) -> str | None:
         """Why `Ok(s, A)` is false, or None where it is true: the six conditions of section 3, in their order."""
+        if len(self.answers) > LARGEST // 2:
+            self.answers.clear()
         actions = [self.spec.actions[name] for name in sorted(chosen)]
         for action in actions:
             line = self.broken(action.preconditions, state)
@@ -596,7 +611,7 @@ class World:
         line = self.broken(self.spec.reaction_rules, state, chosen)
         if line is not None:
             return f"a reaction rule is broken: {self.quote(line)}"
-        for after, way in self.outcomes(state, chosen):
+        for after, way in self.outcomes(state, chosen) if not (chosen and self.stays_safe(state, chosen)) else ():
             if not self.is_safe(after):
                 return f"an outcome {self.fault(after)}; the effects lead to " + ", then ".join(map(self.show, way[1:]))
         after = self.successor(state, chosen)
@@ -616,6 +631,7 @@ class World:
         will be false whatever is added, a set is not grown.
         """
         names = [name for name, a in self.spec.actions.items() if self.broken(a.preconditions, state) is None]
+        self.answers.clear()
         waiting, count = [(frozenset[str](), 0)] if below > 0 else [], 0
         while waiting:
             chosen, begin = waiting.pop()
@@ -634,7 +650,7 @@ class World:
             and len(held) == len(set(held))
             and self.agree(chosen)
             and all(truth(rule, state, chosen, others) is not False for rule, _ in self.spec.reaction_rules)
-            and all(self.is_safe(after) for after, _ in self.outcomes(state, chosen))
+            and self.stays_safe(state, chosen)
         )
 
     def steps(self, state: State) -> Iterator[tuple[ActionSet, State]]:
