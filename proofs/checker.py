@@ -65,6 +65,11 @@ def need(condition: bool, message: str) -> None:
         raise Unreadable(message)
 
 
+def counted(number: int, noun: str) -> str:
+    """`1 state`, `2 states`."""
+    return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
 def within_limit(count: int, what: str) -> None:
     """Give up where there are too many to look at."""
     if count > LARGEST:
@@ -395,7 +400,8 @@ def resolve_action(spec: Specification, action: Action) -> None:
     action.preconditions = [(meaning(spec, part, False), line) for part, line in action.preconditions]
     action.effects = assignments(spec, action.nominal)
     count = len(action.effects)
-    need(count == 1, f"line {action.line}: the nominal effects of `{action.name}` leave {count} assignments, not one")
+    left = counted(count, "assignment")
+    need(count == 1, f"line {action.line}: the nominal effects of `{action.name}` leave {left}, not one")
     for alternative in action.alternatives:
         outcomes = assignments(spec, alternative)
         need(outcomes != [], f"line {action.line}: alternative effects of `{action.name}` cannot happen")
@@ -977,7 +983,7 @@ class Judge:
         elif here in way[1:]:
             end = f"and round again from {self.world.show(here)}"
         else:
-            end = f"and reaches it after {len(way)} steps, more than {self.world.spec.bound}"
+            end = f"and reaches it after {counted(len(way), 'step')}, more than {self.world.spec.bound}"
         words = " and ".join(sorted(text_of(body, self.world.spec) for body in goal[0]))
         return f"{self.decision(state)}: its goal is {words}; the run is {', '.join(map(self.world.show, way))} {end}"
 
@@ -1233,7 +1239,7 @@ def check_no_allowed_set(world: World, reason: dict[str, Any]) -> str:
         why = unviolated(world, state, cube)
         if why:
             raise Refuted(f"the sets of cube {number} are not ruled out by `{cube.kind}`: {why}")
-    return f"no set of actions is allowed in {world.show(state)}, by {len(cubes)} cubes"
+    return f"no set of actions is allowed in {world.show(state)}, by {counted(len(cubes), 'cube')}"
 
 
 def read_cube(entry: dict[str, Any], spec: Specification) -> Cube:
@@ -1245,7 +1251,7 @@ def read_cube(entry: dict[str, Any], spec: Specification) -> Cube:
     if kind in ("precondition", "resource", "nominal-conflict"):
         cube.actions = read_actions(violation, "Actions", spec)
         count = 1 if kind == "precondition" else 2
-        need(len(cube.actions) == count, f"a violation `{kind}` names {count} actions")
+        need(len(cube.actions) == count, f"a violation `{kind}` names {counted(count, 'action')}")
     elif kind == "reaction-rule":
         cube.rule = violation.get("Rule", "")
         need(isinstance(cube.rule, str), "`Rule` is a text")
@@ -1352,7 +1358,7 @@ def check_no_plan(world: World, reason: dict[str, Any], states: Numbered) -> str
     check_first_steps(world, start, diagram, goals)
     for state in world.safe:
         check_layers(world, state, diagram, goals)
-    return f"no run from {world.show(start)} reaches what it owes, by layers for {len(goals)} goals"
+    return f"no run from {world.show(start)} reaches what it owes, by layers for {counted(len(goals), 'goal')}"
 
 
 def check_first_steps(world: World, start: State, diagram: Diagram, goals: list[Layers]) -> None:
@@ -1453,8 +1459,8 @@ def check_conflict(world: World, reason: dict[str, Any], states: Numbered) -> st
         raise Refuted("there is a choice of options that respects all cuts")
     for state in world.safe:
         check_distances(world, conflict, state)
-    counted = f"{len(conflict.choices)} states and {len(clauses)} cuts"
-    return f"no policy serves {len(set(conflict.starts))} states together, by the options of {counted}"
+    parts = f"{counted(len(conflict.choices), 'state')} and {counted(len(clauses), 'cut')}"
+    return f"no policy serves {counted(len(set(conflict.starts)), 'state')} together, by the options of {parts}"
 
 
 def check_options(world: World, conflict: Conflict, state: State, options: list[Option]) -> None:
@@ -1624,14 +1630,14 @@ def judge_policy(spec: Specification, policy: Policy, options: argparse.Namespac
     ordering = options.effect_ordering or spec.ordering or "any"
     world = World(spec, ordering)
     judge = Judge(world, policy.decide)
-    unsafe = len(world.valid) - len(world.safe)
-    print(f"{len(world.valid)} valid states: {len(world.safe)} safe, {unsafe} unsafe; effect ordering {ordering}")
+    valid, unsafe = counted(len(world.valid), "valid state"), len(world.valid) - len(world.safe)
+    print(f"{valid}: {len(world.safe)} safe, {unsafe} unsafe; effect ordering {ordering}")
     right = True
     if options.effect_ordering is None and policy.ordering == "first" and ordering == "any":
         print("ordering FAILS: the policy was made for `first`, but the specification means `any`")
         right = False
     for name, (states, reason) in judge.verdicts().items():
-        print(f"{name:8} " + (f"FAILS in {len(states)} states: {reason(states[0])}" if states else "holds"))
+        print(f"{name:8} " + (f"FAILS in {counted(len(states), 'state')}: {reason(states[0])}" if states else "holds"))
         right = right and not states
     status, why = judge_certificate(judge, policy.document)
     if status in ("stale", "wrong"):

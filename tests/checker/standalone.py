@@ -38,7 +38,7 @@ class Answer:
     @property
     def failing(self) -> dict[str, int]:
         """In how many states each property fails that does."""
-        found = re.findall(r"^(\w+) +FAILS in (\d+) states: ", self.out, re.MULTILINE)
+        found = re.findall(r"^(\w+) +FAILS in (\d+) states?: ", self.out, re.MULTILINE)
         return {name: int(count) for name, count in found}
 
     @property

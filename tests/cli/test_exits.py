@@ -1,6 +1,8 @@
 """Exit codes, streams, and no file but a whole one."""
 
 import json
+import re
+import shlex
 from pathlib import Path
 
 import pytest
@@ -91,6 +93,48 @@ def test_what_is_no_policy_is_2(cli: Cli, tmp_path: Path, name: str) -> None:
         assert ran.code == 2
         assert "TUM5" in ran.err
         assert ran.out == ""
+
+
+def test_a_policy_that_contradicts_itself_is_2(cli: Cli, tmp_path: Path) -> None:
+    """Two rows that decide a state differently: exit 2, and both are named."""
+    document = json.loads((tmp_path / "amr.json").read_text())
+    document["Policy"].append({**document["Policy"][0], "Actions": []})
+    (tmp_path / "twice.json").write_text(json.dumps(document))
+    ran = cli("verify", "twice.json", "amr.tum")
+    assert ran.code == 2
+    assert "TUM506" in ran.err
+    assert f"rows 1 and {len(document['Policy'])} of `Policy` decide the same state differently" in ran.err
+
+
+@pytest.mark.parametrize("form", ["table", "diagram"])
+def test_what_comes_next_can_be_typed(cli: Cli, form: str) -> None:
+    """The commands that a report ends with work as they stand, whatever the form of the policy."""
+    ran = cli("synth", "amr.tum", "--policy-format", form, "-o", "my policy.json")
+    commands = [shlex.split(line) for line in ran.out.splitlines() if line.startswith("  tumato-sym ")]
+    assert [words[1] for words in commands] == ["decide", "verify"]
+    assert [cli(*words[1:]).code for words in commands] == [0, 0]
+
+
+ONE_STATE = """\
+BEGIN STATE VECTOR
+state S_Coin can be heads, tails
+END STATE VECTOR
+BEGIN ASSUMPTIONS
+assume: S_Coin is heads
+END ASSUMPTIONS
+"""
+
+
+def test_one_is_singular(cli: Cli, tmp_path: Path) -> None:
+    """Where there is one of a kind, the sentence says so."""
+    (tmp_path / "one.tum").write_text(ONE_STATE)
+    synth, verify = cli("synth", "one.tum", "-o", "one.json"), cli("verify", "one.json", "one.tum")
+    for ran in (synth, verify, cli("check", "one.tum")):
+        assert ran.code == 0
+        assert not re.search(r"\b1 \w+s\b|\b1 valid states", ran.out)
+    assert "the policy decides the one valid state. Found" in synth.out
+    assert "Proved by Z3 for the one valid state" in synth.out
+    assert "for the one valid state" in verify.out
 
 
 def test_a_policy_for_another_specification_is_2(cli: Cli) -> None:

@@ -3,6 +3,7 @@
 import json
 import os
 import pty
+import re
 import signal
 import subprocess
 import sys
@@ -205,7 +206,9 @@ def test_streams_that_are_closed_full_or_inputs_are_2(folder: Path, command: str
     )
     assert ran.returncode == 2
     assert "Traceback" not in ran.stderr
-    assert "error[TUM" in ran.stdout + ran.stderr
+    code = {"<&-": "TUM[15]01", ">&-": "TUM117", ">>": "TUM118", ">": "TUM117"}
+    expected = next(each for stream, each in code.items() if stream in command)
+    assert re.search(rf"error\[{expected}\]", ran.stdout + ran.stderr)
     assert (folder / "amr.tum").read_bytes() == before
 
 

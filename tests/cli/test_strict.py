@@ -77,11 +77,14 @@ def test_strict_fails_what_is_stale_or_wrong(cli: Cli, tmp_path: Path, name: str
     _document(tmp_path, change)
     command = ("verify", "changed.json", "amr.tum", "--prover", prover)
     assert cli(*command).code == 0
+    assert "::warning file=changed.json,title=TUM507::certificate: " in cli(*command, "--output-format", "github").out
     ran = cli(*command, "--strict")
     assert ran.code == 1
     assert f"Not accepted (--strict): the certificate is {status}." in ran.out
     found = json.loads(cli(*command, "--strict", "--output-format", "json").out)
     assert (found["verdict"], found["certificate"]["status"], found["accepted"]) == ("proved", status, False)
+    (warning,) = found["warnings"]
+    assert (warning["code"], warning["severity"], warning["file"]) == ("TUM507", "warning", "changed.json")
     assert f"title={status}::certificate: " in cli(*command, "--strict", "--output-format", "github").out
 
 
@@ -202,6 +205,17 @@ def test_a_namesake_comes_before_the_digest(cli: Cli, folder: Path) -> None:
     (folder / "examples" / "old.tum").write_text(spec.read_text())
     spec.write_text(spec.read_text().replace("max_plan_length: 5", "max_plan_length: 6"))
     assert cli("verify", "policies", "--strict").code == 1
+
+
+def test_a_reason_is_given_once(cli: Cli, tmp_path: Path) -> None:
+    """A certificate that is stale is said to be made for another specification, or for none, but not twice."""
+    for change, reason in (
+        (lambda document: document.update(SpecificationDigest="sha256:0"), "another specification"),
+        (lambda document: document.pop("SpecificationDigest"), "no specification in particular"),
+    ):
+        _document(tmp_path, change)
+        ran = cli("verify", "changed.json", "amr.tum")
+        assert f"  certificate: stale, and set aside (it was made for {reason})\n" in ran.out
 
 
 def test_certificates_with_a_policy_in_their_name(cli: Cli, folder: Path) -> None:

@@ -21,6 +21,11 @@ def quoted(text: str) -> str:
     return "`" + "".join(each if each.isprintable() else f"\\x{ord(each):02x}" for each in clipped) + "`"
 
 
+def count(number: int, noun: str, plural: str | None = None) -> str:
+    """`1 state`, `1,024 states`."""
+    return f"{number:,} {noun if number == 1 else plural or noun + 's'}"
+
+
 def listed(texts: Sequence[str], last: str = "and", plain: bool = False) -> str:
     """`a`, `b` and `c`; a long list is cut. `plain` leaves the texts unquoted."""
     shown = [text if plain else quoted(text) for text in texts[:MAX_LISTED]]

@@ -1,7 +1,7 @@
 """Policies as data: tables, diagrams, their files."""
 
 from tumato_symbolic.policy.bind import bind
-from tumato_symbolic.policy.convert import as_diagram, as_table, count_defined, policy_from_rows
+from tumato_symbolic.policy.convert import as_diagram, as_table, count_defined, policy_from_rows, some_decided
 from tumato_symbolic.policy.decide import UndecidedState, parse_assignments, parse_state
 from tumato_symbolic.policy.diagram import Diagram, DiagramBuilder, Node, Reference, count_true, rebuild
 from tumato_symbolic.policy.files import load, save
@@ -35,4 +35,5 @@ __all__ = [
     "policy_from_rows",
     "rebuild",
     "save",
+    "some_decided",
 ]

@@ -56,6 +56,15 @@ def count_defined(policy: Policy) -> int:
     return count_true(decisions.diagram, decisions.defined, policy.vocabulary.sizes)
 
 
+def some_decided(policy: Policy) -> State | None:
+    """A state that the policy decides; None where it decides none."""
+    decisions, sizes = policy.decisions, policy.vocabulary.sizes
+    if isinstance(decisions, Table):
+        return next(iter(decisions.rows), None)
+    fixed = next((fixed for fixed, _ in _cubes(decisions, sizes)), None)
+    return None if fixed is None else tuple(fixed.get(variable, 0) for variable in range(len(sizes)))
+
+
 def as_table(policy: Policy, limit: int) -> Table | None:
     """The decisions as rows in row-major order; None where there are more than `limit`."""
     if count_defined(policy) > limit:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from tumato_symbolic.diagnostics import Code, Source, UserError
-from tumato_symbolic.diagnostics.wording import listed
+from tumato_symbolic.diagnostics.wording import count, listed
 from tumato_symbolic.policy.diagram import Diagram, Node, Reference, rebuild
 from tumato_symbolic.policy.model import Certificate, DecisionDiagram, Policy, RankedGoal, Table, Vocabulary
 from tumato_symbolic.policy.problems import described, fault, show, way_out
@@ -184,11 +184,13 @@ def _nodes(entries: list[Any], where: str, sizes: list[int], base: int) -> tuple
         here = f"node {number} of {where}"
         pair = as_list(entry, here)
         if len(pair) != 2:
-            raise fault(Code.TUM502, f"{here} has {len(pair)} parts, expected a level and a list of references")
+            parts = count(len(pair), "part")
+            raise fault(Code.TUM502, f"{here} has {parts}, expected a level and a list of references")
         level = as_whole(pair[0], f"the level of {here}", len(sizes))
         below = tuple(as_list(pair[1], f"the second part of {here}"))
         if len(below) != sizes[level]:
-            message = f"{here} has {len(below)} references, but its variable has {sizes[level]} values"
+            found, values = count(len(below), "reference"), count(sizes[level], "value")
+            message = f"{here} has {found}, but its variable has {values}"
             raise fault(Code.TUM502, message)
         for child in below:
             if levels[as_whole(child, f"a reference of {here}", number)] <= level:

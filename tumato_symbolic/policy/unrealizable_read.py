@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any, Literal, TypeVar
 
 from tumato_symbolic.diagnostics import Code
+from tumato_symbolic.diagnostics.wording import count
 from tumato_symbolic.policy.diagram import Diagram, Reference, rebuild
 from tumato_symbolic.policy.model import RankedGoal, Vocabulary
 from tumato_symbolic.policy.problems import fault, show, way_out
@@ -94,7 +95,7 @@ class _Reader:
                 actions = self._action_list(member(section, "Actions", where), f"`Actions` in {where}")
                 wanted = 1 if kind == "precondition" else 2
                 if len(actions) != wanted:
-                    message = f"`Actions` in {where} has {len(actions)} entries, expected {wanted}"
+                    message = f"`Actions` in {where} has {count(len(actions), 'entry', 'entries')}, expected {wanted}"
                     raise fault(Code.TUM502, message)
                 return Violation(kind, actions)
             case "reaction-rule":

@@ -21,6 +21,7 @@ from tumato_symbolic.explain.predicates import predicate_text
 from tumato_symbolic.report.explained import Explained, cube_text, goal_sentences, headline, near_story
 from tumato_symbolic.report.failures import FAILURE_CODES
 from tumato_symbolic.report.findings import finding_json, github_command, github_commands
+from tumato_symbolic.report.layout import count
 from tumato_symbolic.report.roles import role
 from tumato_symbolic.semantics import action_names, active_goals, named
 from tumato_symbolic.spec import Spec
@@ -204,6 +205,7 @@ def as_github(done: Explained) -> str:
             commands.append(github_command("error", f"undecided: {limit}", file))
         case Explanation() as found:
             if found.part is not None:
-                message = f"realizable for {found.part.states:,} of {found.statistics.valid:,} valid states, assuming: "
+                valid = count(found.statistics.valid, "valid state")
+                message = f"realizable for {found.part.states:,} of {valid}, assuming: "
                 commands.append(github_command("notice", message + found.part.text, file))
     return "\n".join(commands)

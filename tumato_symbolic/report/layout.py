@@ -5,15 +5,19 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 
+from tumato_symbolic.diagnostics.wording import count
+
+__all__ = ["Paint", "count", "dump", "enumeration", "every", "seconds"]
+
 
 def dump(report: Mapping[str, object]) -> str:
     """A report for a program: one JSON object, in plain ASCII."""
     return json.dumps(report, indent=2)
 
 
-def count(number: int, noun: str, plural: str | None = None) -> str:
-    """`1 state`, `1,024 states`."""
-    return f"{number:,} {noun if number == 1 else plural or noun + 's'}"
+def every(number: int, noun: str) -> str:
+    """`the one state`, `all 1,024 states`."""
+    return f"the one {noun}" if number == 1 else f"all {count(number, noun)}"
 
 
 def seconds(duration: float) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Final
 
-from tumato_symbolic.report.layout import Paint, enumeration, seconds
+from tumato_symbolic.report.layout import Paint, count, enumeration, every, seconds
 from tumato_symbolic.report.reasons import Place, broken_here, objection_text
 from tumato_symbolic.semantics import Run, action_names, duration, named
 from tumato_symbolic.spec import Ordering, Spec
@@ -31,7 +31,7 @@ _STEPS_SHOWN = 12
 def proof_text(verification: Verification, valid: int, took: float, paint: Paint) -> str:
     """What is proved of a policy, property by property, and what stayed open."""
     results = verification.properties
-    head = f"{paint.good('Proved')} by {provers(verification)} for all {valid:,} valid states, in {seconds(took)}:"
+    head = f"{paint.good('Proved')} by {provers(verification)} for {every(valid, 'valid state')}, in {seconds(took)}:"
     if verification.verdict != "proved":
         head = f"{paint.doubt('Not everything could be proved')}; it took {seconds(took)}:"
     return "\n".join((head, *(f"  {property_line(result, paint)}" for result in results)))
@@ -106,7 +106,7 @@ def _run_lines(place: Place, run: Run) -> list[str]:
     for chosen, state in steps[:_STEPS_SHOWN]:
         lines.append(f"  → {place.actions(chosen)} → {place.state(state)}")
     if len(steps) > _STEPS_SHOWN:
-        lines.append(f"  … and {len(steps) - _STEPS_SHOWN} more steps")
+        lines.append(f"  … and {count(len(steps) - _STEPS_SHOWN, 'more step')}")
     return lines
 
 

@@ -6,10 +6,10 @@ import shlex
 from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Diagnostic, Source
-from tumato_symbolic.policy import Table, as_table
+from tumato_symbolic.policy import as_table, some_decided
 from tumato_symbolic.report.failures import FAILURE_CODES, failure_json, failure_text
 from tumato_symbolic.report.findings import finding_json, github_command, github_commands
-from tumato_symbolic.report.layout import Paint, count, seconds
+from tumato_symbolic.report.layout import Paint, count, every, seconds
 from tumato_symbolic.report.picture import picture
 from tumato_symbolic.report.proof import ORDERINGS, proof_json, proof_text, provers
 from tumato_symbolic.report.reasons import Place
@@ -90,7 +90,7 @@ def _realizable(done: Synthesized, outcome: Realizable, paint: Paint) -> list[st
         f"is {paint.good('realizable')}: the policy decides" if done.written else "may be realizable: a policy decides"
     )
     head = [
-        f"{done.source.name} {verdict} all {statistics.valid:,} valid states. Found in {seconds(done.solved_in)}.",
+        f"{done.source.name} {verdict} {every(statistics.valid, 'valid state')}. Found in {seconds(done.solved_in)}.",
         _states(statistics),
         longest,
         f"  effects: {ORDERINGS[statistics.ordering]}",
@@ -120,8 +120,7 @@ def _next(done: Synthesized, outcome: Realizable) -> str:
         return "The policy was not written. With --no-verify it would be, unproved."
     if done.output == "-":
         return "The policy is on the standard output."
-    decisions, file = outcome.policy.decisions, shlex.quote(done.output)
-    example = next(iter(decisions.rows), None) if isinstance(decisions, Table) else None
+    file, example = shlex.quote(done.output), some_decided(outcome.policy)
     state = "VARIABLE=VALUE …" if example is None else done.place.state(example)
     lines = [f"{done.output} is written. Next:", f"  tumato-sym decide {file} {state}"]
     overrule = _overruling(done.spec, outcome.statistics.ordering)

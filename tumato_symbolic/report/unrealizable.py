@@ -6,7 +6,7 @@ import shlex
 from dataclasses import dataclass
 from typing import Final
 
-from tumato_symbolic.diagnostics import Diagnostic, Source
+from tumato_symbolic.diagnostics import Code, Diagnostic, Source
 from tumato_symbolic.report.findings import finding_json, github_command, github_commands
 from tumato_symbolic.report.layout import Paint, count, seconds
 from tumato_symbolic.report.proof import ORDERINGS
@@ -120,14 +120,27 @@ def as_json(done: Disproved) -> dict[str, object]:
         "strict": done.strict,
         "accepted": found.verdict == "proved" and not done.not_accepted,
         "seconds": round(done.took, 3),
-        "warnings": [finding_json(warning, done.source.name) for warning in done.warnings],
+        "warnings": [
+            *(finding_json(warning, done.source.name) for warning in done.warnings),
+            *(finding_json(warning, done.certificate) for warning in _misfits(done)),
+        ],
     }
+
+
+def _misfits(done: Disproved) -> list[Diagnostic]:
+    """The warning that the certificate is stale; `--strict` makes an error of it."""
+    if not done.found.stale:
+        return []
+    help_ = f"`tumato-sym synth {shlex.quote(done.source.name)}` makes a new one"
+    return [Diagnostic(Code.TUM507, "certificate: it was made for another specification", help=help_)]
 
 
 def as_github(done: Disproved) -> str:
     """Warnings at their lines, and one notice or error with the verdict."""
     commands = [github_commands(done.warnings, done.source.name)] if done.warnings else []
     found = done.found
+    if not done.not_accepted and (misfits := _misfits(done)):
+        commands.append(github_commands(misfits, done.certificate))
     if done.not_accepted and found.verdict == "proved":
         message = f"proves that {done.source.name} has no policy, but was made for another specification"
         commands.append(github_command("error", message, done.certificate, title="certificate stale"))

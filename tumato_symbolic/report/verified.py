@@ -6,9 +6,9 @@ import shlex
 from dataclasses import dataclass
 from typing import Final
 
-from tumato_symbolic.diagnostics import Diagnostic, Source
+from tumato_symbolic.diagnostics import Code, Diagnostic, Source
 from tumato_symbolic.report.findings import finding_json, github_command, github_commands
-from tumato_symbolic.report.layout import Paint, enumeration, seconds
+from tumato_symbolic.report.layout import Paint, enumeration, every, seconds
 from tumato_symbolic.report.proof import ORDERINGS, proof_json, property_line, provers, refutation_text
 from tumato_symbolic.report.reasons import Place
 from tumato_symbolic.spec import Spec
@@ -18,7 +18,7 @@ _CERTIFICATES = {
     "used": "its ranks carry the proof",
     "incomplete": "its ranks carry a part of the proof, the others were computed anew",
     "absent": "none; the ranks were computed by following the runs",
-    "stale": "made for another specification, and set aside",
+    "stale": "stale, and set aside",
     "wrong": "made for this specification, but false, and set aside",
     "unneeded": "not needed for these properties",
     "set aside": "set aside",
@@ -89,7 +89,7 @@ def _verdict(done: Verified, paint: Paint) -> str:
     found = done.verification
     match found.verdict:
         case "proved":
-            states = "all valid states" if found.valid_states is None else f"all {found.valid_states:,} valid states"
+            states = "all valid states" if found.valid_states is None else every(found.valid_states, "valid state")
             return (
                 f"{done.policy} is {paint.good('proved')} against {done.source.name} by {provers(found)}, for {states}."
             )
@@ -97,6 +97,15 @@ def _verdict(done: Verified, paint: Paint) -> str:
             return f"{done.policy} is {paint.bad('refuted')} against {done.source.name}."
         case "undecided":
             return f"{done.policy} is {paint.doubt('undecided')} against {done.source.name}."
+
+
+def _misfits(done: Verified) -> list[Diagnostic]:
+    """The warning that the certificate is stale or false; `--strict` makes an error of it."""
+    use = done.verification.certificate
+    if use.status not in ("stale", "wrong", "set aside"):
+        return []
+    help_ = f"`tumato-sym synth {shlex.quote(done.source.name)}` makes a policy with a new one"
+    return [Diagnostic(Code.TUM507, f"certificate: {_certificate(use)}", help=help_)]
 
 
 def _certificate(use: CertificateUse) -> str:
@@ -114,7 +123,10 @@ def as_json(done: Verified) -> dict[str, object]:
         "strict": done.strict,
         "accepted": done.verification.verdict == "proved" and not done.not_accepted,
         "seconds": round(done.took, 3),
-        "warnings": [finding_json(warning, done.source.name) for warning in done.warnings],
+        "warnings": [
+            *(finding_json(warning, done.source.name) for warning in done.warnings),
+            *(finding_json(warning, done.policy) for warning in _misfits(done)),
+        ],
     }
 
 
@@ -134,6 +146,9 @@ def as_github(done: Verified) -> str:
     if done.not_accepted:
         use = done.verification.certificate
         commands.append(github_command("error", f"certificate: {_certificate(use)}", done.policy, None, use.status))
-    elif not open_results:
+        return "\n".join(commands)
+    if misfits := _misfits(done):
+        commands.append(github_commands(misfits, done.policy))
+    if not open_results:
         commands.append(github_command("notice", f"proved against {done.source.name}", done.policy))
     return "\n".join(commands)
