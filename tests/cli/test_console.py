@@ -2,7 +2,6 @@
 
 import io
 import json
-import time
 from pathlib import Path
 
 import pytest
@@ -10,6 +9,7 @@ import z3
 
 from tests.cli.conftest import Cli
 from tumato_symbolic.cli import console
+from tumato_symbolic.limits import Context
 
 
 class Terminal(io.StringIO):
@@ -20,17 +20,21 @@ class Terminal(io.StringIO):
         return True
 
 
+def _line(context: Context) -> console.ProgressLine:
+    """The progress line of work that began a while ago."""
+    context.started -= 5
+    context.tell("measuring distances")
+    return console.ProgressLine(context)
+
+
 def test_long_work_shows_progress_and_wipes_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    """On a terminal, what is being done appears after a while and is gone at the end."""
+    """On a terminal, what is being done appears, with the seconds that it took, and is gone at the end."""
     terminal = Terminal()
     monkeypatch.setattr("sys.stderr", terminal)
-    monkeypatch.setattr(console, "_PATIENCE", 0.01)
-    with console.Progress() as progress:
-        progress("measuring distances")
-        deadline = time.monotonic() + 10
-        while "measuring" not in terminal.getvalue() and time.monotonic() < deadline:
-            time.sleep(0.01)
-    assert "measuring distances" in terminal.getvalue()
+    line = _line(Context())
+    line.draw()
+    assert terminal.getvalue() == "\r\x1b[2Kmeasuring distances … 5 s"
+    line.wipe()
     assert terminal.getvalue().endswith("\r\x1b[2K")
 
 
@@ -38,8 +42,9 @@ def test_short_work_shows_none(monkeypatch: pytest.MonkeyPatch) -> None:
     """What is done within a second leaves no trace."""
     terminal = Terminal()
     monkeypatch.setattr("sys.stderr", terminal)
-    with console.Progress() as progress:
-        progress("at once")
+    line = console.ProgressLine(Context())
+    line.draw()
+    line.wipe()
     assert terminal.getvalue() == ""
 
 
@@ -47,10 +52,7 @@ def test_a_pipe_shows_none(monkeypatch: pytest.MonkeyPatch) -> None:
     """A stream that is no terminal gets no progress, however long it takes."""
     stream = io.StringIO()
     monkeypatch.setattr("sys.stderr", stream)
-    monkeypatch.setattr(console, "_PATIENCE", 0.0)
-    with console.Progress() as progress:
-        progress("working")
-        time.sleep(0.15)
+    _line(Context()).draw()
     assert stream.getvalue() == ""
 
 
@@ -80,13 +82,3 @@ def test_a_profile_stands_beside_the_report(cli: Cli, command: tuple[str, ...], 
     assert "Where the time went:" in ran.err
     assert any(line.endswith(stage) for line in ran.err.splitlines())
     assert "Where the time went:" not in cli(*command).err
-
-
-def test_a_stage_counts_until_the_next_begins(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Seconds go to the message that stood; one that comes again goes on."""
-    clock = iter([0.0, 1.0, 3.0, 4.0, 9.0])
-    monkeypatch.setattr(console.time, "monotonic", lambda: next(clock))
-    with console.Progress() as progress:
-        for message in ("one", "other", "one"):
-            progress(message)
-    assert progress.stages() == {"one": 7.0, "other": 1.0}

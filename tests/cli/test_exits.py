@@ -237,7 +237,7 @@ def test_decide_where_the_policy_is_silent(cli: Cli, tmp_path: Path) -> None:
 
 def test_a_bug_is_70_with_its_traceback(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
     """An uncaught exception exits with 70, keeps the traceback and asks for a report."""
-    monkeypatch.setattr("tumato_symbolic.cli.check.run", lambda _: 1 // 0)
+    monkeypatch.setattr("tumato_symbolic.cli.check.run", lambda *_: 1 // 0)
     ran = cli("check", "amr.tum")
     assert ran.code == 70
     assert "ZeroDivisionError" in ran.err
@@ -247,7 +247,7 @@ def test_a_bug_is_70_with_its_traceback(cli: Cli, monkeypatch: pytest.MonkeyPatc
 def test_out_of_memory_is_undecided(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
     """No memory, no verdict: exit 3."""
 
-    def exhausted(_: object) -> int:
+    def exhausted(*_: object) -> int:
         raise MemoryError
 
     monkeypatch.setattr("tumato_symbolic.cli.check.run", exhausted)

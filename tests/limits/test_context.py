@@ -25,7 +25,8 @@ def test_a_limit_says_which_and_during_what() -> None:
         context.check()
     with pytest.raises(LimitReachedError):
         context.tell("proving minimal")
-    assert Context(Limits(megabytes=20)).described("memory") == "the memory limit of 20 MB was met"
+    described = Context(Limits(megabytes=20)).described("memory")
+    assert described == "the memory limit of 20 MB was met while starting"
 
 
 def test_a_part_ends_no_later_than_the_whole() -> None:
@@ -48,3 +49,15 @@ def test_a_budget_is_for_each_part() -> None:
     context, now = Context(Limits(seconds=1000.0)), time.monotonic()
     assert now + 20 <= Budget(30.0, context).until(spent=10.0) < now + 30
     assert Budget(3000.0, context).until() == context.deadline
+
+
+def test_a_stage_counts_until_the_next_begins(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Seconds go to the stage that stood; one that comes again goes on, in a part as well."""
+    clock = iter([0.0, 1.0, 3.0, 3.0, 4.0, 4.0, 9.0])
+    monkeypatch.setattr(time, "monotonic", lambda: next(clock))
+    context = Context()
+    context.tell("one")
+    context.tell("other")
+    part = context.within()
+    part.enter("one")
+    assert context.stages() == {"starting": 1.0, "one": 7.0, "other": 1.0}

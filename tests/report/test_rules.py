@@ -2,7 +2,7 @@
 
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.policy import Vocabulary
-from tumato_symbolic.policy.rules import Rule
+from tumato_symbolic.policy.rules import Rule, RuleList
 from tumato_symbolic.report.rules import as_json, as_text, condition
 from tumato_symbolic.semantics import all_states, holds
 from tumato_symbolic.spec import load
@@ -27,18 +27,18 @@ def test_the_text_shows_order_and_actions():
     """Rules are numbered; no action is `(nothing)`; an empty policy has no rules."""
     vocabulary = Vocabulary(tuple(VALUES.items()), ("go", "stop"))
     rules = (Rule((("S_B", ("on",)),), ("go", "stop")), Rule((), ()))
-    text = as_text("p.json", vocabulary, rules, 8)
+    text = as_text("p.json", vocabulary, RuleList(rules), 8)
     assert text == (
         "p.json decides 8 states; 2 rules decide the same. The first that matches counts.\n\n"
         "1  S_B is on\n     go, stop\n2  otherwise\n     (nothing)"
     )
-    assert as_text("p.json", vocabulary, (), 0) == "p.json decides 0 states: there are no rules."
+    assert as_text("p.json", vocabulary, RuleList(()), 0) == "p.json decides 0 states: there are no rules."
 
 
 def test_the_object_for_programs():
     """Conditions are lists of values by variable, the last one is empty."""
     rules = (Rule((("S_B", ("on",)),), ("go",)), Rule((), ()))
-    assert as_json("p.json", rules, 8)["rules"] == [
+    assert as_json("p.json", RuleList(rules), 8)["rules"] == [
         {"condition": {"S_B": ["on"]}, "actions": ["go"]},
         {"condition": {}, "actions": []},
     ]

@@ -258,7 +258,7 @@ def test_a_time_limit_ends_in_undecided(backend: Backend) -> None:
     """Time that is up ends the work at once."""
     _, spec = line()
     outcome = synthesize(spec, backend=backend, context=Context(Limits(seconds=0.0)))
-    assert outcome == Undecided("the time limit of 0 s was met", None)
+    assert outcome == Undecided("the time limit of 0 s was met while starting", None)
 
 
 class Expiring(Context):

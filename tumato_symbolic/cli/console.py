@@ -1,22 +1,42 @@
-"""The terminal: streams that do not fail on names, colour, and progress of long work."""
+"""The terminal: streams that do not fail on names, output that is written whole, colour, and progress of long work."""
 
 from __future__ import annotations
 
 import io
 import os
 import sys
-import threading
 import time
-from contextlib import suppress
-from types import TracebackType
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from typing import TextIO
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
+from tumato_symbolic.limits import Context
 
 _PATIENCE = 1.0
 """Seconds of silence before progress is shown."""
 
 _CLEAR_LINE = "\r\x1b[2K"
+
+_around_writing: list[Callable[[bool], None]] = []
+"""Told True before something is written, and False when it is; a process that is supervised asks for leave so."""
+
+
+@contextmanager
+def writing() -> Iterator[None]:
+    """Work that is ended before or after, and not halfway: output."""
+    for told in _around_writing:
+        told(True)
+    try:
+        yield
+    finally:
+        for told in _around_writing:
+            told(False)
+
+
+def ask_before_writing(asked: Callable[[bool], None]) -> None:
+    """Call this with True before every output, and with False after it."""
+    _around_writing.append(asked)
 
 
 def prepare_streams() -> None:
@@ -34,7 +54,8 @@ def write(text: str) -> None:
     if not text.endswith("\n"):
         text += "\n"
     try:
-        print(text, end="", flush=True)
+        with writing():
+            print(text, end="", flush=True)
     except BrokenPipeError:
         raise
     except OSError as error:
@@ -52,7 +73,7 @@ def need_output() -> None:
 def note(text: str) -> None:
     """Put a text on the standard error stream. One that cannot be shown there is lost; the exit code stays right."""
     if sys.stderr is not None:
-        with suppress(OSError):
+        with suppress(OSError), writing():
             print(text.rstrip("\n"), file=sys.stderr, flush=True)
 
 
@@ -86,60 +107,29 @@ def wants_colour(stream: TextIO | None) -> bool:
     return not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
 
 
-class Progress:
-    """What is being done, on one line of the terminal, once it takes longer than a second; silent in a pipe.
+class ProgressLine:
+    """What is being done, on one line of the terminal, once it takes longer than a second; silent in a pipe."""
 
-    Call it with a message whenever the work moves on. The line is drawn by a thread, because the solvers do not
-    come back for seconds, and wiped when the context is left.
-    """
+    def __init__(self, context: Context) -> None:
+        self._context = context
+        self._shown = sys.stderr is not None and sys.stderr.isatty()
+        self._drawn = False
 
-    def __init__(self) -> None:
-        self._message = ""
-        self._stages: dict[str, float] = {}
-        self._started = self._since = time.monotonic()
-        self._done = threading.Event()
-        shown = sys.stderr is not None and sys.stderr.isatty()
-        self._thread = threading.Thread(target=self._draw, daemon=True) if shown else None
+    def draw(self, *_: object) -> None:
+        """Show the stage of now, and how long the work takes already."""
+        seconds = time.monotonic() - self._context.started
+        if self._shown and seconds >= _PATIENCE:
+            self._drawn = True
+            _put_on_terminal(f"{_CLEAR_LINE}{self._context.stage} … {seconds:.0f} s")
 
-    def __call__(self, message: str) -> None:
-        """Say what is being done now."""
-        self._clock()
-        self._message = message
+    def wipe(self) -> None:
+        """Leave the line as it was."""
+        if self._drawn:
+            self._drawn = False
+            _put_on_terminal(_CLEAR_LINE)
 
-    def stages(self) -> dict[str, float]:
-        """How many seconds each message stood, in the order in which they came first."""
-        return dict(self._stages)
 
-    def _clock(self) -> None:
-        """Count the time since the last message for what it said."""
-        now = time.monotonic()
-        if self._message:
-            self._stages[self._message] = self._stages.get(self._message, 0.0) + now - self._since
-        self._since = now
-
-    def __enter__(self) -> Progress:
-        if self._thread:
-            self._thread.start()
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self._clock()
-        self._done.set()
-        if self._thread:
-            self._thread.join()
-
-    def _draw(self) -> None:
-        import signal
-
-        if hasattr(signal, "pthread_sigmask"):
-            signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # Ctrl-C is for the thread that works
-        if self._done.wait(_PATIENCE):
-            return
-        while not self._done.wait(0.1):
-            seconds = time.monotonic() - self._started
-            sys.stderr.write(f"{_CLEAR_LINE}{self._message} … {seconds:.0f} s")
-            sys.stderr.flush()
-        sys.stderr.write(_CLEAR_LINE)
+def _put_on_terminal(text: str) -> None:
+    with suppress(OSError):
+        sys.stderr.write(text)
         sys.stderr.flush()

@@ -9,6 +9,7 @@ from tumato_symbolic.cli.console import need_output, note, write
 from tumato_symbolic.cli.exits import NO, YES
 from tumato_symbolic.cli.parser import Options
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
+from tumato_symbolic.limits import Context
 from tumato_symbolic.policy import Policy, UndecidedState, parse_assignments, parse_state
 from tumato_symbolic.syntax.reading import standard_input
 
@@ -16,7 +17,7 @@ _LONGEST_LINE = 1_000_000
 """Bytes of one line on the standard input; a state needs a few hundred."""
 
 
-def run(options: Options) -> int:
+def run(options: Options, _: Context) -> int:
     """Answer for one state, or for every line of the standard input."""
     need_output()
     policy = Policy.load(options.policy)

@@ -22,5 +22,8 @@ BUG: Final = 70
 INTERRUPTED: Final = 130
 """Ctrl-C (128 + SIGINT)."""
 
+TERMINATED: Final = 128
+"""What is added to the number of a signal that ends the program (SIGTERM: 143)."""
+
 BROKEN_PIPE: Final = 141
 """The reader of the output has gone (128 + SIGPIPE)."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from tumato_symbolic.cli.console import Progress, note, wants_colour, write
+from tumato_symbolic.cli.console import note, wants_colour, write, writing
 from tumato_symbolic.cli.exits import NO, UNDECIDED, YES
 from tumato_symbolic.cli.inputs import errors_in, read_spec, show_warnings
 from tumato_symbolic.cli.parser import Options
@@ -19,17 +19,18 @@ from tumato_symbolic.report.explained import Explained, as_text
 from tumato_symbolic.report.layout import dump
 
 
-def run(options: Options) -> int:
+def run(options: Options, context: Context) -> int:
     """Exit with 1 where there is no policy: that is the answer, and the explanation belongs to it."""
+    context.tell("reading the specification")
     source, spec, warnings = read_spec(options.specs[0])
-    with errors_in(source), Progress() as progress:
+    with errors_in(source):
         found = explain(
             spec,
             options.effect_ordering,
             max_cubes=MAX_CUBES if options.max_cubes is None else options.max_cubes,
             cores=options.cores,
             wanted_repairs=options.repairs,
-            context=Context(progress=progress),
+            context=context,
         )
     written = _write(options.write, source, found) if options.write else None
     done = Explained(source, spec, found, warnings, written, options.max_cubes is not None)
@@ -54,7 +55,8 @@ def _write(path: str, source: Source, found: Explanation | NothingToExplain | Un
     if path == STANDARD_OUTPUT:
         write(text)
     else:
-        save_text(text, Path(path), "specification")
+        with writing():
+            save_text(text, Path(path), "specification")
     return path
 
 

@@ -7,8 +7,31 @@ import sys
 from tumato_symbolic.cli.console import note, wants_colour, write
 from tumato_symbolic.cli.parser import Options
 from tumato_symbolic.diagnostics import UserError, render
-from tumato_symbolic.report.findings import finding_json, github_commands
+from tumato_symbolic.report.findings import finding_json, github_command, github_commands
 from tumato_symbolic.report.layout import dump
+
+
+def show_undecided(why: str, options: Options) -> None:
+    """That there is no answer, and nothing to say beside why."""
+    spec = options.specs[0] if options.specs else options.policy
+    match options.output_format:
+        case "json":
+            text = dump({"verdict": "undecided", "limit": why})
+        case "github":
+            text = github_command("error", f"undecided: {why}", spec)
+        case "sarif":
+            from tumato_symbolic import __version__
+            from tumato_symbolic.report.sarif import findings_sarif
+
+            text = dump(findings_sarif((), spec, __version__))
+        case _:
+            text = f"{spec}: undecided: {why}."
+    (note if _is_report_apart(options) else write)(text)
+
+
+def _is_report_apart(options: Options) -> bool:
+    """Whether the standard output is for what the command makes, and not for its report."""
+    return options.command in ("synth", "export-proof") and options.output == "-"
 
 
 def show_user_error(error: UserError, options: Options) -> None:
@@ -18,10 +41,7 @@ def show_user_error(error: UserError, options: Options) -> None:
         case "json":
             findings = [finding_json(diagnostic, name) for diagnostic in error.diagnostics]
             text = dump({"verdict": "error", "diagnostics": findings})
-            if options.command == "synth" and options.output == "-":
-                note(text)
-            else:
-                write(text)
+            (note if _is_report_apart(options) else write)(text)
         case "github":
             write(github_commands(error.diagnostics, name))
         case "sarif":

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING, TypeAlias
+from dataclasses import replace
+from typing import TYPE_CHECKING, TypeAlias, cast
 
 from tumato_symbolic.cli.exits import NO, UNDECIDED, YES
 from tumato_symbolic.cli.inputs import errors_in, read_spec
@@ -13,10 +14,12 @@ from tumato_symbolic.policy import Policy
 from tumato_symbolic.report.verified import Verified
 from tumato_symbolic.verify import verify
 from tumato_symbolic.verify.children import cores
+from tumato_symbolic.verify.result import stopped
 
 if TYPE_CHECKING:
     from tumato_symbolic.policy.unrealizable import Unrealizability
     from tumato_symbolic.report.unrealizable import Disproved
+    from tumato_symbolic.verify import UnrealizabilityVerdict, Verification
 
     Judged: TypeAlias = Verified | Disproved
 
@@ -36,6 +39,11 @@ def judge(
     context.tell("reading the specification")
     source, spec, warnings = read_spec(spec_path)
     started = time.perf_counter()
+
+    def verified(found: object) -> Verified:
+        took = time.perf_counter() - started
+        return Verified(source, spec, path, cast("Verification", found), warnings, took, options.strict)
+
     with errors_in(source):
         if isinstance(claim, Policy):
             verification = verify(
@@ -45,15 +53,26 @@ def judge(
                 properties=options.properties,
                 prover=options.prover,
                 jobs=jobs,
-                context=context,
+                context=context.within(learned=lambda found: context.learn(verified(found))),
             )
-            took = time.perf_counter() - started
-            return Verified(source, spec, path, verification, warnings, took, options.strict)
+            return verified(verification)
         from tumato_symbolic.report.unrealizable import Disproved
         from tumato_symbolic.verify import verify_unrealizable  # loads Z3, which --prover walk does without
 
-        found = verify_unrealizable(claim, spec, ordering=options.effect_ordering, context=context)
-        return Disproved(source, spec, path, found, warnings, time.perf_counter() - started, options.strict)
+        def disproved(found: object) -> Disproved:
+            took = time.perf_counter() - started
+            verdict = cast("UnrealizabilityVerdict", found)
+            return Disproved(source, spec, path, verdict, warnings, took, options.strict)
+
+        part = context.within(learned=lambda found: context.learn(disproved(found)))
+        return disproved(verify_unrealizable(claim, spec, ordering=options.effect_ordering, context=part))
+
+
+def ended(known: Judged, why: str) -> Judged:
+    """What was known of a claim when a limit was met."""
+    if isinstance(known, Verified):
+        return replace(known, verification=stopped(known.verification, why))
+    return replace(known, found=replace(known.found, reason=why))
 
 
 def exit_code(done: Judged) -> int:

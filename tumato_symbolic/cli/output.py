@@ -6,8 +6,9 @@ import sys
 from collections.abc import Mapping
 from typing import Protocol, TypeVar
 
-from tumato_symbolic.cli.console import Progress, note, wants_colour, write
+from tumato_symbolic.cli.console import note, wants_colour, write
 from tumato_symbolic.cli.parser import Options
+from tumato_symbolic.limits import Context
 from tumato_symbolic.report.layout import dump
 
 Done_contra = TypeVar("Done_contra", contravariant=True)
@@ -38,12 +39,12 @@ def show(report: Report[Done_contra], done: Done_contra, options: Options, *, to
     (note if to_stderr else write)(text)
 
 
-def show_profile(progress: Progress, options: Options) -> None:
+def show_profile(context: Context, options: Options) -> None:
     """Where the time went, on the standard error stream, if that was asked for."""
     if options.profile:
         from tumato_symbolic.report.profile import profile_text
 
-        note(profile_text(progress.stages(), _peak_megabytes()))
+        note(profile_text(context.stages(), _peak_megabytes()))
 
 
 def _peak_megabytes() -> int | None:

@@ -299,19 +299,7 @@ def _synth(parser: argparse.ArgumentParser) -> None:
         action="store_false",
         help="write the policy without a proof (the report says so)",
     )
-    parser.add_argument(
-        "--timeout",
-        type=seconds,
-        metavar="SECONDS",
-        help="how long the search may take before it ends without a verdict (exit 3; default: no limit)",
-    )
-    parser.add_argument(
-        "--memory",
-        type=whole(1, "megabytes"),
-        metavar="MB",
-        help="how much memory the search may take for its diagrams before it ends without a verdict (exit 3; default: "
-        "no limit; CUDD only)",
-    )
+    _limits(parser)
     _prover(parser)
     _jobs(parser, "the proof of a large policy")
     _profile(parser)
@@ -320,6 +308,7 @@ def _synth(parser: argparse.ArgumentParser) -> None:
 
 def _explain(parser: argparse.ArgumentParser) -> None:
     add_explain(parser)
+    _limits(parser, "60")
     _ordering(parser, "the specification's, else any")
     _format(parser, "sarif")
 
@@ -337,6 +326,7 @@ def _verify(parser: argparse.ArgumentParser) -> None:
         default=[],
         help="where the specifications of a folder of policies are looked for first; may be given several times",
     )
+    _limits(parser)
     _prover(parser)
     _jobs(parser, "a large proof, or a folder")
     _profile(parser)
@@ -368,6 +358,7 @@ def _export(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "-o", "--output", metavar="FILE", default="-", help="where to write the theorem (default: the standard output)"
     )
+    _limits(parser)
     _ordering(parser, "any where the specification writes it, else what the policy records, else any")
 
 
@@ -381,6 +372,7 @@ def _decide(parser: argparse.ArgumentParser) -> None:
 
 def _rules(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("policy", metavar="POLICY", help="the policy, a .json file")
+    _limits(parser, "60")
     parser.add_argument(
         "--output-format",
         choices=("text", "json"),
@@ -391,11 +383,13 @@ def _rules(parser: argparse.ArgumentParser) -> None:
 
 def _why(parser: argparse.ArgumentParser) -> None:
     add_why(parser)
+    _limits(parser)
     _ordering(parser, "the one that the policy records, else the specification's, else any")
 
 
 def _check(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("specs", metavar="SPEC", nargs="+", help="specifications, .tum files")
+    _limits(parser)
     _format(parser)
 
 
@@ -405,6 +399,23 @@ def _ordering(parser: argparse.ArgumentParser, default: str) -> None:
         choices=("any", "first"),
         help="how the effects of actions executed together may strike: in any order, one after the other, or only the "
         f"first of them (default: {default})",
+    )
+
+
+def _limits(parser: argparse.ArgumentParser, default: str = "no limit") -> None:
+    """What a command may cost; `default` is how long it takes at most by itself."""
+    parser.add_argument(
+        "--timeout",
+        type=seconds,
+        metavar="SECONDS",
+        help="how long the command may take before it ends with what it has found (exit 3 where that is no answer; "
+        f"default: {default})",
+    )
+    parser.add_argument(
+        "--memory",
+        type=whole(1, "megabytes"),
+        metavar="MB",
+        help="how much memory it may take before it ends so (default: no limit)",
     )
 
 

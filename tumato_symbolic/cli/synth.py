@@ -3,112 +3,161 @@
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
-from tumato_symbolic.cli.console import Progress, write
+from tumato_symbolic.cli.console import write, writing
 from tumato_symbolic.cli.exits import NO, UNDECIDED, YES
 from tumato_symbolic.cli.inputs import errors_in, read_spec, show_warnings
 from tumato_symbolic.cli.output import show, show_profile
 from tumato_symbolic.cli.parser import Options
 from tumato_symbolic.cli.targets import STANDARD_OUTPUT, certificate_path
 from tumato_symbolic.diagnostics import Code, UserError
-from tumato_symbolic.limits import Context, Limits
-from tumato_symbolic.policy import dumps, save
+from tumato_symbolic.limits import Context
+from tumato_symbolic.policy import dumps
+from tumato_symbolic.policy.saving import save_text
 from tumato_symbolic.report import synthesized
 from tumato_symbolic.report.synthesized import Synthesized
-from tumato_symbolic.spec import Ordering, Spec
-from tumato_symbolic.synthesis import Realizable, Unrealizable, synthesize
+from tumato_symbolic.synthesis import Outcome, Realizable, Undecided, Unrealizable, synthesize
+from tumato_symbolic.synthesis.synthesize import stopped as ended
+from tumato_symbolic.verify.result import stopped as not_all_proved
 
 if TYPE_CHECKING:
     from tumato_symbolic.policy.unrealizable import Unrealizability
-    from tumato_symbolic.verify import UnrealizabilityVerdict, Verification
+    from tumato_symbolic.verify import Verification
 
 
-def run(options: Options) -> int:
+def run(options: Options, context: Context) -> int:
     """Exit with 0 only when there is a policy, it is proved (unless that was declined), and it is written."""
-    proof = disproof = certificate = None
-    with Progress() as progress:
-        context = Context(Limits(options.timeout, options.memory), progress)
-        context.tell("reading the specification")
-        source, spec, warnings = read_spec(options.specs[0])
-        started = time.perf_counter()
-        with errors_in(source):
-            outcome = synthesize(
-                spec,
-                options.effect_ordering,
-                policy_format=options.policy_format,
-                context=context,
-            )
-            solved = time.perf_counter()
-            if isinstance(outcome, Realizable) and options.prove:
-                proof = _prove(outcome, spec, options, context)
-            if isinstance(outcome, Unrealizable) and outcome.certificate is not None and options.prove:
-                disproof = _disprove(outcome.certificate, outcome.statistics.ordering, spec, context)
-    proved = time.perf_counter()
-    written = isinstance(outcome, Realizable) and (proof is None or proof.verdict == "proved")
-    if isinstance(outcome, Unrealizable):
-        certificate = _write_certificate(outcome, options.output)
-    done = Synthesized(
-        source=source,
-        spec=spec,
-        outcome=outcome,
-        proof=proof,
-        disproof=disproof,
-        certificate=certificate,
-        warnings=(*warnings, *outcome.warnings),
-        output=options.output,
-        written=written,
-        solved_in=solved - started,
-        proved_in=proved - solved,
-    )
-    if isinstance(outcome, Realizable) and written:
-        _write_policy(outcome, options.output)
-    show_warnings(done.warnings, source, options)
+    context.tell("reading the specification")
+    source, spec, warnings = read_spec(options.specs[0])
+    so_far = Synthesized(source, spec, Undecided("", None), None, warnings, options.output, False)
+    context.learn(so_far)
+    with errors_in(source):
+        so_far = _solve(so_far, options, context)
+        so_far = _prove(so_far, options, context)
+    done = _write(so_far, context)
+    context.tell("writing the report")
+    return _report(done, options, context)
+
+
+def stopped(known: Synthesized, why: str, options: Options) -> int:
+    """Report what was known when a limit was met; what the answer is, if that was known."""
+    found = ended(known.outcome, why)
+    proof = None if known.proof is None else not_all_proved(known.proof, why)
+    return _report(replace(known, outcome=found, proof=proof, cut_short=why), options, None)
+
+
+def _report(done: Synthesized, options: Options, context: Context | None) -> int:
+    show_warnings(done.warnings, done.source, options)
     show(synthesized, done, options, to_stderr=options.output == STANDARD_OUTPUT)
-    show_profile(progress, options)
-    if written:
+    if context is not None:
+        show_profile(context, options)
+    if done.written:
         return YES
-    return NO if isinstance(outcome, Unrealizable) else UNDECIDED
+    return NO if isinstance(done.outcome, Unrealizable) else UNDECIDED
 
 
-def _prove(outcome: Realizable, spec: Spec, options: Options, context: Context) -> Verification:
-    """The verdict on our own policy. A refutation would be a bug of this program, and must not pass as a verdict."""
+def _solve(so_far: Synthesized, options: Options, context: Context) -> Synthesized:
+    """The outcome of synthesis."""
+    started, warnings = time.perf_counter(), so_far.warnings
+
+    def having(outcome: Outcome) -> Synthesized:
+        took = time.perf_counter() - started
+        return replace(so_far, outcome=outcome, warnings=(*warnings, *outcome.warnings), solved_in=took)
+
+    return having(
+        synthesize(
+            so_far.spec,
+            options.effect_ordering,
+            policy_format=options.policy_format,
+            context=context.within(learned=lambda outcome: context.learn(having(cast("Outcome", outcome)))),
+        )
+    )
+
+
+def _prove(so_far: Synthesized, options: Options, context: Context) -> Synthesized:
+    """With the verdict on our own policy or certificate, unless that was declined.
+
+    A refutation would be a bug of this program, and must not pass as a verdict.
+    """
+    if options.prove and isinstance(so_far.outcome, Realizable):
+        return _prove_policy(so_far, so_far.outcome, options, context)
+    context.learn(_without_policy(so_far))
+    if options.prove and isinstance(so_far.outcome, Unrealizable) and so_far.outcome.certificate is not None:
+        return _prove_certificate(so_far, so_far.outcome.certificate, context)
+    return so_far
+
+
+def _without_policy(done: Synthesized) -> Synthesized:
+    """What is reported when a limit is met: a policy is long, and not needed for that."""
+    if isinstance(done.outcome, Realizable):
+        return replace(done, outcome=Undecided("", done.outcome.statistics, done.outcome.warnings))
+    return done
+
+
+def _prove_policy(so_far: Synthesized, outcome: Realizable, options: Options, context: Context) -> Synthesized:
     from tumato_symbolic.cli.judging import wanted_jobs
     from tumato_symbolic.verify import verify
 
+    started = time.perf_counter()
+
+    def having(proof: object) -> Synthesized:
+        return replace(so_far, proof=cast("Verification", proof), proved_in=time.perf_counter() - started)
+
     proof = verify(
         outcome.policy,
-        spec,
+        so_far.spec,
         ordering=outcome.statistics.ordering,
         prover=options.prover,
         jobs=wanted_jobs(options),
-        context=context,
+        context=context.within(learned=lambda found: context.learn(_without_policy(having(found)))),
     )
     if proof.verdict == "refuted":
         raise AssertionError(f"the synthesized policy is refuted: {proof}")
-    return proof
+    return having(proof)
 
 
-def _disprove(certificate: Unrealizability, ordering: Ordering, spec: Spec, context: Context) -> UnrealizabilityVerdict:
-    """The verdict on our own certificate. A refutation would be a bug of this program."""
+def _prove_certificate(so_far: Synthesized, certificate: Unrealizability, context: Context) -> Synthesized:
     from tumato_symbolic.verify import verify_unrealizable
 
-    found = verify_unrealizable(certificate, spec, ordering=ordering, context=context)
+    started = time.perf_counter()
+    found = verify_unrealizable(certificate, so_far.spec, ordering=certificate.ordering, context=context.within())
     if found.verdict == "refuted":
         raise AssertionError(f"the certificate that there is no policy is refuted: {found}")
-    return found
+    return replace(so_far, disproof=found, proved_in=time.perf_counter() - started)
 
 
-def _write_certificate(outcome: Unrealizable, output: str) -> str | None:
-    """Where the certificate was written; None where there is none or no place for it, or it is too large."""
+def _write(so_far: Synthesized, context: Context) -> Synthesized:
+    """With what may be written: a policy that is proved, or not to be proved; the certificate of the answer no."""
+    outcome = so_far.outcome
+    if isinstance(outcome, Realizable) and (so_far.proof is None or so_far.proof.verdict == "proved"):
+        context.tell("writing the policy")
+        text = dumps(outcome.policy)
+        context.check()
+        done = replace(so_far, written=True)
+        with writing():
+            _write_policy(text, so_far.output)
+            context.learn(_without_policy(done))
+        return done
+    if isinstance(outcome, Unrealizable) and outcome.certificate is not None:
+        with writing():
+            done = replace(so_far, certificate=_write_certificate(outcome.certificate, so_far.output))
+            context.learn(done)
+        return done
+    return so_far
+
+
+def _write_certificate(certificate: Unrealizability, output: str) -> str | None:
+    """Where the certificate was written; None where there is no place for it, or it is too large."""
     from tumato_symbolic.policy.unrealizable_file import save as save_certificate
 
     path = certificate_path(output)
-    if path is None or outcome.certificate is None:
+    if path is None:
         return None
     try:
-        save_certificate(outcome.certificate, path)
+        save_certificate(certificate, path)
     except UserError as error:
         if error.diagnostics[0].code is not Code.TUM508:
             raise
@@ -116,8 +165,8 @@ def _write_certificate(outcome: Unrealizable, output: str) -> str | None:
     return str(path)
 
 
-def _write_policy(outcome: Realizable, output: str) -> None:
+def _write_policy(text: str, output: str) -> None:
     if output == STANDARD_OUTPUT:
-        write(dumps(outcome.policy))
+        write(text)
     else:
-        save(outcome.policy, Path(output))
+        save_text(text, Path(output), "policy")

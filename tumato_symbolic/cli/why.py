@@ -9,6 +9,7 @@ from tumato_symbolic.cli.parser import Options
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.diagnostics.wording import nearest, quoted
 from tumato_symbolic.explain.decision import Decisions, judged, why
+from tumato_symbolic.limits import Context
 from tumato_symbolic.policy import Policy, UndecidedState, bind, parse_assignments
 from tumato_symbolic.report.decided import Decided, as_json, as_text
 from tumato_symbolic.report.layout import dump
@@ -17,15 +18,18 @@ from tumato_symbolic.semantics import ActionSet
 from tumato_symbolic.spec import Spec
 
 
-def run(options: Options) -> int:
+def run(options: Options, context: Context) -> int:
     """Exit with 1 where the policy says nothing about the state."""
+    context.tell("reading the specification")
     source, spec, _ = read_spec(options.specs[0])
+    context.tell(f"reading {options.policy}")
     policy = Policy.load(options.policy)
     with errors_in(source):
         policy = bind(policy, spec)
     ordering = options.effect_ordering or spec.ordering
     asked = parse_assignments(policy, options.assignments)
     state = tuple(variable.values.index(asked[variable.name]) for variable in spec.variables)
+    context.tell("judging the decision")
     decisions = Decisions(spec, policy)
     instead = None if options.instead is None else _actions(spec, options.instead)
     try:

@@ -39,14 +39,22 @@ class Context:
         learned: Callable[[object], None] | None = None,
     ) -> None:
         self.limits = limits
-        self.deadline = None if limits.seconds is None else time.monotonic() + limits.seconds
-        self.stage = ""
+        self.started = time.monotonic()
+        self.deadline = None if limits.seconds is None else self.started + limits.seconds
+        self.stage = "starting"
         self.known: object = None
-        self._progress, self._learned = progress, learned
+        self.progress, self.learned = progress, learned
+        self._since = self.started
+        self._stages: dict[str, float] = {}
+
+    @property
+    def is_over(self) -> bool:
+        """Whether time is up."""
+        return self.deadline is not None and time.monotonic() >= self.deadline
 
     def check(self) -> None:
         """Raise `LimitReachedError` when time is up. Cheap enough for every turn of a loop."""
-        if self.is_over:
+        if self.deadline is not None and time.monotonic() >= self.deadline:
             raise LimitReachedError(self.described())
 
     def seconds_left(self) -> float | None:
@@ -56,28 +64,38 @@ class Context:
         self.check()
         return max(0.0, self.deadline - time.monotonic())
 
-    @property
-    def is_over(self) -> bool:
-        """Whether time is up."""
-        return self.deadline is not None and time.monotonic() >= self.deadline
-
     def described(self, which: str = "time") -> str:
         """That a limit was met, and during what, as reports say it."""
         amount = f"{self.limits.seconds:g} s" if which == "time" else f"{self.limits.megabytes} MB"
-        return f"the {which} limit of {amount} was met{f' while {self.stage}' if self.stage else ''}"
+        return f"the {which} limit of {amount} was met while {self.stage}"
 
     def tell(self, stage: str) -> None:
         """Say what is being done from now on, as in "proving goals". Raises `LimitReachedError` when time is up."""
         self.check()
+        self.enter(stage)
+
+    def enter(self, stage: str) -> None:
+        """Count the time from now on for a stage, and tell it."""
+        self._clock()
         self.stage = stage
-        if self._progress is not None:
-            self._progress(stage)
+        if self.progress is not None:
+            self.progress(stage)
+
+    def stages(self) -> dict[str, float]:
+        """How many seconds each stage took by now, in the order in which they came first."""
+        self._clock()
+        return dict(self._stages)
+
+    def _clock(self) -> None:
+        now = time.monotonic()
+        self._stages[self.stage] = self._stages.get(self.stage, 0.0) + now - self._since
+        self._since = now
 
     def learn(self, known: object) -> None:
         """Record all that is known by now, in place of what was recorded before: it is reported when a limit is met."""
         self.known = known
-        if self._learned is not None:
-            self._learned(known)
+        if self.learned is not None:
+            self.learned(known)
 
     def within(self, seconds: float | None = None, learned: Callable[[object], None] | None = None) -> Context:
         """A context for a part of the work, which may take so many seconds and no longer than the whole.
@@ -85,7 +103,7 @@ class Context:
         It tells what this one tells, and what it learns goes to `learned` instead of here. Where its
         `LimitReachedError` is caught, `check()` here says whether the whole is over as well.
         """
-        part = Context(Limits(seconds, self.limits.megabytes), self.tell, learned)
+        part = Context(Limits(seconds, self.limits.megabytes), self.enter, learned)
         if part.deadline is None or (self.deadline is not None and self.deadline < part.deadline):
             part.deadline, part.limits = self.deadline, self.limits
         part.stage = self.stage

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from tumato_symbolic.limits import Context
 from tumato_symbolic.policy.diagram import Reference
 from tumato_symbolic.policy.sets import EVERYTHING, NOTHING, Cube, Sets
 
@@ -22,8 +23,9 @@ class TooManyCubes(Exception):  # noqa: N818 - no error: some sets have no short
 class Coverer:
     """Finds covers, and remembers those of parts."""
 
-    def __init__(self, sets: Sets) -> None:
+    def __init__(self, sets: Sets, context: Context | None = None) -> None:
         self._sets = sets
+        self._context = context or Context()
         self._limit = MOST_CUBES
         self._known: dict[tuple[Reference, Reference], tuple[tuple[Cube, ...], Reference]] = {}
 
@@ -49,6 +51,7 @@ class Coverer:
 
     def _split(self, wanted: Reference, permitted: Reference) -> tuple[tuple[Cube, ...], Reference]:
         """Cubes that name the first variable, for what needs them; then cubes that do not."""
+        self._context.check()
         sets = self._sets
         level = sets.top(wanted, permitted)
         rest, bounds = list(sets.below(level, wanted)), sets.below(level, permitted)
@@ -93,6 +96,7 @@ class Coverer:
 
     def _widened(self, cube: Cube, permitted: Reference) -> Cube:
         """A cube around `cube` to which nothing can be added that is `permitted`: whole variables first."""
+        self._context.check()
         contains = self._sets.contains
         for literal in reversed(cube):
             fewer = tuple([each for each in cube if each != literal])
@@ -114,6 +118,7 @@ class Coverer:
         kept: list[Cube] = []
         left = wanted
         for cube in cubes:
+            self._context.check()
             if sets.without(left, later.pop()) != NOTHING:
                 kept.append(cube)
                 left = sets.without(left, sets.cube(cube))

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from typing import TypeAlias
 
 from tumato_symbolic.diagnostics import Code, UserError
+from tumato_symbolic.limits import Context, LimitReachedError
 from tumato_symbolic.policy.convert import as_diagram
 from tumato_symbolic.policy.cover import MOST_CUBES, Coverer, TooManyCubes
 from tumato_symbolic.policy.deep import room_for
@@ -40,28 +41,47 @@ class Rule:
     actions: tuple[str, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class RuleList:
+    """Rules that decide like a policy, but for `left` states. `limit` is why these, or shorter lists, were left out."""
+
+    rules: tuple[Rule, ...]
+    left: int = 0
+    limit: str | None = None
+
+
 def minimal_rules(policy: Policy) -> tuple[Rule, ...]:
+    """The rules that `find_rules` finds without a limit."""
+    return find_rules(policy, Context()).rules
+
+
+def find_rules(policy: Policy, context: Context) -> RuleList:
     """Few rules that decide like `policy` in every state that it decides; none where it decides no state.
 
     What they say of other states means nothing. The same policy gives the same rules. States are never listed: the
     work grows with the size of the policy's diagram and the number of different sets of actions. Raises `UserError`
-    (TUM508) where there are too many of these, or their states have no short description.
+    (TUM508) where there are too many of these, or their states have no short description. Where a limit is met, the
+    list that was found by then, which may leave out states.
     """
     decisions = as_diagram(policy)
     with room_for(len(decisions.diagram.order)):
         sets = Sets(decisions.diagram.order, policy.vocabulary.sizes)
         *executed, defined = sets.take(decisions.diagram, (*decisions.roots, decisions.defined), LEAVES)
         if defined == NOTHING:
-            return ()
-        best = _shortest(sets, _regions(sets, executed, defined), defined)
-        _check(sets, best, executed, defined)
-    return tuple(_named(policy.vocabulary, decisions, rule) for rule in best)
+            return RuleList(())
+        context.tell("looking for a short list of rules")
+        best, limit = _shortest(sets, _regions(sets, executed, defined, context), defined, context)
+        left = sets.count(_left(sets, best, executed, defined))
+        if left and limit is None:
+            raise RuntimeError("the rules do not say what the policy says")
+    return RuleList(tuple(_named(policy.vocabulary, decisions, rule) for rule in best), left, limit)
 
 
-def _regions(sets: Sets, executed: Sequence[int], defined: int) -> list[_Region]:
+def _regions(sets: Sets, executed: Sequence[int], defined: int, context: Context) -> list[_Region]:
     """Every set of actions that is decided somewhere, the rarest first."""
     regions: list[tuple[tuple[int, ...], int]] = [((), defined)]
     for action, states in enumerate(executed):
+        context.check()
         parts = [
             part
             for chosen, region in regions
@@ -74,38 +94,49 @@ def _regions(sets: Sets, executed: Sequence[int], defined: int) -> list[_Region]
     return [(frozenset(chosen), region) for chosen, region in regions]
 
 
-def _shortest(sets: Sets, regions: Sequence[_Region], defined: int) -> list[_Listed]:
-    """The shortest list that one of the orders of decisions gives."""
+def _shortest(
+    sets: Sets, regions: Sequence[_Region], defined: int, context: Context
+) -> tuple[list[_Listed], str | None]:
+    """The shortest list that one of the orders of decisions gives, as far as it goes; and which limit was met."""
     orders = [_by_rarity, _by_simplicity] if len(regions) <= MANY_DECISIONS else [_by_rarity]
-    lists = []
+    lists: list[list[_Listed]] = []
+    limit: str | None = None
     for order in orders:
-        with suppress(TooManyCubes):
-            lists.append(order(sets, regions, defined))
+        rules: list[_Listed] = []
+        try:
+            for part in order(sets, regions, defined, context):
+                rules += part
+        except TooManyCubes:
+            continue
+        except LimitReachedError as reached:
+            limit = str(reached)
+        if limit is None or not lists:
+            lists.append(rules)
+        if limit is not None:
+            break
     if not lists:
         raise _too_many(f"one of its decisions needs more than {MOST_CUBES:,} rules")
-    return min(lists, key=lambda rules: (len(rules), _mentioned(sets, rules)))
+    return min(lists, key=lambda rules: (len(rules), _mentioned(sets, rules))), limit
 
 
 def _too_many(why: str) -> UserError:
     return fault(Code.TUM508, f"the policy has no list of rules that a person would read: {why}")
 
 
-def _by_rarity(sets: Sets, regions: Sequence[_Region], defined: int) -> list[_Listed]:
+def _by_rarity(sets: Sets, regions: Sequence[_Region], defined: int, context: Context) -> Iterator[list[_Listed]]:
     """The rarest decision first; the most common one is what remains."""
-    coverer = Coverer(sets)
-    rules: list[_Listed] = []
+    coverer = Coverer(sets, context)
     left = defined
     for chosen, region in regions[:-1]:
         others = sets.without(left, region)
-        rules += [(cube, chosen) for cube in coverer.cover(region, sets.without(EVERYTHING, others))]
+        yield [(cube, chosen) for cube in coverer.cover(region, sets.without(EVERYTHING, others))]
         left = others
-    return [*rules, ((), regions[-1][0])]
+    yield [((), regions[-1][0])]
 
 
-def _by_simplicity(sets: Sets, regions: Sequence[_Region], defined: int) -> list[_Listed]:
+def _by_simplicity(sets: Sets, regions: Sequence[_Region], defined: int, context: Context) -> Iterator[list[_Listed]]:
     """In rounds: of the decisions that remain, those that take the fewest rules now, the shortest first."""
-    coverer = Coverer(sets)
-    rules: list[_Listed] = []
+    coverer = Coverer(sets, context)
     left = defined
     waiting = dict(enumerate(regions))
     while len(waiting) > 1:
@@ -114,9 +145,9 @@ def _by_simplicity(sets: Sets, regions: Sequence[_Region], defined: int) -> list
         for place in sorted(lengths, key=lambda place: (lengths[place], place)):
             if lengths[place][0] == fewest and len(waiting) > 1:
                 chosen, region = waiting.pop(place)
-                rules += [(cube, chosen) for cube in coverer.cover(region, _free(sets, left, region))]
+                yield [(cube, chosen) for cube in coverer.cover(region, _free(sets, left, region))]
                 left = sets.without(left, region)
-    return [*rules, *(((), chosen) for chosen, _ in waiting.values())]
+    yield [((), chosen) for chosen, _ in waiting.values()]
 
 
 def _lengths(sets: Sets, coverer: Coverer, left: int, waiting: Mapping[int, _Region]) -> dict[int, tuple[int, int]]:
@@ -143,17 +174,21 @@ def _mentioned(sets: Sets, rules: Sequence[_Listed]) -> int:
     return sum(min(len(values), sets.sizes[level] - len(values)) for cube, _ in rules for level, values in cube)
 
 
-def _check(sets: Sets, rules: Sequence[_Listed], executed: Sequence[int], defined: int) -> None:
-    """Raise `RuntimeError` unless first match decides like the policy in every state of `defined`."""
+def _left(sets: Sets, rules: Sequence[_Listed], executed: Sequence[int], defined: int) -> int:
+    """The states of `defined` that no rule matches.
+
+    Raises `RuntimeError` unless first match decides like the policy in all others.
+    """
     left, found = defined, [NOTHING] * len(executed)
     for cube, chosen in rules:
         matched = sets.both(left, sets.cube(cube))
         left = sets.without(left, matched)
         for action in chosen:
             found[action] = sets.either(found[action], matched)
-    same = all(ours == sets.both(theirs, defined) for ours, theirs in zip(found, executed, strict=True))
-    if left != NOTHING or not same:
+    reached = sets.without(defined, left)
+    if any(ours != sets.both(theirs, reached) for ours, theirs in zip(found, executed, strict=True)):
         raise RuntimeError("the rules do not say what the policy says")
+    return left
 
 
 def _named(vocabulary: Vocabulary, decisions: DecisionDiagram, rule: _Listed) -> Rule:

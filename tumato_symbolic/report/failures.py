@@ -34,6 +34,16 @@ def failure_text(place: Place, failure: Failure, ordering: Ordering) -> str:
     return f"error[{FAILURE_CODES[failure.kind].name}]: " + "\n".join(lines)
 
 
+def failure_line(place: Place, failure: Failure) -> str:
+    """One kind of failure in short: how many states, and one of them."""
+    what = {
+        "no-allowed-set": "no allowed set of actions",
+        "no-plan": "allowed sets, but no plan",
+        "conflict": "a plan each, but no policy serves them together",
+    }[failure.kind]
+    return f"error[{FAILURE_CODES[failure.kind].name}]: " + "\n".join(_head(place, failure, what))
+
+
 def _head(place: Place, failure: Failure, what: str) -> list[str]:
     has = "has" if failure.count == 1 else "have"
     lines = [f"{count(failure.count, 'state')} {has} {what}. For example:", f"  {place.state(failure.example)}"]

@@ -21,18 +21,21 @@ _MISSING = "no NAME.policy.json and no NAME.unrealizable.json is about this spec
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """One file: its verification, or the error for which there is none; or a specification that misses both."""
+    """One file: its verification, or the error or limit for which there is none; or a specification without a file."""
 
     path: str
     done: Verified | Disproved | None = None
     error: UserError | None = None
     missing: bool = False
+    limit: str | None = None
 
     @property
     def outcome(self) -> Outcome:
         """The verdict; *not accepted* is what is not refuted, with a certificate that fails."""
         if self.done is None:
-            return "missing" if self.missing else "error"
+            if self.missing:
+                return "missing"
+            return "undecided" if self.error is None else "error"
         verdict: Verdict = self.done.verdict
         return "not accepted" if self.done.not_accepted and verdict != "refuted" else verdict
 
@@ -80,7 +83,7 @@ def _words(entry: Entry, width: int, paint: Paint) -> str:
         case None if entry.missing:
             return f"{painted}  {_MISSING}"
         case None:
-            return painted.rstrip()
+            return f"{painted}  {entry.limit}" if entry.limit else painted.rstrip()
         case Disproved():
             stale = ", certificate stale" if entry.done.found.stale else ""
             return f"{painted}  {entry.done.source.name}, unrealizable: {entry.done.found.kind}{stale}"
@@ -119,7 +122,9 @@ def _json(entry: Entry) -> dict[str, object]:
             return {"file": entry.path, **unrealizable.as_json(entry.done)}
     if entry.missing:
         return {"file": entry.path, "verdict": "missing", "accepted": False}
-    found = entry.error.diagnostics if entry.error is not None else ()
+    if entry.error is None:
+        return {"file": entry.path, "verdict": "undecided", "accepted": False, "reason": entry.limit}
+    found = entry.error.diagnostics
     findings = [finding_json(diagnostic, _blamed(entry)) for diagnostic in found]
     return {"file": entry.path, "verdict": "error", "accepted": False, "diagnostics": findings}
 
@@ -142,4 +147,6 @@ def as_github(folder: Folder) -> str:
                 commands.append(github_command("error", _MISSING, entry.path, None, "missing"))
             case None if entry.error is not None:
                 commands.append(github_commands(entry.error.diagnostics, _blamed(entry)))
+            case None:
+                commands.append(github_command("error", f"undecided: {entry.limit}", entry.path))
     return "\n".join([*commands, github_command("notice", _summary(folder))])

@@ -6,27 +6,36 @@ from collections.abc import Mapping, Sequence
 
 from tumato_symbolic.diagnostics.wording import quoted
 from tumato_symbolic.policy.model import Vocabulary
-from tumato_symbolic.policy.rules import Rule
+from tumato_symbolic.policy.rules import Rule, RuleList
 from tumato_symbolic.report.layout import count
 
 OTHERWISE = "otherwise"
 
 
-def as_text(path: str, vocabulary: Vocabulary, rules: Sequence[Rule], states: int) -> str:
+def as_text(path: str, vocabulary: Vocabulary, found: RuleList, states: int) -> str:
     """The rules with conditions in the syntax of specifications, each with its actions below."""
+    rules = found.rules
     decided = f"{path} decides {count(states, 'state')}"
-    if not rules:
+    if not rules and not found.left:
         return f"{decided}: there are no rules."
     values = dict(vocabulary.variables)
-    lines = [
-        f"{decided}; {count(len(rules), 'rule decides', 'rules decide')} the same. The first that matches counts.",
-        "",
-    ]
+    same = f"{count(len(rules), 'rule decides', 'rules decide')} the same"
+    if found.left:
+        same += f" in {states - found.left:,} of them"
+    lines = [f"{decided}; {same}. The first that matches counts.", ""]
     width = len(str(len(rules)))
     for number, rule in enumerate(rules, 1):
         actions = ", ".join(map(_shown, rule.actions)) or "(nothing)"
         lines += [f"{number:>{width}}  {condition(values, rule)}", f"{'':>{width}}    {actions}"]
-    return "\n".join(lines)
+    return "\n".join((*lines, *_left_out(found)))
+
+
+def _left_out(found: RuleList) -> list[str]:
+    """What was not looked for, and why."""
+    if found.limit is None:
+        return []
+    what = f"{count(found.left, 'state is', 'states are')} left out" if found.left else "no shorter list was looked for"
+    return ["", f"{what[0].upper()}{what[1:]}: {found.limit}. --timeout SECONDS allows more."]
 
 
 def condition(values: Mapping[str, Sequence[str]], rule: Rule) -> str:
@@ -49,10 +58,12 @@ def _shown(name: str) -> str:
     return quoted(name)[1:-1]
 
 
-def as_json(path: str, rules: Sequence[Rule], states: int) -> dict[str, object]:
+def as_json(path: str, found: RuleList, states: int) -> dict[str, object]:
     """The object that `rules --output-format json` prints."""
     listed = [
         {"condition": {name: list(values) for name, values in rule.condition}, "actions": list(rule.actions)}
-        for rule in rules
+        for rule in found.rules
     ]
-    return {"verdict": "ok", "policy": path, "states": states, "rules": listed}
+    verdict = "undecided" if found.left else "ok"
+    more = {} if found.limit is None else {"left": found.left, "limit": found.limit}
+    return {"verdict": verdict, "policy": path, "states": states, "rules": listed, **more}

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Diagnostic, Source
 from tumato_symbolic.policy import as_table, some_decided
-from tumato_symbolic.report.failures import FAILURE_CODES, failure_json, failure_text
+from tumato_symbolic.report.failures import FAILURE_CODES, failure_json, failure_line, failure_text
 from tumato_symbolic.report.findings import finding_json, github_command, github_commands
 from tumato_symbolic.report.layout import Paint, count, every, seconds
 from tumato_symbolic.report.picture import picture
@@ -27,7 +27,8 @@ class Synthesized:
 
     `proof` is None where there was nothing to prove, or where proving was declined; `written` tells whether the
     policy is in `output` (`-` is the standard output). `disproof` and `certificate` are the same for the answer no: the
-    verdict on its certificate, and the file that it was written to.
+    verdict on its certificate, and the file that it was written to. `cut_short` is why the report is a short one: a
+    limit was met.
     """
 
     source: Source
@@ -37,10 +38,11 @@ class Synthesized:
     warnings: tuple[Diagnostic, ...]
     output: str
     written: bool
-    solved_in: float
-    proved_in: float
+    solved_in: float = 0.0
+    proved_in: float = 0.0
     disproof: UnrealizabilityVerdict | None = None
     certificate: str | None = None
+    cut_short: str | None = None
 
     @property
     def place(self) -> Place:
@@ -56,13 +58,29 @@ def as_text(done: Synthesized, colour: bool) -> str:
             parts = _realizable(done, done.outcome, paint)
         case Unrealizable():
             parts = _unrealizable(done, done.outcome, paint)
-        case Undecided(limit, statistics):
-            parts = [
-                f"{done.source.name}: {paint.doubt('undecided')}: {limit}.",
-                *(["\n".join((_states(statistics), *_engine(statistics)))] if statistics else []),
-                "No policy was written.",
-            ]
+        case Undecided():
+            parts = _undecided(done, done.outcome, paint)
     return "\n\n".join(parts)
+
+
+def _undecided(done: Synthesized, outcome: Undecided, paint: Paint) -> list[str]:
+    statistics = outcome.statistics
+    parts = ["\n".join((_states(statistics), *_engine(statistics)))] if statistics else []
+    if done.proof is not None and statistics is not None:
+        parts.append(proof_text(done.proof, statistics.valid, done.proved_in, paint))
+    if done.written:
+        verdict = f"{done.source.name} is {paint.good('realizable')}. The rest of the report is left out"
+        return [f"{verdict}: {outcome.limit}.", *parts, f"{done.output} is written."]
+    found = "a policy was found, and not proved; " if done.proof is not None else ""
+    return [
+        f"{done.source.name}: {paint.doubt('undecided')}: {found}{outcome.limit}.",
+        *parts,
+        f"No policy was written.{_kept(done)}",
+    ]
+
+
+def _kept(done: Synthesized) -> str:
+    return "" if done.output == "-" else f" {done.output}, if it exists, is what it was."
 
 
 def _states(statistics: Statistics) -> str:
@@ -144,16 +162,21 @@ def _unrealizable(done: Synthesized, outcome: Unrealizable, paint: Paint) -> lis
     effects = f"  effects: {ORDERINGS[outcome.statistics.ordering]}"
     head = [verdict, _states(outcome.statistics), effects, *_engine(outcome.statistics)]
     ordering = outcome.statistics.ordering
-    shown = [failure_text(done.place, failure, ordering) for failure in outcome.failures]
-    kept = "" if done.output == "-" else f" {done.output}, if it exists, is what it was."
-    written = "\n".join((f"No policy was written.{kept}", *_certified(done, ordering, paint)))
+    if done.cut_short is None:
+        shown = [failure_text(done.place, failure, ordering) for failure in outcome.failures]
+    else:
+        shown = [failure_line(done.place, failure) for failure in outcome.failures]
+        shown.append(f"The rest of the report is left out: {done.cut_short}.")
+    written = "\n".join((f"No policy was written.{_kept(done)}", *_certified(done, outcome, paint)))
     explain = f"`tumato-sym explain {shlex.quote(done.source.name)}` says why, line by line, and what would do."
     return ["\n".join(head), *shown, f"{written}\n{explain}"]
 
 
-def _certified(done: Synthesized, ordering: Ordering, paint: Paint) -> list[str]:
+def _certified(done: Synthesized, outcome: Unrealizable, paint: Paint) -> list[str]:
     """What became of the certificate that there is no policy."""
-    lines = []
+    lines, ordering = [], outcome.statistics.ordering
+    if outcome.limit is not None and done.certificate is None:
+        lines.append(paint.doubt(f"It is not proved that there is none: {outcome.limit}."))
     if done.disproof is not None:
         from tumato_symbolic.report.unrealizable import proof_line
 
@@ -216,7 +239,7 @@ def _verdict(done: Synthesized) -> str:
 
 
 def _limit(done: Synthesized) -> str | None:
-    if isinstance(done.outcome, Undecided):
+    if isinstance(done.outcome, Undecided | Unrealizable):
         return done.outcome.limit
     return "the proof met its limits" if _verdict(done) == "undecided" else None
 
@@ -232,7 +255,9 @@ def as_github(done: Synthesized) -> str:
         case "undecided":
             commands.append(github_command("error", f"undecided: {_limit(done)}", file))
     if isinstance(outcome, Unrealizable):
+        ordering = outcome.statistics.ordering
         for failure in outcome.failures:
-            message = f"not realizable: {failure_text(done.place, failure, outcome.statistics.ordering)}"
+            text = failure_line(done.place, failure) if done.cut_short else failure_text(done.place, failure, ordering)
+            message = f"not realizable: {text}"
             commands.append(github_command("error", message, file, title=FAILURE_CODES[failure.kind].name))
     return "\n".join(commands)

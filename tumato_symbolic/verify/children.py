@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import gc
 import os
-import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar
+
+from tumato_symbolic.limits.processes import end_with
 
 if TYPE_CHECKING:
     from multiprocessing.connection import Connection
@@ -40,21 +41,19 @@ class ChildError(Exception):
     """An exception in a child, with its traceback."""
 
 
-def can_fork() -> bool:
-    """Whether this platform has children that begin with all that is known here."""
-    return hasattr(os, "fork") and sys.platform != "darwin"
-
-
 def cores() -> int:
     """How many processors this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def in_children(tasks: Iterable[Callable[[], Found]], jobs: int) -> list[Found | Lost]:
+def in_children(
+    tasks: Iterable[Callable[[], Found]], jobs: int, heard: Callable[[int, Found | Lost], None] | None = None
+) -> list[Found | Lost]:
     """The answers of all `tasks`, in their order, whoever comes first; up to `jobs` children work at a time.
 
-    A task is taken from `tasks` when there is room for its child. Raises `ChildError` where a task raises, and
-    `MemoryError` where it is out of memory. No child is left when this ends, however it ends.
+    A task is taken from `tasks` when there is room for its child; `heard` is told each answer, with the task's number,
+    when it comes. Raises `ChildError` where a task raises, and `MemoryError` where it is out of memory. No child is
+    left when this ends, however it ends.
     """
     from multiprocessing import get_context
     from multiprocessing.connection import wait
@@ -67,7 +66,7 @@ def in_children(tasks: Iterable[Callable[[], Found]], jobs: int) -> list[Found |
             while len(running) < jobs and (task := next(waiting, None)) is not None:
                 reader, writer = context.Pipe(duplex=False)
                 with _ctrl_c_later():
-                    child = context.Process(target=_work, args=(writer, task[1]), daemon=True)
+                    child = context.Process(target=_work, args=(writer, task[1], os.getpid()), daemon=True)
                     child.start()
                     running[reader] = task[0], child
                 writer.close()
@@ -77,6 +76,8 @@ def in_children(tasks: Iterable[Callable[[], Found]], jobs: int) -> list[Found |
                 number, child = running[ready]
                 found[number] = _received(ready, child)
                 del running[ready]
+                if heard is not None:
+                    heard(number, found[number])
     finally:
         for _, child in running.values():
             child.kill()
@@ -85,8 +86,9 @@ def in_children(tasks: Iterable[Callable[[], Found]], jobs: int) -> list[Found |
             reader.close()
 
 
-def _work(writer: Connection, task: Callable[[], object]) -> None:
+def _work(writer: Connection, task: Callable[[], object], parent: int) -> None:
     """All that a child does."""
+    end_with(parent)
     gc.freeze()  # what was there before is not looked at again, and so not copied
     try:
         writer.send((task(),))

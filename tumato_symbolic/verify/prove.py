@@ -8,10 +8,10 @@ from dataclasses import replace
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.limits import Budget, Context, LimitReachedError
+from tumato_symbolic.limits.processes import can_fork
 from tumato_symbolic.policy.bind import bind, made_for_less
 from tumato_symbolic.policy.model import Policy
 from tumato_symbolic.spec import Ordering, Spec
-from tumato_symbolic.verify.children import can_fork
 from tumato_symbolic.verify.provers import Prover, make_prover
 from tumato_symbolic.verify.result import (
     PROPERTIES,
@@ -23,6 +23,7 @@ from tumato_symbolic.verify.result import (
     Refutation,
     Verdict,
     Verification,
+    stopped,
 )
 
 OBLIGATION_BUDGET = 30.0
@@ -107,15 +108,6 @@ def _learn(
     context: Context, so_far: Verification, results: Sequence[PropertyResult], asked: Sequence[PropertyName]
 ) -> None:
     context.learn(_with(so_far, results, asked))
-
-
-def stopped(known: Verification, limit: str) -> Verification:
-    """The answer of work that a limit ended, from what its context had learned by then."""
-    properties = (
-        replace(each, reason=limit) if (each.verdict, each.reason) == ("undecided", None) else each
-        for each in known.properties
-    )
-    return replace(known, properties=tuple(properties))
 
 
 def _asked(properties: Sequence[str]) -> list[PropertyName]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 from tumato_symbolic.semantics import ActionSet, Objection, Run, State
@@ -97,3 +97,12 @@ class UnrealizabilityVerdict:
     reason: str | None = None
     state: State | None = None
     chosen: ActionSet | None = None
+
+
+def stopped(known: Verification, limit: str) -> Verification:
+    """The answer of work that a limit ended, from what its context had learned by then."""
+    properties = (
+        replace(each, reason=limit) if (each.verdict, each.reason) == ("undecided", None) else each
+        for each in known.properties
+    )
+    return replace(known, properties=tuple(properties))

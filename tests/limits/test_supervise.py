@@ -1,0 +1,161 @@
+"""A command in a child process: its limits hold, what it knew is known, nothing is left."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+
+import pytest
+
+from tumato_symbolic.cli import console, supervise
+from tumato_symbolic.cli.supervise import ChildCrashedError, EndedError, TerminatedError, supervised
+from tumato_symbolic.limits import Context, Limits
+from tumato_symbolic.limits.processes import can_fork, end_with
+from tumato_symbolic.verify.children import in_children
+
+pytestmark = pytest.mark.skipif(not can_fork(), reason="there are no children here")
+
+
+@pytest.fixture(autouse=True)
+def _impatient(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(supervise, "GRACE", 0.05)
+
+
+def _for_ever() -> int:
+    while True:
+        time.sleep(100)
+
+
+def _soon() -> Context:
+    return Context(Limits(seconds=0.5))
+
+
+def _wait_for_the_end_of(process: int) -> None:
+    """A process is gone, or has ended and was not yet asked for its exit code; nobody waits for one that goes on."""
+    with suppress(FileNotFoundError):
+        while "State:\tZ" not in Path(f"/proc/{process}/status").read_text():
+            time.sleep(0.01)
+
+
+@pytest.mark.parametrize("code", [0, 1, 3, 70])
+def test_the_exit_code_is_the_childs(code: int) -> None:
+    """A child that ends by itself decides the exit code, and hears of no limit."""
+    assert supervised(lambda: code, Context(Limits(seconds=1000.0))) == code
+
+
+def test_a_child_that_does_not_end_is_ended() -> None:
+    """Whatever a child is at, it is gone soon after the limit; what it did and knew last is known."""
+    context = _soon()
+
+    def work() -> int:
+        context.enter("proving goals")
+        context.learn(("an", "answer"))
+        return _for_ever()
+
+    with pytest.raises(EndedError, match=r"^the time limit of 0.5 s was met while proving goals$"):
+        supervised(work, context)
+    assert context.known == ("an", "answer")
+    with pytest.raises(ChildProcessError):
+        os.waitpid(-1, os.WNOHANG)
+
+
+def test_children_of_the_child_end_with_it(tmp_path: Path) -> None:
+    """Processes that the child has made are ended as well."""
+    place = tmp_path / "number"
+
+    def grandchild() -> int:
+        place.write_text(str(os.getpid()))
+        return _for_ever()
+
+    with pytest.raises(EndedError):
+        supervised(lambda: len(in_children([grandchild], 1)), Context(Limits(seconds=1.0)))
+    _wait_for_the_end_of(int(place.read_text()))
+
+
+def test_memory_is_limited() -> None:
+    """A child that takes more memory than it may is ended, whoever takes it."""
+    context = Context(Limits(megabytes=300))
+
+    def work() -> int:
+        context.enter("growing")
+        grown = [b"x" * 2**20 for _ in range(400)]
+        return _for_ever() + len(grown)
+
+    with pytest.raises(EndedError, match=r"^the memory limit of 300 MB was met while growing$"):
+        supervised(work, context)
+
+
+def test_an_output_that_was_begun_is_ended_first(tmp_path: Path) -> None:
+    """A limit that is met while something is written waits for that; what would be written later is not."""
+    context = _soon()
+
+    def work() -> int:
+        with console.writing():
+            (tmp_path / "one").write_text("half")
+            time.sleep(0.8)
+            (tmp_path / "one").write_text("whole")
+        with console.writing():
+            (tmp_path / "other").write_text("whole")
+        return 0
+
+    with pytest.raises(EndedError):
+        supervised(work, context)
+    assert (tmp_path / "one").read_text() == "whole"
+    assert not (tmp_path / "other").exists()
+
+
+@pytest.mark.parametrize(("number", "raised"), [(signal.SIGINT, KeyboardInterrupt), (signal.SIGTERM, TerminatedError)])
+def test_signals_end_the_child(number: int, raised: type[BaseException]) -> None:
+    """Ctrl-C and SIGTERM end the child, and leave what it knew."""
+    context, parent = Context(Limits(seconds=1000.0)), os.getpid()
+
+    def work() -> int:
+        context.learn("something")
+        os.kill(parent, number)
+        return _for_ever()
+
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)  # a background job begins without it
+    try:
+        with pytest.raises(raised):
+            supervised(work, context)
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert context.known == "something"
+
+
+def test_a_child_that_crashes_is_a_bug() -> None:
+    """A signal that nobody sent is no verdict; one that the system sends for want of memory is undecided."""
+
+    def ended_by(number: int) -> Callable[[], int]:
+        return lambda: os.kill(os.getpid(), number) or 0
+
+    with pytest.raises(ChildCrashedError, match="ended by signal"):
+        supervised(ended_by(signal.SIGUSR1), Context())
+    with pytest.raises(EndedError, match="for want of memory"):
+        supervised(ended_by(signal.SIGKILL), Context())
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux ends children with their parents")
+def test_a_child_ends_with_its_parent() -> None:
+    """Even a parent that is killed leaves no child behind."""
+    code = (
+        "import os, time\nfrom tests.limits.test_supervise import orphan\nparent = os.getpid()\n"
+        "child = os.fork()\nif child == 0: orphan(parent)\nprint(child, flush=True)\ntime.sleep(100)"
+    )
+    with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        child = int(process.stdout.readline())
+        process.kill()
+    _wait_for_the_end_of(child)
+
+
+def orphan(parent: int) -> None:
+    """What the child does in the test above."""
+    end_with(parent)
+    _for_ever()

@@ -1,0 +1,241 @@
+"""Limits that hold: a command in a child process, which is ended when it does not end by itself.
+
+A stage may sit in one call of a solver, where neither signals nor threads of Python are served. So the work is done by
+a child; this process waits, shows progress, and knows what the child knows: every stage, and every finding.
+"""
+
+from __future__ import annotations
+
+import os
+import pickle
+import select
+import signal
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, field
+from types import FrameType
+from typing import NoReturn
+
+from tumato_symbolic.cli import console
+from tumato_symbolic.limits import Context
+from tumato_symbolic.limits.processes import end_with, megabytes_of
+
+GRACE = 0.5
+"""Seconds after the time limit in which a command may still report by itself."""
+
+PATIENCE_WITH_OUTPUT = 2.0
+"""Seconds that a command which is interrupted may go on with an output that it has begun."""
+
+_TICK = 0.05
+"""Seconds between two looks at the child."""
+
+_FAREWELL = 1.0
+"""Seconds in which the children of a child that was ended end as well."""
+
+_HEAD = 9
+"""Bytes before the body of a message: its kind, and how long the body is."""
+
+_STAGE, _KNOWN, _WRITING, _WRITTEN = b"S", b"K", b"W", b"D"
+
+
+class EndedError(Exception):
+    """The child was ended, or was ended by the system; the message says why. `context.known` is what it knew."""
+
+
+class ChildCrashedError(Exception):
+    """The child ended by a signal that nobody sent: a bug in it, or in a solver."""
+
+
+class TerminatedError(BaseException):
+    """This process was told to end (SIGTERM, SIGHUP)."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(number)
+        self.number = number
+
+
+def supervised(work: Callable[[], int], context: Context) -> int:
+    """The exit code of `work`, which is done by a child within the limits of `context`.
+
+    In the child, what `context` is told and learns is sent here. Raises `EndedError` where a limit was met,
+    `KeyboardInterrupt` after Ctrl-C, both with what is known in `context.known`, and `ChildCrashedError`. No child is
+    left, however this ends.
+    """
+    messages, sender = os.pipe()
+    leave, granter = os.pipe()
+    parent = os.getpid()
+    console.flush()
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM, signal.SIGHUP})
+    child = os.fork()
+    if child == 0:
+        os.close(messages)
+        os.close(granter)
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGTERM, signal.SIGHUP})  # Ctrl-C is for the parent
+        _be_the_child(work, context, _Sender(sender, leave), parent)
+    os.close(sender)
+    os.close(leave)
+    handlers = {number: signal.signal(number, _terminate) for number in (signal.SIGTERM, signal.SIGHUP)}
+    watch = _Watch(child, messages, granter, context)
+    try:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        return watch.run()
+    finally:
+        watch.end()
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _terminate(number: int, _: FrameType | None) -> NoReturn:
+    raise TerminatedError(number)
+
+
+def _be_the_child(work: Callable[[], int], context: Context, sender: _Sender, parent: int) -> NoReturn:
+    code = 70
+    try:
+        end_with(parent)
+        console.ask_before_writing(sender.ask)
+        context.progress = lambda stage: sender.send(_STAGE, stage.encode())
+        context.learned = lambda known: sender.send(_KNOWN, pickle.dumps(known, pickle.HIGHEST_PROTOCOL))
+        code = work()
+    finally:
+        os._exit(code)
+
+
+class _Sender:
+    """The child's end: what it does and knows, and its requests to write."""
+
+    def __init__(self, messages: int, leave: int) -> None:
+        self._messages, self._leave, self._owner = messages, leave, os.getpid()
+
+    def send(self, kind: bytes, body: bytes = b"") -> None:
+        """Send a message; a child's child has no say, and an orphan nobody to say it to."""
+        if os.getpid() == self._owner:
+            with suppress(BrokenPipeError):
+                rest = memoryview(kind + len(body).to_bytes(_HEAD - 1, "big") + body)
+                while rest:
+                    rest = rest[os.write(self._messages, rest) :]
+
+    def ask(self, begins: bool) -> None:
+        """Wait for leave to write, or say that it is done."""
+        self.send(_WRITING if begins else _WRITTEN)
+        if begins and os.getpid() == self._owner:
+            os.read(self._leave, 1)
+
+
+@dataclass
+class _Watch:
+    """The parent's end."""
+
+    child: int
+    messages: int
+    granter: int
+    context: Context
+    _received: bytearray = field(default_factory=bytearray)
+    _known: bytes | None = None
+    _writing: bool = False
+    _open: bool = True
+    _status: int | None = None
+
+    def run(self) -> int:
+        """Wait for the exit code."""
+        line = console.ProgressLine(self.context)
+        try:
+            while not self._ended():
+                line.draw()
+                self._check()
+                self._receive(line)
+            return self._code()
+        except (EndedError, KeyboardInterrupt, TerminatedError):
+            self._let_it_write(line)
+            self.kill()
+            while self._open and self._receive(line, 0):
+                pass  # what it said last
+            self.context.known = None if self._known is None else pickle.loads(self._known)
+            raise
+        finally:
+            line.wipe()
+
+    def kill(self) -> None:
+        """End the child, and with it its own children."""
+        if self._status is None:
+            with suppress(ProcessLookupError):
+                os.kill(self.child, signal.SIGKILL)
+
+    def end(self) -> None:
+        """Leave nothing behind."""
+        self.kill()
+        if self._status is None:
+            self._status = os.waitpid(self.child, 0)[1]
+        while self._open and select.select([self.messages], [], [], _FAREWELL)[0]:
+            self._open = bool(os.read(self.messages, 2**20))  # whoever could still send has ended when it is closed
+        os.close(self.messages)
+        os.close(self.granter)
+
+    def _ended(self) -> bool:
+        """Whether the child has ended, all that it sent having been received."""
+        if self._status is None:
+            found, status = os.waitpid(self.child, os.WNOHANG if self._open else 0)
+            self._status = status if found else None
+        return self._status is not None and not (self._open and select.select([self.messages], [], [], 0)[0])
+
+    def _let_it_write(self, line: console.ProgressLine) -> None:
+        """Wait for the end of an output that was begun, for a while."""
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM, signal.SIGHUP})
+        latest = time.monotonic() + PATIENCE_WITH_OUTPUT
+        while self._writing and self._open and time.monotonic() < latest:
+            self._receive(line)
+
+    def _check(self) -> None:
+        """Raise `EndedError` where a limit was met, and no output is under way."""
+        why = None if self._writing else self._limit()
+        if why is not None:
+            raise EndedError(why)
+
+    def _limit(self) -> str | None:
+        """Which limit was met, in words."""
+        limits, deadline = self.context.limits, self.context.deadline
+        if deadline is not None and time.monotonic() >= deadline + GRACE:
+            return self.context.described()
+        if limits.megabytes is not None and megabytes_of(self.child) > limits.megabytes:
+            return self.context.described("memory")
+        return None
+
+    def _receive(self, line: console.ProgressLine, within: float = _TICK) -> bool:
+        """Take what the child sends within some seconds; False where it sends nothing."""
+        if not select.select([self.messages], [], [], within)[0]:
+            return False
+        data = os.read(self.messages, 2**20)
+        self._open = bool(data)
+        self._received += data
+        while len(self._received) >= _HEAD:
+            end = _HEAD + int.from_bytes(self._received[1:_HEAD], "big")
+            if len(self._received) < end:
+                break
+            kind, body = bytes(self._received[:1]), bytes(self._received[_HEAD:end])
+            del self._received[:end]
+            self._take(kind, body, line)
+        return True
+
+    def _take(self, kind: bytes, body: bytes, line: console.ProgressLine) -> None:
+        match kind:
+            case b"S":
+                self.context.enter(body.decode())
+            case b"K":
+                self._known = body
+            case b"W" if self._limit() is None:
+                line.wipe()
+                self._writing = True
+                with suppress(BrokenPipeError):
+                    os.write(self.granter, b".")
+            case b"D":
+                self._writing = False
+
+    def _code(self) -> int:
+        code = os.waitstatus_to_exitcode(self._status or 0)
+        if code >= 0:
+            return code
+        if code == -signal.SIGKILL:
+            raise EndedError("the system ended the process that worked, for want of memory most likely")
+        raise ChildCrashedError(f"the process that worked was ended by signal {-code} while {self.context.stage}")

@@ -1,0 +1,56 @@
+"""Child processes: whether they can be made, that they end with their parent, and how much memory they take."""
+
+from __future__ import annotations
+
+import os
+import sys
+from contextlib import suppress
+from pathlib import Path
+
+
+def can_fork() -> bool:
+    """Whether this platform has children that begin with all that is known here."""
+    return hasattr(os, "fork") and sys.platform != "darwin"
+
+
+def end_with(parent: int) -> None:
+    """Let this process be killed when its parent, which has this number, ends, however it ends. Linux only."""
+    if sys.platform == "linux":
+        import ctypes
+        import signal
+
+        with suppress(OSError, AttributeError):
+            ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
+        if os.getppid() != parent:
+            os._exit(1)
+
+
+def megabytes_of(process: int) -> float:
+    """How much memory a process and its descendants take together, what they share once; 0 where nobody tells."""
+    family = _family(process)
+    if len(family) == 1:
+        return _resident(process)
+    return sum(_proportional(each) for each in family)
+
+
+def _resident(process: int) -> float:
+    with suppress(OSError, ValueError, IndexError):
+        return int(Path(f"/proc/{process}/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 2**20
+    return 0.0
+
+
+def _proportional(process: int) -> float:
+    """Its own memory and its share of what it has in common with others."""
+    with suppress(OSError, ValueError, StopIteration):
+        lines = Path(f"/proc/{process}/smaps_rollup").read_text().splitlines()
+        return int(next(line for line in lines if line.startswith("Pss:")).split()[1]) / 2**10
+    return 0.0
+
+
+def _family(process: int) -> list[int]:
+    """A process and its descendants."""
+    found = [process]
+    for each in found:
+        with suppress(OSError, ValueError):
+            found += map(int, Path(f"/proc/{each}/task/{each}/children").read_text().split())
+    return found
