@@ -24,7 +24,7 @@ WALK = (
     "-k",
     "not z3 and not once and not parts and not agree_also and not concurrent and not mixed and not interacting-by-case",
 )
-PROCESSES = ("tests/verify/test_jobs.py", "-k", "not depend")
+PROCESSES = ("tests/verify/test_jobs.py", "-k", "not depend and not time")
 Z3 = (
     "tests/verify/test_forged_steps.py",
     "tests/verify/test_forged_ranks.py",
@@ -41,6 +41,15 @@ VERIFY = (
     "tests/verify/test_forged_ranks.py",
     *STRANGERS,
 )
+CHECKER = (
+    "tests/checker/test_files.py",
+    "tests/checker/test_language.py",
+    "tests/checker/test_cubes.py",
+    "tests/checker/test_layers.py",
+    "tests/checker/test_conflicts.py",
+    "tests/checker/test_refusals.py",
+    "tests/checker/test_forged.py",
+)
 TESTS: dict[str, tuple[str, ...]] = {
     "tumato_symbolic/semantics": SEMANTICS,
     "tumato_symbolic/symbolic/steps.py": ("tests/symbolic/test_steps.py",),
@@ -52,7 +61,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "tumato_symbolic/verify/no_policy": NO_POLICY,
     "tumato_symbolic/verify/children.py": PROCESSES,
     "tumato_symbolic/verify": VERIFY,
-    "proofs/checker.py": ("tests/checker/test_files.py", "tests/checker/test_language.py"),
+    "proofs/checker.py": CHECKER,
 }
 """Module or folder, and what pytest is told; the first entry that fits a module counts."""
 

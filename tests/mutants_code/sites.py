@@ -1,7 +1,7 @@
 """Faults that can be planted in a module: every small change of its syntax tree, by a name that outlives line numbers.
 
-What is left alone: types, decorators, texts, what is raised (only that it is raised counts), and constants in capitals,
-which are limits of time and memory.
+What is left alone: types, decorators, texts, what is raised (only that it is raised counts), constants in capitals,
+which are limits of time and memory, and `strict=True`, which only asserts.
 """
 
 from __future__ import annotations
@@ -139,6 +139,8 @@ def _is_left_alone(node: ast.AST, field: str) -> bool:
     if isinstance(node, ast.Module):
         return False
     if isinstance(node, (ast.Raise, ast.JoinedStr, ast.Import, ast.ImportFrom)):
+        return True
+    if isinstance(node, ast.keyword) and node.arg == "strict":
         return True
     targets = node.targets if isinstance(node, ast.Assign) else [node.target] if isinstance(node, ast.AnnAssign) else []
     names = [target.id for target in targets if isinstance(target, ast.Name)]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from tumato_symbolic.policy.unrealizable import (
@@ -121,22 +121,24 @@ def cubes(reason: NoAllowedSet, states: list[State], actions: int) -> Iterator[N
             for idle in (cube.idle, cube.idle ^ {action})
         ]
         changed += [replace(cube, idle=cube.idle ^ {action}) for action in range(actions)]
-        changed += [replace(cube, violation=other) for other in _violations(cube.violation, actions)]
+        changed += [replace(cube, violation=other) for other in violations(cube.violation, actions)]
         for other in changed:
             yield replace(reason, cubes=exchanged(reason.cubes, place, other))
 
 
-def _violations(given: Violation, actions: int) -> Iterator[Violation]:
+def violations(given: Violation, actions: int, rules: Sequence[str] = ()) -> Iterator[Violation]:
+    """Every other condition that a cube may name, and the one that it names a little changed."""
     yield Violation("idle")
     yield Violation("nominal-unsafe")
     for one in range(actions):
         yield Violation("precondition", (one,))
-        for other in range(one, actions):
+        for other in range(actions):
+            yield Violation("precondition", (one, other))
             yield Violation("resource", (one, other))
             yield Violation("nominal-conflict", (other, one))
-    yield Violation("precondition", (0, 0))
-    yield replace(given, kind="reaction-rule")
-    yield replace(given, rule="executing nobody")
+            yield Violation("resource", (one, other, (other + 1) % actions))
+    for rule in (*rules, "executing nobody"):
+        yield Violation("reaction-rule", rule=rule)
     for outcome in (*fewer(given.outcome), given.outcome[::-1], given.outcome * 2):
         yield replace(given, kind="unsafe", outcome=outcome)
 

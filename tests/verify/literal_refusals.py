@@ -83,10 +83,11 @@ def _no_allowed_set(meaning: Meaning, reason: NoAllowedSet) -> bool:
         mine = [cube for cube in reason.cubes if cube.executed <= chosen and not cube.idle & chosen]
         if len(mine) != 1:
             return False
-    return all(not cube.executed & cube.idle and _violated(meaning, reason.state, cube) for cube in reason.cubes)
+    return all(not cube.executed & cube.idle and violated(meaning, reason.state, cube) for cube in reason.cubes)
 
 
-def _violated(meaning: Meaning, state: literal.State, cube: Cube) -> bool:
+def violated(meaning: Meaning, state: literal.State, cube: Cube) -> bool:
+    """Whether all sets of a cube violate the condition that it names."""
     spec, given = meaning.spec, cube.violation
     still_open = set(range(len(spec.actions))) - cube.executed - cube.idle
     match given.kind:

@@ -2,27 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from random import Random
 
 import pytest
+import z3
 
 from tests.semantics import literal
 from tests.semantics.build import Build, constraint, priority, when
 from tests.unrealizability import certified
-from tests.verify.forgeries import cuts, forged
-from tests.verify.literal_refusals import Meaning, distance, is_proof
+from tests.verify.forgeries import cuts, forged, violations
+from tests.verify.literal_refusals import Meaning, distance, is_proof, violated
 from tests.verify.literal_refusals import clause as literal_clause
 from tests.verify.test_unrealizable_by_hand import conflicting, line, self_conflicting, stuck
+from tumato_symbolic.limits import Budget
 from tumato_symbolic.policy.unrealizable import Conflict, Cut, NoAllowedSet, NoPlan, Unrealizability
 from tumato_symbolic.policy.unrealizable_file import bind
-from tumato_symbolic.spec import And, Iff, Not, Or, Ordering, Spec
+from tumato_symbolic.spec import And, Iff, Not, Or, Ordering, Spec, canonical_text
 from tumato_symbolic.verify import verify_unrealizable
 from tumato_symbolic.verify.no_policy import no_plan
-from tumato_symbolic.verify.no_policy.allowed_step import FalseClaimError
+from tumato_symbolic.verify.no_policy.allowed_step import AllowedStep, FalseClaimError
 from tumato_symbolic.verify.no_policy.conflict import clause
 from tumato_symbolic.verify.no_policy.distances import Distances
+from tumato_symbolic.verify.no_policy.no_allowed_set import _unproved
 
 
 def crossing(bound: int | None = None) -> Spec:
@@ -82,7 +84,7 @@ def test_the_clause_of_every_cut(name: str) -> None:
     met = {"cut": 0, "none": 0}
     for bound in {spec.max_plan_length, None, 1, 2, 3, 5}:
         bounded = replace(spec, max_plan_length=bound)
-        distances = Distances(reason.distances, bound)
+        distances = Distances(reason.distances, bound, z3.Context())
         for number, cut in enumerate(cuts(reason, literal.states(spec))):
             wanted = literal_clause(bounded, reason, cut)
             try:
@@ -103,7 +105,7 @@ def test_distances_are_cut_off_at_the_bound() -> None:
     assert isinstance(reason, Conflict)
     for bound in (None, 1, 2, 3, 4):
         bounded = replace(spec, max_plan_length=bound)
-        distances = Distances(reason.distances, bound)
+        distances = Distances(reason.distances, bound, z3.Context())
         for goal in reason.goals:
             for state in literal.states(spec):
                 far = distance(bounded, reason, goal.root, state)
@@ -113,13 +115,14 @@ def test_distances_are_cut_off_at_the_bound() -> None:
                     assert distances.near(goal.root, state, steps) == near
     negative = replace(reason.distances, leaves=(-1, *reason.distances.leaves[1:]))
     with pytest.raises(FalseClaimError, match="negative"):
-        Distances(negative, None)
+        Distances(negative, None, z3.Context())
 
 
-def _judged(spec: Spec, certificates: Iterator[Unrealizability], count: int) -> tuple[int, int]:
+def _judged(spec: Spec, certificate: Unrealizability, count: int) -> tuple[int, int]:
     """How many are proofs of how many, sampled; each is judged as it should be, and told why not."""
-    everything, meanings = list(certificates), {each: Meaning(spec, each) for each in ("any", "first")}
-    chosen = Random(len(everything)).sample(everything, min(count, len(everything)))
+    everything = list(forged(certificate, literal.states(spec)))
+    meanings = {each: Meaning(spec, each) for each in ("any", "first")}
+    chosen = [certificate, *Random(len(everything)).sample(everything, min(count, len(everything)))]
     right = 0
     for each in chosen:
         answer = verify_unrealizable(each, spec, ordering=each.ordering)
@@ -136,7 +139,7 @@ def _judged(spec: Spec, certificates: Iterator[Unrealizability], count: int) -> 
 def test_forged_conflicts(name: str) -> None:
     """Options, distances, starts, cuts and shared roots, each changed by one."""
     spec, certificate = CONFLICTS[name]
-    right, judged = _judged(spec, forged(certificate, literal.states(spec)), 40)
+    right, judged = _judged(spec, certificate, 40)
     assert 0 < right < judged
 
 
@@ -170,7 +173,7 @@ def test_forged_layers(bound: int | None, walk: bool, monkeypatch: pytest.Monkey
         spec = replace(spec, actions=spec.actions[:2])
     certificate = certified(spec, "any")
     assert certificate is not None and isinstance(certificate.reason, NoPlan)
-    right, judged = _judged(spec, forged(certificate, literal.states(spec)), 40)
+    right, judged = _judged(spec, certificate, 40)
     assert 0 < right < judged
 
 
@@ -203,7 +206,7 @@ def test_forged_cubes(number: int, ordering: Ordering) -> None:
     spec = [stuck()[1], stuck(3, [Not(Iff(*_two(stuck()[0])))])[1], knotted()][number]
     certificate = certified(spec, ordering)
     assert certificate is not None and isinstance(certificate.reason, NoAllowedSet)
-    right, judged = _judged(spec, forged(certificate, literal.states(spec)), 60)
+    right, judged = _judged(spec, certificate, 60)
     assert 0 < right < judged
 
 
@@ -214,6 +217,22 @@ def _two(build: Build) -> tuple:
     return Executing(0), Executing(1)
 
 
+@pytest.mark.parametrize("ordering", ["any", "first"])
+def test_every_violation_of_every_cube(ordering: Ordering) -> None:
+    """A condition that a cube names is violated by all its sets, or is none: all conditions, of each cube."""
+    for spec in (stuck()[1], stuck(3, [Not(Iff(*_two(stuck()[0])))])[1], knotted()):
+        certificate = certified(spec, ordering)
+        assert certificate is not None and isinstance(certificate.reason, NoAllowedSet)
+        reason, meaning = certificate.reason, Meaning(spec, ordering)
+        step = AllowedStep(spec, ordering, Budget())
+        rules = [canonical_text(spec, rule.formula) for rule in spec.reaction_rules]
+        for cube in reason.cubes or ():
+            for violation in (cube.violation, *violations(cube.violation, len(spec.actions), rules)):
+                each = replace(cube, violation=violation)
+                given = _unproved(step, reason.state, each, ordering)
+                assert (given is None) == violated(meaning, reason.state, each), (each, given)
+
+
 def test_a_cut_without_an_end_is_none() -> None:
     """A path has an end; where it is missing the certificate is refuted, not misread."""
     spec, certificate = CONFLICTS["conflicting"]
@@ -222,3 +241,28 @@ def test_a_cut_without_an_end_is_none() -> None:
     endless = Cut("path", reason.cuts[0].goal, reason.cuts[0].states, None)
     answer = verify_unrealizable(replace(certificate, reason=replace(reason, cuts=(endless, *reason.cuts[1:]))), spec)
     assert (answer.verdict, "has no end" in (answer.reason or "")) == ("refuted", True)
+
+
+@pytest.mark.parametrize("walk", [False, True], ids=["Z3", "walk"])
+def test_claims_are_counted(walk: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every claim that was checked, once, and who was needed: Z3, or the walk too.
+
+    No plan: the state, its goals, and for the one goal its first layer, that no layer meets it, and what follows. A
+    conflict: choices and cuts, evaluated; for both goals 0 where they hold, and how they fall; options; no choice.
+    """
+    if walk:
+        monkeypatch.setattr(no_plan, "MANY_NODES", -1)
+    certificate = certified(line(2), "any")
+    assert certificate is not None
+    answer = verify_unrealizable(certificate, line(2))
+    assert (answer.obligations, answer.by_solver, answer.by_walk) == (5, True, walk)
+    spec, conflict = CONFLICTS["conflicting"]
+    reason = conflict.reason
+    assert isinstance(reason, Conflict)
+    answer = verify_unrealizable(conflict, spec)
+    checked = 2 * len(reason.choices) + len(reason.cuts) + 2 * len({goal.root for goal in reason.goals}) + 1
+    assert (answer.obligations, answer.by_solver, answer.by_walk) == (checked, True, False)
+    cubes = certified(stuck()[1], "any")
+    assert cubes is not None and isinstance(cubes.reason, NoAllowedSet) and cubes.reason.cubes is not None
+    answer = verify_unrealizable(cubes, stuck()[1])
+    assert (answer.obligations, answer.by_solver, answer.by_walk) == (3 + len(cubes.reason.cubes), False, False)
