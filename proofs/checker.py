@@ -16,8 +16,7 @@ Exit codes: 0 all hold; 1 one fails; 2 unreadable input, or a specification with
 state; 70 this program is broken. A certificate (ranks) is judged as well: one that is wrong, or stale (made for another
 specification), counts only with `--strict`; one that is absent or incomplete never does.
 
-Not judged: whether the specification says what was meant. Of the limits on the size of a text (docs/language.md) only
-those on numbers are kept.
+Not judged: whether the specification says what was meant.
 """
 # ruff: noqa: ANN401, D102, N818
 
@@ -45,6 +44,11 @@ Effect = dict[int, str]  # an assignment: the new value by the position of its v
 Residual = tuple[frozenset[Formula], ActionSet]  # goal bodies, and those of their actions that are executed first
 
 LARGEST = 2_000_000  # so many states, sets or outcomes in one state, assignments of one set of effects are looked at
+
+# Limits of the language (docs/language.md).
+MOST_BYTES, MOST_DIGITS, MOST_LEVELS = 500_000, 18, 100
+MOST_VARIABLES, MOST_VALUES, MOST_ACTIONS, LARGEST_NUMBER = 1_000, 10_000, 1_000, 1_000_000_000
+MOST_TERMS, MOST_TERMS_IN_ALL, MOST_OUTCOMES = 100_000, 1_000_000, 10_000
 
 
 class Unreadable(Exception):
@@ -107,10 +111,10 @@ def tokens_of(text: str) -> list[tuple[str, int]]:
 
 # ----------------------------------------------------------------------------------------------------------------------
 # 2. Parsing (docs/language.md). A formula is a nested tuple:
-#      ("true",)  ("false",)  ("not", f)  ("and", f, g, …)  ("or", f, g, …)  ("iff", f, g)
+#      ("true",)  ("false",)  ("not", f)  ("and", f, g, …)  ("or", f, g, …)  ("if", f, g)  ("iff", f, g)
 #      ("is", variable, value)  ("executing", action)  ("alias", name)
 #    The parser leaves names as (text, line); section 3 replaces them: variables by their position, aliases by their
-#    meaning. `IF p THEN q` is read as `NOT p OR q`.
+#    meaning, and `IF p THEN q` by `NOT p OR q`.
 
 
 @dataclass
@@ -145,6 +149,8 @@ class Specification:
     lines: list[str]
     variables: dict[str, tuple[str, ...]] = field(default_factory=dict)
     aliases: dict[str, Formula] = field(default_factory=dict)
+    sizes: dict[str, tuple[int, int]] = field(default_factory=dict)  # of aliases that are resolved: terms and levels
+    terms: int = 0  # of all predicates that are resolved
     resources: list[str] = field(default_factory=list)
     actions: dict[str, Action] = field(default_factory=dict)
     reaction_rules: list[Located] = field(default_factory=list)
@@ -153,7 +159,6 @@ class Specification:
     goals: Goal | None = None
     bound: int | None = None  # L; None: runs of any length
     ordering: str | None = None
-    expanded: int = 0  # how many parts of predicates were looked at to replace names
 
 
 class Parser:
@@ -163,6 +168,7 @@ class Parser:
         text = text.replace("\r\n", "\n").replace("\r", "\n")
         self.tokens = tokens_of(text)
         self.position = 0
+        self.parentheses = 0  # that are open
         self.spec = Specification(text.split("\n"))
 
     @property
@@ -208,9 +214,13 @@ class Parser:
 
     def number(self) -> int:
         word = self.next
-        self.need(word.isdigit() and len(word) <= 18 and int(word) <= 1_000_000_000, "expected a number to 1000000000")
+        fits = word.isdigit() and len(word) <= MOST_DIGITS and int(word) <= LARGEST_NUMBER
+        self.need(fits, f"expected a number to {LARGEST_NUMBER}")
         self.position += 1
         return int(word)
+
+    def nested(self, levels: int) -> None:
+        self.need(levels <= MOST_LEVELS, f"nested more than {MOST_LEVELS} levels deep")
 
     # Blocks stand in any order, each at most once.
 
@@ -224,6 +234,7 @@ class Parser:
             seen.add(title)
             if title == "GOALS":
                 spec.goals = self.goal_list(None)
+                self.nested(levels_of_goal(spec.goals))
                 continue
             while not self.accept("END"):
                 if title == "STATE VECTOR":
@@ -248,17 +259,17 @@ class Parser:
         self.expect("state")
         variable = self.new_name(self.spec.variables)
         self.expect("can be")
-        values = [self.name()]
+        values = {self.name(): None}
         while self.accept(","):
             self.need(self.next not in values, "expected another value")
-            values.append(self.name())
+            values[self.name()] = None
         self.spec.variables[variable] = tuple(values)
 
     def alias(self) -> None:  # define NAME as PREDICATE
         self.expect("define")
         name = self.new_name(self.spec.aliases)
         self.expect("as")
-        self.spec.aliases[name] = self.predicate()
+        self.spec.aliases[name], _ = self.located_predicate()
 
     def setting(self) -> None:  # max_plan_length: N, effect_ordering: any
         if self.expect("max_plan_length :", "effect_ordering :") == "max_plan_length :":
@@ -330,7 +341,9 @@ class Parser:
 
     def located_predicate(self) -> Located:
         line = self.line
-        return self.predicate(), line
+        found = self.predicate()
+        self.nested(levels_of(found))
+        return found, line
 
     def predicate(self) -> Formula:
         left = self.implication()
@@ -341,7 +354,7 @@ class Parser:
             return self.disjunction()
         condition = self.disjunction()
         self.expect("THEN")
-        return ("or", ("not", condition), self.disjunction())
+        return ("if", condition, self.disjunction())
 
     def disjunction(self) -> Formula:
         parts = [self.conjunction()]
@@ -360,8 +373,11 @@ class Parser:
 
     def basic(self) -> Formula:  # ( p ), true, false, executing ACTION, VARIABLE is VALUE, an alias
         if self.accept("("):
+            self.parentheses += 1
+            self.nested(self.parentheses)
             inside = self.predicate()
             self.expect(")")
+            self.parentheses -= 1
             return inside
         if word := self.accept("true", "false"):
             return (word,)
@@ -371,8 +387,27 @@ class Parser:
         return ("is", name, self.located_name()) if self.accept("is") else ("alias", name)
 
 
+def levels_of(formula: Formula) -> int:
+    """How many operators are nested in a formula as it is written."""
+    if formula[0] in ("true", "false", "is", "executing", "alias"):
+        return 0
+    return 1 + max(map(levels_of, formula[1:]))
+
+
+def levels_of_goal(goal: Goal) -> int:
+    """How many lists, conditions, goals and operators are nested in a goal."""
+    inside = 1 + max([levels_of(goal.body), *map(levels_of_goal, goal.members)])
+    return inside if goal.condition is None else 1 + max(levels_of(goal.condition), inside)
+
+
 # ----------------------------------------------------------------------------------------------------------------------
 # 3. Names, and the effects of actions (docs/semantics.md, section 2).
+
+
+def read_specification(data: bytes) -> Specification:
+    """The specification that a file holds."""
+    need(len(data) <= MOST_BYTES, f"the specification is larger than {MOST_BYTES} bytes")
+    return resolve(Parser(data.decode("utf-8-sig")).specification())
 
 
 def resolve(spec: Specification) -> Specification:
@@ -380,13 +415,16 @@ def resolve(spec: Specification) -> Specification:
     need(bool(spec.variables), "there is no state variable")
     names = [*spec.variables, *spec.aliases, *spec.resources, *spec.actions]
     need(len(set(names)) == len(names), "two things of different kinds have the same name")
+    need(len(spec.variables) <= MOST_VARIABLES, f"there are more than {MOST_VARIABLES} state variables")
+    need(max(map(len, spec.variables.values())) <= MOST_VALUES, f"a variable has more than {MOST_VALUES} values")
+    need(len(spec.actions) <= MOST_ACTIONS, f"there are more than {MOST_ACTIONS} actions")
     for name in spec.aliases:
-        meaning(spec, ("alias", (name, 0)), True)
+        resolve_alias(spec, name)
     for action in spec.actions.values():
         resolve_action(spec, action)
-    spec.reaction_rules = [(meaning(spec, rule, True), line) for rule, line in spec.reaction_rules]
-    spec.state_rules = [(meaning(spec, rule, False), line) for rule, line in spec.state_rules]
-    spec.assumptions = [(meaning(spec, rule, False), line) for rule, line in spec.assumptions]
+    spec.reaction_rules = [(resolved(spec, rule, True), line) for rule, line in spec.reaction_rules]
+    spec.state_rules = [(resolved(spec, rule, False), line) for rule, line in spec.state_rules]
+    spec.assumptions = [(resolved(spec, rule, False), line) for rule, line in spec.assumptions]
     if spec.goals is not None:
         resolve_goal(spec, spec.goals)
     return spec
@@ -397,7 +435,7 @@ def resolve_action(spec: Specification, action: Action) -> None:
     for name, line in action.resources:
         need(name in spec.resources, f"line {line}: there is no resource `{name}`")
     action.holds_resources = frozenset(name for name, _ in action.resources)
-    action.preconditions = [(meaning(spec, part, False), line) for part, line in action.preconditions]
+    action.preconditions = [(resolved(spec, part, False), line) for part, line in action.preconditions]
     action.effects = assignments(spec, action.nominal)
     count = len(action.effects)
     left = counted(count, "assignment")
@@ -405,26 +443,79 @@ def resolve_action(spec: Specification, action: Action) -> None:
     for alternative in action.alternatives:
         outcomes = assignments(spec, alternative)
         need(outcomes != [], f"line {action.line}: alternative effects of `{action.name}` cannot happen")
+        need(len(outcomes) <= MOST_OUTCOMES, f"line {action.line}: alternative effects of `{action.name}` are too many")
         action.effects += outcomes
 
 
 def resolve_goal(spec: Specification, goal: Goal) -> None:
     """Names in a goal: conditions speak of the state only, bodies also of what is executed."""
     if goal.condition is not None:
-        goal.condition = meaning(spec, goal.condition, False)
-    goal.body = meaning(spec, goal.body, True)
+        goal.condition = resolved(spec, goal.condition, False)
+    if goal.kind == "goal":
+        goal.body = resolved(spec, goal.body, True)
     for member in goal.members:
         resolve_goal(spec, member)
 
 
-def meaning(spec: Specification, formula: Formula, may_execute: bool, inside: tuple[str, ...] = ()) -> Formula:
-    """The formula with names replaced; `inside` are the aliases that are being expanded."""
-    spec.expanded += 1
-    if spec.expanded > LARGEST // 10:
-        raise TooLarge("with their aliases expanded, the predicates are too large")
+def resolve_alias(spec: Specification, name: str) -> None:
+    """Replace the names in an alias, after those in the aliases that it uses."""
+    path = {name: iter(aliases_in(spec.aliases[name]))} if name not in spec.sizes else {}
+    while path:
+        here = next(reversed(path))
+        used, line = next(path[here], ("", 0))
+        need(used not in path, f"line {line}: the alias `{used}` uses itself")
+        if used and used not in spec.sizes:
+            need(used in spec.aliases, f"line {line}: there is no alias `{used}`")
+            path[used] = iter(aliases_in(spec.aliases[used]))
+        elif not used:
+            size = size_of(spec, spec.aliases[here])
+            spec.aliases[here], spec.sizes[here] = meaning(spec, spec.aliases[here]), size
+            del path[here]
+
+
+def aliases_in(formula: Formula) -> list[tuple[str, int]]:
+    """The aliases that a formula names as it is written, with their lines."""
+    if formula[0] == "alias":
+        return [formula[1]]
+    parts = formula[1:] if formula[0] not in ("is", "executing") else ()
+    return [name for part in parts for name in aliases_in(part)]
+
+
+def size_of(spec: Specification, formula: Formula) -> tuple[int, int]:
+    """Terms and levels of a formula as it is written, with its aliases expanded; `IF p THEN q` is `NOT p OR q`."""
+    kind, *parts = formula
+    if kind == "alias":
+        name, line = parts[0]
+        need(name in spec.sizes, f"line {line}: there is no alias `{name}`")
+        return spec.sizes[name]
+    if kind in ("true", "false", "is", "executing"):
+        return 1, 1
+    sizes = [size_of(spec, part) for part in parts]
+    if kind == "if":
+        sizes[0] = sizes[0][0] + 1, sizes[0][1] + 1
+    terms, levels = 1 + sum(terms for terms, _ in sizes), 1 + max(levels for _, levels in sizes)
+    fits = terms <= MOST_TERMS and levels <= MOST_LEVELS
+    need(fits, f"with its aliases expanded, a predicate has {terms} terms and {levels} levels")
+    return terms, levels
+
+
+def resolved(spec: Specification, formula: Formula, may_execute: bool) -> Formula:
+    """The formula with names replaced."""
+    spec.terms += size_of(spec, formula)[0]
+    need(spec.terms <= MOST_TERMS_IN_ALL, f"all predicates together have more than {MOST_TERMS_IN_ALL} terms")
+    found = meaning(spec, formula)
+    executing = "" if may_execute else next((part[1] for part in atoms(found) if part[0] == "executing"), "")
+    need(not executing, f"`executing {executing}` stands outside of reaction rules and goals")
+    return found
+
+
+def meaning(spec: Specification, formula: Formula) -> Formula:
+    """The formula with names replaced; the aliases that it uses are resolved."""
     kind = formula[0]
+    if kind == "if":
+        return ("or", ("not", meaning(spec, formula[1])), meaning(spec, formula[2]))
     if kind not in ("is", "executing", "alias"):
-        return (kind, *(meaning(spec, part, may_execute, inside) for part in formula[1:]))
+        return (kind, *(meaning(spec, part) for part in formula[1:]))
     name, line = formula[1]
     if kind == "is":
         value = formula[2][0]
@@ -433,16 +524,13 @@ def meaning(spec: Specification, formula: Formula, may_execute: bool, inside: tu
         return ("is", list(spec.variables).index(name), value)
     if kind == "executing":
         need(name in spec.actions, f"line {line}: there is no action `{name}`")
-        need(may_execute, f"line {line}: `executing` belongs in reaction rules and goals")
         return ("executing", name)
-    need(name in spec.aliases, f"line {line}: there is no alias `{name}`")
-    need(name not in inside, f"line {line}: the alias `{name}` uses itself")
-    return meaning(spec, spec.aliases[name], may_execute, (*inside, name))
+    return spec.aliases[name]
 
 
 def assignments(spec: Specification, written: list[Located]) -> list[Effect]:
     """The assignments to the mentioned variables that satisfy the whole list of effects."""
-    parts = conjuncts(meaning(spec, formula, False) for formula, _ in written)
+    parts = conjuncts(resolved(spec, formula, False) for formula, _ in written)
     domains = list(spec.variables.values())
     choices = {atom[1]: domains[atom[1]] for part in parts for atom in atoms(part)}
     for kind, *rest in parts:
@@ -1618,7 +1706,7 @@ def main(argv: list[str] | None = None) -> int:
 
 def judge_files(options: argparse.Namespace) -> int:
     """Read, judge, report."""
-    spec = resolve(Parser(Path(options.spec).read_bytes().decode("utf-8-sig")).specification())
+    spec = read_specification(Path(options.spec).read_bytes())
     document = read_document(Path(options.policy).read_bytes().decode("utf-8-sig"))
     if document.get("Type") == "unrealizable":
         return judge_certificate_of_no(spec, document, options)

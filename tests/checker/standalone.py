@@ -61,8 +61,7 @@ def ask(folder: Path, policy: str, spec: str, *options: str) -> Answer:
 def sizes(text: str) -> tuple[int, int] | None:
     """The numbers of valid and of safe states of a specification; None where the checker refuses it."""
     try:
-        read = text.encode().decode("utf-8-sig")
-        world = checker.World(checker.resolve(checker.Parser(read).specification()), "any")
+        world = checker.World(checker.read_specification(text.encode()), "any")
         return len(world.valid), len(world.safe)
     except checker.Unreadable:
         return None
