@@ -107,6 +107,12 @@ class Renumbering:
             len(target.actions),
         )
 
+    @property
+    def _changes_nothing(self) -> bool:
+        """Whether all numbers stay as they are."""
+        numbers = (self.variables, *self.values, self.actions)
+        return all(each == tuple(range(len(each))) for each in numbers)
+
     def assignment(self, assignment: Iterable[tuple[int, int]]) -> Assignment:
         """The same variables with the same values."""
         return tuple(sorted((self.variables[old], self.values[old].index(value)) for old, value in assignment))
@@ -121,6 +127,8 @@ class Renumbering:
 
     def table(self, table: Table) -> Table:
         """Every row with new numbers, in row-major order."""
+        if self._changes_nothing:
+            return table
         places = [self.variables.index(new) for new in range(len(self.variables))]
         new_values = [{old: new for new, old in enumerate(values)} for values in self.values]
         decisions = {chosen: self.action_set(chosen) for chosen in set(table.rows.values())}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import BinaryIO
 
 from tumato_symbolic.diagnostics import Code, Source
 from tumato_symbolic.policy.model import Policy
@@ -27,10 +28,10 @@ def read_text(path: str) -> tuple[str, str]:
     name = "<stdin>" if path == "-" else path
     try:
         if path == "-":
-            data = standard_input().read(MAX_BYTES + 1)
+            data = _read(standard_input())
         else:
             with Path(path).open("rb") as file:
-                data = file.read(MAX_BYTES + 1)
+                data = _read(file)
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
         raise fault(Code.TUM501, f"the policy cannot be read: {reason}", None, Source(name, "")) from None
@@ -41,6 +42,13 @@ def read_text(path: str) -> tuple[str, str]:
     except UnicodeDecodeError as error:
         message = f"the policy is not UTF-8 text (byte {error.start})"
         raise fault(Code.TUM501, message, None, Source(name, "")) from None
+
+
+def _read(file: BinaryIO) -> bytes:
+    """At most one byte more than is allowed; space is asked for only where there is so much to read."""
+    start = file.read(min(2**20, MAX_BYTES + 1))
+    rest = MAX_BYTES + 1 - len(start)
+    return start + file.read(rest) if rest and len(start) == 2**20 else start
 
 
 def save(policy: Policy, path: Path) -> None:

@@ -8,6 +8,7 @@ from tumato_symbolic.diagnostics import Code, Source, UserError
 from tumato_symbolic.diagnostics.wording import count, listed
 from tumato_symbolic.policy.diagram import Diagram, Node, Reference, rebuild
 from tumato_symbolic.policy.model import Certificate, DecisionDiagram, Policy, RankedGoal, Table, Vocabulary
+from tumato_symbolic.policy.objects import Row
 from tumato_symbolic.policy.problems import described, fault, show, way_out
 from tumato_symbolic.policy.shape import as_list, as_names, as_object, as_text, as_whole, member, parse_json, wrong
 from tumato_symbolic.semantics import ActionSet, State
@@ -88,43 +89,86 @@ def read_vocabulary(document: dict[str, Any], where: str) -> Vocabulary:
     states = as_object(member(document, "States", where), "`States`")
     if not states:
         raise fault(Code.TUM502, "`States` names no variable")
-    variables = []
+    variables, first = [], _first_index(states)
     for variable, section in states.items():
         here = f"{show(as_text(variable, 'a variable'))} in `States`"
         numbered = as_object(section, here)
         if not numbered:
             raise fault(Code.TUM502, f"{here} has no values")
-        values: dict[int, str] = {}
-        for value, number in numbered.items():
-            as_text(value, f"a value of {here}")
-            place = as_whole(number, f"the index of {show(value)} of {here}", len(numbered))
-            if values.setdefault(place, value) != value:
-                raise fault(Code.TUM502, f"{here} gives {show(values[place])} and {show(value)} the index {place}")
-        variables.append((variable, tuple(values[place] for place in range(len(values)))))
+        variables.append((variable, _numbered(numbered, here, first)))
     return Vocabulary(tuple(variables), actions)
+
+
+def _first_index(states: dict[str, Any]) -> int:
+    """The index with which values are numbered from: 1 where the document never says 0, otherwise 0."""
+    sections = [section for section in states.values() if isinstance(section, dict)]
+    return int(all(index != 0 for section in sections for index in section.values()))
+
+
+def _numbered(section: dict[str, Any], where: str, first: int) -> tuple[str, ...]:
+    """The values of a variable, in the order of their indices, which begin with `first`."""
+    values: dict[int, str] = {}
+    for value, index in section.items():
+        as_text(value, f"a value of {where}")
+        here = f"the index of {show(value)} of {where}"
+        if not first <= as_whole(index, here) < first + len(section):
+            wanted = f"a number from {first} to {first + len(section) - 1}"
+            raise fault(Code.TUM502, f"{here} is {index}, expected {wanted}")
+        if values.setdefault(index, value) != value:
+            raise fault(Code.TUM502, f"{where} gives {show(values[index])} and {show(value)} the index {index}")
+    return tuple(values[first + place] for place in range(len(values)))
 
 
 def _table(section: object, vocabulary: Vocabulary) -> Table:
     if any(name == "Actions" for name, _ in vocabulary.variables):
         message = "a table cannot hold a variable named `Actions`: its value and the actions would share one key"
         raise fault(Code.TUM502, message, 'rename the variable, or use the type "policy-diagram"')
-    names = tuple(name for name, _ in vocabulary.variables)
-    numbers = [(name, {value: number for number, value in enumerate(values)}) for name, values in vocabulary.variables]
-    actions = {name: number for number, name in enumerate(vocabulary.actions)}
-    rows: dict[State, tuple[int, ActionSet]] = {}
-    for place, row in enumerate(as_list(section, "`Policy`"), 1):
-        try:
-            state = tuple([known[row[name]] for name, known in numbers])
-            executed = frozenset([actions[name] for name in row["Actions"]])
-            fits = type(row) is dict and type(row["Actions"]) is list and len(row) == len(names) + 1
-        except (KeyError, TypeError):
-            fits = False
-        if not fits:
+    entries = as_list(section, "`Policy`")
+    decoder = _RowDecoder(vocabulary)
+    rows: dict[State, ActionSet] = {}
+    for place, row in enumerate(entries, 1):
+        decoded = decoder.decode(row)
+        if decoded is None:
             raise _bad_row(row, place, vocabulary)
-        first, before = rows.setdefault(state, (place, executed))
-        if before != executed:
+        state, executed = decoded
+        if rows.setdefault(state, executed) != executed:
+            earlier = map(decoder.decode, entries)
+            first = next(number for number, each in enumerate(earlier, 1) if each is not None and each[0] == state)
             raise _contradiction(vocabulary, state, first, place)
-    return Table({state: executed for state, (_, executed) in sorted(rows.items())})
+    return Table(dict(sorted(rows.items())))
+
+
+class _RowDecoder:
+    """Rows of a table to numbers."""
+
+    def __init__(self, vocabulary: Vocabulary) -> None:
+        self._values = {
+            name: {value: number for number, value in enumerate(values)} for name, values in vocabulary.variables
+        }
+        self._actions = {name: number for number, name in enumerate(vocabulary.actions)}
+        self._sets: dict[tuple[str, ...], ActionSet] = {}
+        self._names: tuple[str, ...] = ()
+        self._columns: list[tuple[int, dict[str, int]]] = []
+
+    def decode(self, row: object) -> tuple[State, ActionSet] | None:
+        """The state and its actions; None where the row does not have just what it should."""
+        if type(row) is not Row:
+            return None
+        if row.names is not self._names:
+            if row.names != tuple(self._values) and set(row.names) != set(self._values):
+                return None
+            self._names = row.names
+            self._columns = [(row.names.index(name), numbers) for name, numbers in self._values.items()]
+        texts = row.texts
+        key = tuple(row.actions)
+        try:
+            state = tuple([numbers[texts[place]] for place, numbers in self._columns])
+            executed = self._sets.get(key)
+            if executed is None:
+                executed = self._sets[key] = frozenset([self._actions[name] for name in key])
+        except KeyError:
+            return None
+        return state, executed
 
 
 def _bad_row(row: object, place: int, vocabulary: Vocabulary) -> UserError:

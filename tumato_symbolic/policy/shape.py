@@ -6,29 +6,17 @@ import json
 from typing import Any
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source, Span, UserError
+from tumato_symbolic.policy.objects import Objects, RepeatedKeyError, Row
 from tumato_symbolic.policy.problems import fault, show
 
-MAX_BYTES = 32 * 1024 * 1024
-"""The largest policy that is read or written: 32 MiB."""
+MAX_BYTES = 256 * 1024 * 1024
+"""The largest policy that is read or written: 256 MiB."""
+
+MAX_LEVELS = 100
+"""How deep objects and lists may be nested in one another."""
 
 MAX_DIGITS = 18
 """Longer numbers are read as fractions, and so fit nowhere."""
-
-
-class Doubled(dict[str, Any]):
-    """An object in which a key came twice; it is refused where it is used."""
-
-    key: str = ""
-
-
-def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    found = dict(pairs)
-    if len(found) == len(pairs):
-        return found
-    doubled = Doubled(found)
-    seen: set[str] = set()
-    doubled.key = next(key for key, _ in pairs if key in seen or seen.add(key))  # type: ignore[func-returns-value]
-    return doubled
 
 
 def _number(digits: str) -> int | float:
@@ -39,34 +27,48 @@ def _no_number(name: str) -> object:
     raise ValueError(f"`{name}` is not JSON")
 
 
-_decoder = json.JSONDecoder(object_pairs_hook=_object, parse_int=_number, parse_constant=_no_number)
-
-
 def parse_json(text: str, name: str) -> object:
-    """The value that a JSON text denotes. `name` is what the text is called in messages."""
+    """The value that a JSON text denotes; objects may be `Row`s. `name` is what the text is called in messages."""
     if len(text) > MAX_BYTES:
         raise too_large(name)
+    decoder = json.JSONDecoder(object_pairs_hook=Objects(), parse_int=_number, parse_constant=_no_number)
     try:
-        value: object = _decoder.decode(text.removeprefix("\ufeff"))
+        value: object = decoder.decode(text.removeprefix("\ufeff"))
     except json.JSONDecodeError as error:
         raise _not_json(error, name, text) from None
     except RecursionError:
-        raise fault(
-            Code.TUM501, "this is no policy and no certificate: the JSON is nested too deeply", None, Source(name, "")
-        ) from None
+        raise _too_deep(name) from None
+    except RepeatedKeyError as error:
+        raise fault(Code.TUM502, f"an object has the key {show(error.key)} twice", None, Source(name, "")) from None
     except ValueError as error:
         raise fault(Code.TUM501, f"this is not JSON: {error}", None, Source(name, "")) from None
+    if _levels_exceed(value):
+        raise _too_deep(name)
     return value
+
+
+def _levels_exceed(value: object) -> bool:
+    """Whether objects and lists are nested too deeply."""
+    level = [value]
+    for _ in range(MAX_LEVELS + 1):
+        inner = [part.values() if type(part) is dict else part for part in level if type(part) in (dict, list)]
+        level = [part for parts in inner for part in parts if type(part) in (dict, list)]  # type: ignore[attr-defined]
+    return bool(level)
+
+
+def _too_deep(name: str) -> UserError:
+    message = f"objects and lists are nested more than {MAX_LEVELS} levels deep"
+    return fault(Code.TUM501, message, None, Source(name, ""))
 
 
 def _not_json(error: json.JSONDecodeError, name: str, text: str) -> UserError:
     if not text.strip():
         return fault(Code.TUM501, "the input is empty", "write a policy with `tumato-sym synth`", Source(name, ""))
     at_end = not error.doc[error.pos :].strip()
-    message = (
-        f"this is not JSON: {'it ends too early' if at_end else error.msg} (line {error.lineno}, column {error.colno})"
-    )
-    span = Span(error.lineno, error.colno, error.lineno, error.colno + 1)
+    before = Source(name, error.doc[: error.pos]).text
+    line, column = before.count("\n") + 1, len(before) - before.rfind("\n")
+    message = f"this is not JSON: {'it ends too early' if at_end else error.msg} (line {line}, column {column})"
+    span = Span(line, column, line, column + 1)
     start = error.doc.rfind("\n", 0, error.pos) + 1
     end = error.doc.find("\n", error.pos)
     if (end if end >= 0 else len(error.doc)) - start > 200:
@@ -77,7 +79,13 @@ def _not_json(error: json.JSONDecodeError, name: str, text: str) -> UserError:
 def too_large(name: str, what: str = "policy") -> UserError:
     """The error for what exceeds `MAX_BYTES`."""
     message = f"the {what} is larger than {MAX_BYTES // 1024**2} MiB"
-    return fault(Code.TUM508, message, "use `--policy-format diagram`" if what == "policy" else None, Source(name, ""))
+    return fault(Code.TUM508, message, _SMALLER if what == "policy" else None, Source(name, ""))
+
+
+_SMALLER = (
+    "`tumato-sym synth --policy-format diagram` writes small ones; a policy that comes from elsewhere can be written "
+    'without white space, or as a diagram (docs/policy.md, "Large policies")'
+)
 
 
 def wrong(where: str, expected: str, found: object) -> UserError:
@@ -87,9 +95,9 @@ def wrong(where: str, expected: str, found: object) -> UserError:
 
 
 def as_object(value: object, where: str) -> dict[str, Any]:
-    """An object whose keys are all different."""
-    if isinstance(value, Doubled):
-        raise fault(Code.TUM502, f"{where} has the key {show(value.key)} twice")
+    """An object."""
+    if isinstance(value, Row):
+        return value.as_dict()
     if not isinstance(value, dict):
         raise wrong(where, "an object", value)
     return value
