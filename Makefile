@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV ?= .venv
 BIN := $(VENV)/bin
 
-.PHONY: help demo test proofs mutants mutants-code check format regenerate bench bench-compare clean
+.PHONY: help demo test proofs mutants mutants-code readers check format regenerate bench bench-compare clean
 
 help:
 	@echo "make demo        install what is needed into $(VENV) and show the main job on a mobile robot"
@@ -11,6 +11,7 @@ help:
 	@echo "make proofs      compile the theorems in proofs/coq, and that of every example's policy (needs Coq)"
 	@echo "make mutants     20,000 changed policies, certificates and specifications through every prover (half an hour)"
 	@echo "make mutants-code  300 faults in the trusted base, one at a time, through the tests meant for them (half an hour)"
+	@echo "make readers     25,000 damaged specifications, policies and certificates through both readers (ten minutes)"
 	@echo "make format      put the sources into shape"
 	@echo "make regenerate  write proofs/ and the generated tables anew"
 	@echo "make bench       measure every family of benchmarks/ (minutes; ARGUMENTS=--quick: about one)"
@@ -40,6 +41,9 @@ mutants-code: $(VENV)/.development
 format: $(VENV)/.development
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
+
+readers: $(VENV)/.development
+	$(BIN)/python -m tests.readers $(ARGUMENTS)
 
 regenerate: $(VENV)/.development
 	$(BIN)/python -m tests.repo.regenerate

@@ -45,8 +45,8 @@ Residual = tuple[frozenset[Formula], ActionSet]  # goal bodies, and those of the
 
 LARGEST = 2_000_000  # so many states, sets or outcomes in one state, assignments of one set of effects are looked at
 
-# Limits of the language (docs/language.md).
-MOST_BYTES, MOST_DIGITS, MOST_LEVELS = 500_000, 18, 100
+# Limits of specifications (docs/language.md) and of the files beside them (docs/policy.md).
+MOST_BYTES, MOST_FILE_BYTES, MOST_DIGITS, MOST_LEVELS = 500_000, 256 * 2**20, 18, 100
 MOST_VARIABLES, MOST_VALUES, MOST_ACTIONS, LARGEST_NUMBER = 1_000, 10_000, 1_000, 1_000_000_000
 MOST_TERMS, MOST_TERMS_IN_ALL, MOST_OUTCOMES = 100_000, 1_000_000, 10_000
 
@@ -823,13 +823,24 @@ class Policy:
     document: dict[str, Any]
 
 
-def read_document(text: str) -> dict[str, Any]:
+def read_document(data: bytes) -> dict[str, Any]:
     """The JSON object that a file holds."""
+    need(len(data) <= MOST_FILE_BYTES, f"the file is larger than {MOST_FILE_BYTES} bytes")
+    decoder = json.JSONDecoder(
+        object_pairs_hook=distinct_keys,
+        parse_constant=lambda word: need(False, word),
+        parse_int=lambda digits: int(digits) if len(digits) <= MOST_DIGITS else float(digits),
+    )
     try:
-        document = json.loads(text, object_pairs_hook=distinct_keys, parse_constant=lambda word: need(False, word))
+        document = decoder.decode(data.decode("utf-8-sig"))
     except ValueError as problem:
         raise Unreadable(f"the file is not JSON: {problem}") from problem
     need(isinstance(document, dict), "the file is not a JSON object")
+    level: list[Any] = [document]
+    for _ in range(MOST_LEVELS):
+        parts = (part.values() if isinstance(part, dict) else part for part in level if isinstance(part, (dict, list)))
+        level = [part for each in parts for part in each if isinstance(part, (dict, list))]
+    need(level == [], f"objects and lists are nested more than {MOST_LEVELS} levels deep")
     return dict(document)
 
 
@@ -848,12 +859,12 @@ def read_header(document: dict[str, Any], spec: Specification) -> None:
     version = document.get("FormatVersion", 1)
     need(is_number(version) and version == 1, "`FormatVersion` is 1")
     for key in ("PolicyFrameworkVersion", "SpecificationDigest"):
-        need(isinstance(document.get(key, ""), str), f"`{key}` is a text")
+        need(is_texts([document.get(key, "")]), f"`{key}` is a text")
     need(document.get("EffectOrdering", "any") in ("any", "first"), "`EffectOrdering` is `any` or `first`")
     actions: Any = document.get("Actions")
     need(is_names(actions), "`Actions` is a list of different names")
     need(set(actions) == set(spec.actions), "the actions of the file are not those of the specification")
-    check_states(document.get("States"), spec)
+    document["States"] = numbered_from_zero(document.get("States"), spec)
 
 
 def read_table(document: dict[str, Any], spec: Specification) -> dict[State, ActionSet]:
@@ -952,19 +963,22 @@ class Diagram:
         return self.leaves[reference]
 
 
-Numbered = dict[str, dict[str, int]]  # the section `States`
+Numbered = dict[str, dict[str, int]]  # the section `States`, the values of every variable numbered 0, 1, …
 
 
-def check_states(states: Any, spec: Specification) -> None:
-    """The section `States`: for every variable its values, numbered 0, 1, …"""
+def numbered_from_zero(states: Any, spec: Specification) -> Numbered:
+    """The section `States`. Values are numbered 0, 1, …; or, in the whole file, 1, 2, …"""
     need(isinstance(states, dict), "`States` is an object")
     need(set(states) == set(spec.variables), "the variables of the policy are not those of the specification")
     for name, values in states.items():
-        need(
-            isinstance(values, dict) and all(map(is_number, values.values())), f"the values of `{name}` have no numbers"
-        )
+        fits = isinstance(values, dict) and all(map(is_number, values.values()))
+        need(fits, f"the values of `{name}` have no numbers")
         need(set(values) == set(spec.variables[name]), f"the values of `{name}` are not those of the specification")
-        need(sorted(values.values()) == list(range(len(values))), f"the values of `{name}` are not numbered 0, 1, …")
+    first = 0 if any(0 in values.values() for values in states.values()) else 1
+    for name, values in states.items():
+        wanted = list(range(first, first + len(values)))
+        need(sorted(values.values()) == wanted, f"the values of `{name}` are not numbered {first}, {first + 1}, …")
+    return {name: {value: number - first for value, number in values.items()} for name, values in states.items()}
 
 
 def distinct_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
@@ -974,8 +988,9 @@ def distinct_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def is_texts(value: Any) -> bool:
-    """Whether a JSON value is a list of texts."""
-    return isinstance(value, list) and all(isinstance(entry, str) for entry in value)
+    """Whether a JSON value is a list of texts that can be written in UTF-8."""
+    texts = isinstance(value, list) and all(isinstance(entry, str) for entry in value)
+    return texts and not any(re.search("[\ud800-\udfff]", entry) for entry in value)
 
 
 def is_names(value: Any) -> bool:
@@ -1707,7 +1722,7 @@ def main(argv: list[str] | None = None) -> int:
 def judge_files(options: argparse.Namespace) -> int:
     """Read, judge, report."""
     spec = read_specification(Path(options.spec).read_bytes())
-    document = read_document(Path(options.policy).read_bytes().decode("utf-8-sig"))
+    document = read_document(Path(options.policy).read_bytes())
     if document.get("Type") == "unrealizable":
         return judge_certificate_of_no(spec, document, options)
     return judge_policy(spec, read_policy(document, spec), options)

@@ -27,7 +27,7 @@ def test_the_python_example_runs(tmp_path, monkeypatch):
     """The session prints what the document says."""
     monkeypatch.chdir(tmp_path)
     Path("policy.json").write_text(TABLE, encoding="utf-8")
-    assert doctest.testfile(str(DOCUMENT), module_relative=False, encoding="utf-8") == (0, 4)
+    assert doctest.testfile(str(DOCUMENT), module_relative=False, encoding="utf-8") == (0, 9)
 
 
 def test_the_codes_and_the_limit_are_named():

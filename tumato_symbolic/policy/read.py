@@ -41,8 +41,6 @@ def policy_of(document: dict[str, Any]) -> Policy:
         raise fault(Code.TUM502, message, "check it with `tumato-sym verify`")
     if form not in ("policy", "policy-diagram"):
         raise fault(Code.TUM502, f"`Type` is {show(form)}", 'expected "policy" or "policy-diagram"')
-    if "PolicyFrameworkVersion" in document:
-        as_text(document["PolicyFrameworkVersion"], "`PolicyFrameworkVersion`")
     check_version(document)
     vocabulary = read_vocabulary(document, "the policy")
     body, other = ("Policy", "Diagram") if form == "policy" else ("Diagram", "Policy")
@@ -56,6 +54,8 @@ def policy_of(document: dict[str, Any]) -> Policy:
 
 def check_version(document: dict[str, Any]) -> None:
     """Raise `UserError` for a file of another format."""
+    if "PolicyFrameworkVersion" in document:
+        as_text(document["PolicyFrameworkVersion"], "`PolicyFrameworkVersion`")
     version = as_whole(document.get("FormatVersion", FORMAT_VERSION), "`FormatVersion`")
     if version != FORMAT_VERSION:
         message = f"`FormatVersion` is {version}, this program reads {FORMAT_VERSION}"

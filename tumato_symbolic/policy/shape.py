@@ -50,7 +50,7 @@ def parse_json(text: str, name: str) -> object:
 def _levels_exceed(value: object) -> bool:
     """Whether objects and lists are nested too deeply."""
     level = [value]
-    for _ in range(MAX_LEVELS + 1):
+    for _ in range(MAX_LEVELS):
         inner = [part.values() if type(part) is dict else part for part in level if type(part) in (dict, list)]
         level = [part for parts in inner for part in parts if type(part) in (dict, list)]  # type: ignore[attr-defined]
     return bool(level)

@@ -1,0 +1,145 @@
+"""What each of the two readers makes of a specification, in one form, so that it can be compared."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from tests.checker.standalone import checker
+from tumato_symbolic.diagnostics import UserError
+from tumato_symbolic.spec import ConditionalGoal, Goal, GoalList, Rule, SimpleGoal, Spec, canonical_text, digest, load
+from tumato_symbolic.syntax import read_source
+
+REFUSED = "refused"
+NO_VERDICT = "no verdict"
+
+Meaning = dict[str, Any]
+
+
+@contextmanager
+def deep() -> Iterator[None]:
+    """The recursion limit under which the checker works."""
+    limit = sys.getrecursionlimit()
+    sys.setrecursionlimit(max(10_000, limit))
+    try:
+        yield
+    finally:
+        sys.setrecursionlimit(limit)
+
+
+def read_by_package(path: Path) -> Spec | str:
+    """The specification in a file, or that it is refused."""
+    try:
+        return load(read_source(str(path))).spec or REFUSED
+    except UserError:
+        return REFUSED
+
+
+def read_by_checker(path: Path) -> Any:
+    """The same; the checker may also say that the question is too large for it."""
+    try:
+        with deep():
+            return checker.read_specification(path.read_bytes())
+    except (checker.Unreadable, UnicodeDecodeError, RecursionError):
+        return REFUSED
+    except checker.TooLarge:
+        return NO_VERDICT
+
+
+def meaning_by_package(spec: Spec) -> Meaning:
+    """What a specification says, by names."""
+
+    def rules(found: Iterable[Rule]) -> list[tuple[str, int]]:
+        return [(canonical_text(spec, rule.formula), rule.span.line) for rule in found]
+
+    def assignment(pairs: Iterable[tuple[int, int]]) -> list[tuple[str, str]]:
+        return sorted(
+            (spec.variables[variable].name, spec.variables[variable].values[value]) for variable, value in pairs
+        )
+
+    def goal(found: Goal | None) -> list[Any] | None:
+        match found:
+            case SimpleGoal(body):
+                return ["goal", canonical_text(spec, spec.bodies[body].formula)]
+            case ConditionalGoal(condition, inner):
+                return ["when", canonical_text(spec, condition.formula), goal(inner)]
+            case GoalList(kind, members):
+                return [kind, *map(goal, members)]
+            case _:
+                return None
+
+    return {
+        "variables": [(variable.name, list(variable.values)) for variable in spec.variables],
+        "resources": list(spec.resources),
+        "actions": [
+            {
+                "name": action.name,
+                "duration": action.duration,
+                "resources": sorted(spec.resources[number] for number in action.resources),
+                "preconditions": rules(action.preconditions),
+                "nominal": assignment(action.nominal),
+                "effects": sorted(map(assignment, action.effects)),
+            }
+            for action in spec.actions
+        ],
+        "reaction rules": rules(spec.reaction_rules),
+        "state rules": rules(spec.state_rules),
+        "assumptions": rules(spec.assumptions),
+        "goals": goal(spec.goals),
+        "bound": spec.max_plan_length,
+        "ordering": spec.effect_ordering,
+        "digest": digest(spec),
+    }
+
+
+def meaning_by_checker(spec: Any) -> Meaning:
+    """The same."""
+    names = list(spec.variables)
+
+    def rules(found: Iterable[Any]) -> list[tuple[str, int]]:
+        return [(checker.text_of(formula, spec), line) for formula, line in found]
+
+    def assignment(effect: dict[int, str]) -> list[tuple[str, str]]:
+        return sorted((names[place], value) for place, value in effect.items())
+
+    def goal(found: Any) -> list[Any]:
+        if found.kind == "goal":
+            bare = ["goal", checker.text_of(found.body, spec)]
+        else:
+            bare = [found.kind, *map(goal, found.members)]
+        return bare if found.condition is None else ["when", checker.text_of(found.condition, spec), bare]
+
+    return {
+        "variables": [(name, list(values)) for name, values in spec.variables.items()],
+        "resources": spec.resources,
+        "actions": [
+            {
+                "name": action.name,
+                "duration": action.duration,
+                "resources": sorted(action.holds_resources),
+                "preconditions": rules(action.preconditions),
+                "nominal": assignment(action.effects[0]),
+                "effects": _once_each(map(assignment, action.effects)),
+            }
+            for action in spec.actions.values()
+        ],
+        "reaction rules": rules(spec.reaction_rules),
+        "state rules": rules(spec.state_rules),
+        "assumptions": rules(spec.assumptions),
+        "goals": goal(spec.goals) if spec.goals is not None and spec.goals.members else None,
+        "bound": spec.bound,
+        "ordering": spec.ordering,
+        "digest": checker.digest(spec),
+    }
+
+
+def _once_each(effects: Iterable[list[tuple[str, str]]]) -> list[list[tuple[str, str]]]:
+    return sorted(list(each) for each in {tuple(effect) for effect in effects})
+
+
+def differences(one: Meaning, other: Meaning) -> list[str]:
+    """Where two meanings differ."""
+    return [f"{key}: {one[key]!r} is not {other[key]!r}"[:600] for key in one if one[key] != other[key]]
