@@ -15,7 +15,7 @@ from tumato_symbolic.cli.exits import BROKEN_PIPE, BUG, INTERRUPTED, TERMINATED,
 from tumato_symbolic.cli.parser import WRITING, Options, parse
 from tumato_symbolic.diagnostics import UserError, render
 from tumato_symbolic.limits import NO_LIMITS, Context, LimitReachedError, Limits
-from tumato_symbolic.limits.processes import can_fork
+from tumato_symbolic.limits.processes import age, can_fork
 
 _REPORT_THIS = (
     "tumato-sym: this is a bug in tumato-sym, not a verdict on your input. "
@@ -92,7 +92,8 @@ def _run(arguments: Sequence[str] | None, may_fork: bool) -> int:
             options = settled(options)
     except UserError as error:
         return _unusable(error, options, typed)
-    context = Context(Limits(options.timeout or _OWN_SECONDS.get(options.command), options.memory))
+    limits = Limits(options.timeout or _OWN_SECONDS.get(options.command), options.memory)
+    context = Context(limits, spent=age() if may_fork and limits != NO_LIMITS else 0.0)
     work = partial(_command, options, context, typed)
     if may_fork and can_fork() and _is_watched(context, options):
         return _supervised(work, options, context)

@@ -29,7 +29,8 @@ NO_LIMITS = Limits()
 class Context:
     """What every stage of a long piece of work is handed: one deadline, one progress line, one record of what is known.
 
-    The clock starts when the context is made. `progress` is told every stage, `learned` every finding.
+    The clock started `spent` seconds before the context is made. `progress` is told every stage, `learned` every
+    finding.
     """
 
     def __init__(
@@ -37,9 +38,10 @@ class Context:
         limits: Limits = NO_LIMITS,
         progress: Callable[[str], None] | None = None,
         learned: Callable[[object], None] | None = None,
+        spent: float = 0.0,
     ) -> None:
         self.limits = limits
-        self.started = time.monotonic()
+        self.started = time.monotonic() - spent
         self.deadline = None if limits.seconds is None else self.started + limits.seconds
         self.stage = "starting"
         self.known: object = None

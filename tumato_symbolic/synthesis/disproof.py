@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import combinations
+from math import prod
 
 from tumato_symbolic.policy import DiagramBuilder, RankedGoal, Vocabulary
 from tumato_symbolic.policy.minimize import minimized_layers
@@ -39,6 +40,9 @@ from tumato_symbolic.synthesis.repair import Impossible
 MOST_CUBES = 2_000
 """A certificate with more cubes leaves the claim to a prover."""
 
+MOST_OUTCOMES = 3_000_000
+"""So does one that would have to look at a set with more outcomes than that."""
+
 FEW_NODES = 1000
 """Layers with so few nodes are taken as they are: Z3 is quick with them."""
 
@@ -56,7 +60,10 @@ def no_allowed_set(problem: Problem, state: State) -> NoAllowedSet:
     while pending:
         problem.context.check()
         executed, idle = pending.pop()
-        violation = next(_violations(problem, state, executed, idle), None)
+        try:
+            violation = next(_violations(problem, state, executed, idle), None)
+        except _TooManyOutcomesError:
+            return NoAllowedSet(state, None)
         if violation is not None:
             cubes.append(Cube(executed, idle, violation))
             if len(cubes) > MOST_CUBES:
@@ -65,6 +72,10 @@ def no_allowed_set(problem: Problem, state: State) -> NoAllowedSet:
         action = next(a for a in range(len(problem.spec.actions)) if a not in executed and a not in idle)
         pending += [(executed, idle | {action}), (executed | {action}, idle)]
     return NoAllowedSet(state, tuple(cubes))
+
+
+class _TooManyOutcomesError(Exception):
+    """Whether a set is always safe is not found out by looking at each of its outcomes."""
 
 
 def _violations(problem: Problem, state: State, executed: ActionSet, idle: ActionSet) -> Iterator[Violation]:
@@ -83,6 +94,9 @@ def _violations(problem: Problem, state: State, executed: ActionSet, idle: Actio
             yield Violation("reaction-rule", rule=_name(spec, rule))
     settled = len(executed) + len(idle) == len(spec.actions)
     if executed:
+        effects = [len(spec.actions[action].effects) for action in executed]
+        if (prod(1 + count for count in effects) if ordering == "any" else sum(effects)) > MOST_OUTCOMES:
+            raise _TooManyOutcomesError
         for reached, way in outcomes_in_turn(spec, state, executed, ordering):
             if not is_safe(spec, reached):
                 yield Violation("unsafe", outcome=tuple((strike.action, strike.effect) for strike in way))
