@@ -15,7 +15,7 @@ from tumato_symbolic import parse
 from tumato_symbolic.diagnostics import Code, UserError
 from tumato_symbolic.export.coq import MOST_STATES, export
 from tumato_symbolic.policy import Table, as_diagram, load, policy_from_rows
-from tumato_symbolic.semantics import State, is_safe, judge
+from tumato_symbolic.semantics import State, count_states, is_safe, judge
 from tumato_symbolic.spec import Spec
 
 ROOT = Path(__file__).parents[2]
@@ -93,11 +93,15 @@ def test_a_policy_that_leaves_a_valid_state_undecided_is_an_error(amr):
 
 def test_too_many_states_are_an_error(amr):
     """The checker goes through all states; where these are too many, the exporter says so."""
-    values = ", ".join(f"v{number}" for number in range(MOST_STATES + 1))
-    spec = parse(f"BEGIN STATE VECTOR\nstate S can be {values}\nEND STATE VECTOR")
+    count = MOST_STATES.bit_length()
+    variables = "\n".join(f"state S{number} can be a, b" for number in range(count))
+    spec = parse(f"BEGIN STATE VECTOR\n{variables}\nEND STATE VECTOR")
+    assert count_states(spec) > MOST_STATES
     with pytest.raises(UserError) as error:
-        export(policy_from_rows(spec, {(n,): frozenset() for n in range(MOST_STATES + 1)}), spec, "any")
-    assert error.value.diagnostics[0].code is Code.TUM508
+        export(policy_from_rows(spec, {(0,) * count: frozenset()}), spec, "any")
+    (diagnostic,) = error.value.diagnostics
+    assert diagnostic.code is Code.TUM508
+    assert "proofs/checker.py" in str(diagnostic.help)
 
 
 def test_a_policy_for_another_specification_is_an_error(amr):
