@@ -64,3 +64,10 @@ def test_rows_share_what_is_equal():
     assert all(first is second for first, second in zip(one, other, strict=True) if type(first) is not tuple)
     assert one.names is other.names
     assert odd == {"S": 1, "Actions": ["a"]}
+
+
+@pytest.mark.parametrize("actions", ["", "a", {}, {"a": 1}, None, [["a"]], [1], 0])
+def test_what_is_no_list_of_actions_is_no_row(actions):
+    """Not even after rows whose actions would look alike as a sequence."""
+    like = [{"S": "on", "Actions": []}, {"S": "on", "Actions": ["a"]}]
+    assert parse_json(json.dumps([*like, {"S": "on", "Actions": actions}]), "rows")[2] == {"S": "on", "Actions": actions}

@@ -50,16 +50,17 @@ class Objects:
         if names is not None:
             at = keys.index(ACTIONS)
             texts, actions = values[:at] + values[at + 1 :], values[at]
-            try:
-                return Row(names, tuple([self._texts[text] for text in texts]), self._lists[tuple(actions)])
-            except (KeyError, TypeError):
-                if self._remember(texts, actions):
-                    return self(pairs)
+            if type(actions) is list:
+                try:
+                    return Row(names, tuple([self._texts[text] for text in texts]), self._lists[tuple(actions)])
+                except (KeyError, TypeError):
+                    if self._remember(texts, actions):
+                        return self(pairs)
         return dict(pairs)
 
-    def _remember(self, texts: tuple[object, ...], actions: object) -> bool:
+    def _remember(self, texts: tuple[object, ...], actions: list[Any]) -> bool:
         """Know the texts and the list of a row; False where they are not what a row holds."""
-        if type(actions) is not list or not all(type(each) is str for each in (*texts, *actions)):
+        if not all(type(each) is str for each in (*texts, *actions)):
             return False
         self._texts.update((text, text) for text in texts if type(text) is str)
         self._lists.setdefault(tuple(actions), actions)
