@@ -154,6 +154,11 @@ class Manager:
             result = result & part
         return result
 
+    def nodes(self, u: Any) -> int:  # noqa: ANN401 - dd has no types
+        """How many nodes the diagram of `u` has."""
+        count: int = u.dag_size
+        return count
+
     def level(self, bit: str) -> int:
         """Where a bit stands in the order; 0 is the top."""
         return self._level[bit]

@@ -14,6 +14,9 @@ from tumato_symbolic.symbolic import Bdd, Encoding, Manager
 Term: TypeAlias = Any
 """A Z3 expression; z3 has no types."""
 
+LONGEST = 4_000_000.0
+"""Z3 counts milliseconds in 32 bits: longer limits, in seconds, are this one."""
+
 MACHINE_INTEGER = 2**31 - 1
 """Z3's pseudo-Boolean constraints take coefficients of this size; larger durations are summed as integers."""
 
@@ -26,14 +29,15 @@ class CheapestSet:
 
     def __init__(self, encoding: Encoding, relation: Bdd) -> None:
         self._encoding = encoding
-        self._bits = {bit: z3.Bool(bit) for bit in encoding.manager.bits}
+        self._context = z3.Context()
+        self._bits = {bit: z3.Bool(bit, self._context) for bit in encoding.manager.bits}
         self._terms = [
             (z3.And([self._bits[b] == v for b, v in encoding.action_bits(number).items()]), action.duration)
             for number, action in enumerate(encoding.spec.actions)
             if action.duration
         ]
         self._small = sum(duration for _, duration in self._terms) <= MACHINE_INTEGER
-        self._solver = z3.SolverFor("QF_FD") if self._small else z3.Solver()
+        self._solver = z3.SolverFor("QF_FD", self._context) if self._small else z3.Solver(ctx=self._context)
         self._solver.add(self._term(relation))
 
     def exclude(self, states: Bdd) -> None:
@@ -60,7 +64,10 @@ class CheapestSet:
 
     def _term(self, u: Bdd) -> Term:
         manager = self._encoding.manager
-        terms: dict[Bdd, Term] = {manager.true: z3.BoolVal(True), manager.false: z3.BoolVal(False)}
+        terms: dict[Bdd, Term] = {
+            manager.true: z3.BoolVal(True, self._context),
+            manager.false: z3.BoolVal(False, self._context),
+        }
         for node, level, low, high in manager.descending(u):
             terms[node] = z3.If(self._bits[manager.bits[level]], terms[high], terms[low])
         return terms[u]
@@ -79,7 +86,8 @@ class Choices:
 
     def __init__(self, manager: Manager) -> None:
         self._manager = manager
-        self._solver = z3.SolverFor("QF_FD")
+        self._context = z3.Context()
+        self._solver = z3.SolverFor("QF_FD", self._context)
         self._options: list[list[Term]] = []
         self._guards: dict[int, Term] = {}
         self._kept: dict[int, Term] = {}
@@ -89,20 +97,21 @@ class Choices:
     def add_choice(self, options: int) -> int:
         """A new choice among so many options; its number."""
         number = len(self._options)
-        literals = [z3.Bool(f"x{number}.{option}") for option in range(options)]
+        literals = [z3.Bool(f"x{number}.{option}", self._context) for option in range(options)]
         self._options.append(literals)
         self._kept[number] = literals[0]
         self._names[literals[0].get_id()] = (number, False)
-        self._solver.add(_any(literals), z3.AtMost(*literals, 1))
+        self._solver.add(_any(literals, self._context), z3.AtMost(*literals, 1))
         return number
 
     def require(self, guard: int, picks: Sequence[Pick]) -> None:
         """A clause: where the guard is assumed, at least one of the picks is made."""
         self._clauses.append(tuple(picks))
         if guard not in self._guards:
-            literal = self._guards[guard] = z3.Bool(f"g{guard}")
+            literal = self._guards[guard] = z3.Bool(f"g{guard}", self._context)
             self._names[literal.get_id()] = (guard, True)
-        self._solver.add(_any([z3.Not(self._guards[guard]), *(self._options[p.choice][p.option] for p in picks)]))
+        picked = (self._options[pick.choice][pick.option] for pick in picks)
+        self._solver.add(_any([z3.Not(self._guards[guard]), *picked], self._context))
 
     def solve(self, guards: Sequence[int] | None = None) -> list[int] | frozenset[int]:
         """An option for every choice, as few as can be seen different from 0; or guards that cannot hold together.
@@ -124,13 +133,13 @@ class Choices:
 
     def refutation(self, clauses: Sequence[int]) -> list[int]:
         """Those of some clauses (by number) that contradict each other; together they must."""
-        solver = z3.SolverFor("QF_FD")
+        solver = z3.SolverFor("QF_FD", self._context)
         for literals in self._options:
-            solver.add(_any(literals), z3.AtMost(*literals, 1))
-        guards = {number: z3.Bool(f"c{number}") for number in clauses}
+            solver.add(_any(literals, self._context), z3.AtMost(*literals, 1))
+        guards = {number: z3.Bool(f"c{number}", self._context) for number in clauses}
         for number, guard in guards.items():
             picked = [self._options[pick.choice][pick.option] for pick in self._clauses[number]]
-            solver.add(_any([z3.Not(guard), *picked]))
+            solver.add(_any([z3.Not(guard), *picked], self._context))
         while True:
             assert solver.check(*guards.values()) == z3.unsat, "the clauses of a conflict hold together"
             core = {literal.get_id() for literal in solver.unsat_core()}
@@ -152,15 +161,14 @@ class Choices:
 
 def _is_true(model: Term, literal: Term) -> bool:
     """Whether a model makes a constant true."""
-    context = z3.main_ctx().ref()
+    context = literal.ctx_ref()
     declaration = z3.Z3_get_app_decl(context, literal.as_ast())
     found = z3.Z3_model_get_const_interp(context, model.model, declaration)
     return bool(found) and z3.Z3_get_bool_value(context, found) == z3.Z3_L_TRUE
 
 
-def _any(literals: Sequence[Term]) -> Term:
+def _any(literals: Sequence[Term], context: Term) -> Term:
     """A disjunction."""
-    context = z3.main_ctx()
     parts = (z3.Ast * len(literals))(*(literal.as_ast() for literal in literals))
     return z3.BoolRef(z3.Z3_mk_or(context.ref(), len(literals), parts), context)
 
@@ -173,7 +181,7 @@ def _satisfiable(solver: Term, *assumptions: Term, seconds: float | None = None)
     Z3 takes Ctrl-C for itself and stops with `unknown`; it is handed on as the `KeyboardInterrupt` that it was.
     """
     if seconds is not None:
-        solver.set("timeout", max(1, int(1000 * seconds)))
+        solver.set("timeout", max(1, int(1000 * min(seconds, LONGEST))))
     answer = solver.check(*assumptions)
     if answer == z3.unknown:
         if "interrupted" in solver.reason_unknown():
@@ -192,8 +200,9 @@ class HittingSets:
     """
 
     def __init__(self, penalties: Sequence[int]) -> None:
-        self._solver = z3.SolverFor("QF_FD")
-        self._literals = [z3.Bool(f"h{number}") for number in range(len(penalties))]
+        self._context = z3.Context()
+        self._solver = z3.SolverFor("QF_FD", self._context)
+        self._literals = [z3.Bool(f"h{number}", self._context) for number in range(len(penalties))]
         self._penalties = penalties
         self._useful: set[int] = set()
         self._least = 0
@@ -201,11 +210,11 @@ class HittingSets:
     def require(self, numbers: Sequence[int]) -> None:
         """One of these numbers must be chosen."""
         self._useful |= set(numbers)
-        self._solver.add(_any([self._literals[number] for number in numbers]))
+        self._solver.add(_any([self._literals[number] for number in numbers], self._context))
 
     def exclude(self, numbers: Sequence[int]) -> None:
         """Not all of these numbers may be chosen."""
-        self._solver.add(_any([z3.Not(self._literals[number]) for number in numbers]))
+        self._solver.add(_any([z3.Not(self._literals[number]) for number in numbers], self._context))
 
     def smallest(self) -> frozenset[int] | None:
         """A set of the smallest size; None where there is none. Sizes never fall from one answer to the next."""
@@ -246,6 +255,6 @@ class HittingSets:
         terms = [
             (literal, penalty) for literal, penalty in zip(self._literals, self._penalties, strict=True) if penalty
         ]
-        bound = z3.Bool(f"p{total}")
-        self._solver.add(z3.Implies(bound, z3.PbLe(terms, total) if terms else z3.BoolVal(True)))
+        bound = z3.Bool(f"p{total}", self._context)
+        self._solver.add(z3.Implies(bound, z3.PbLe(terms, total) if terms else z3.BoolVal(True, self._context)))
         return bound
