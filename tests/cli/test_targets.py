@@ -162,6 +162,7 @@ def test_names_that_cannot_be(cli: Cli, tmp_path: Path, output: str) -> None:
     ran = cli("explain", "no_plan.tum", "--write", "x" * 300)
     assert (ran.code, ran.out) == (2, "")
     assert cli("verify", "x" * 300).code == 2
+    (tmp_path / "two_robots.tum").unlink()
     assert cli("verify", ".", "--specs", "x" * 300).code == 2
 
 

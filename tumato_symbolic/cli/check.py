@@ -12,6 +12,7 @@ from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.limits import Context
 from tumato_symbolic.report.checked import Checked, as_github, as_json, as_text
 from tumato_symbolic.report.layout import dump
+from tumato_symbolic.semantics.suspicions import suspicions
 from tumato_symbolic.spec import load
 from tumato_symbolic.syntax import read_source
 
@@ -53,4 +54,5 @@ def _check(path: str) -> Checked:
     except UserError as error:
         return Checked(path, error.source, None, error.diagnostics)
     loaded = load(source)
-    return Checked(path, source, loaded.spec, loaded.diagnostics)
+    found = () if loaded.spec is None else suspicions(loaded.spec)
+    return Checked(path, source, loaded.spec, (*loaded.diagnostics, *found))

@@ -160,7 +160,8 @@ examples:
 _CHECK = """\
 Look for mistakes in specifications without solving them: syntax, names, effects, and what is surely unmeant.
 
-Made for editors and commit hooks: it answers at once. Warnings alone exit with 0.
+Made for editors and commit hooks: it answers at once. Warnings alone exit with 0. What shows only in the states, such
+as a rule that nothing breaks, is looked for where there are few of them; `synth` looks for it everywhere.
 """
 
 _CHECK_EXAMPLE = """\

@@ -24,7 +24,7 @@ class Checked:
     @property
     def failed(self) -> bool:
         """Whether the specification cannot be used."""
-        return self.spec is None
+        return any(diagnostic.severity == "error" for diagnostic in self.diagnostics)
 
 
 def as_text(files: Sequence[Checked], colour: bool) -> str:
@@ -37,7 +37,7 @@ def as_text(files: Sequence[Checked], colour: bool) -> str:
         errors = sum(diagnostic.severity == "error" for diagnostic in file.diagnostics)
         warnings = len(file.diagnostics) - errors
         found = [count(errors, "error")] * bool(errors) + [count(warnings, "warning")] * bool(warnings)
-        if file.spec is None:
+        if file.spec is None or file.failed:
             parts.append(f"{file.path}: {paint.bad(', '.join(found))}")
         else:
             mood = paint.doubt(", ".join(found)) if found else paint.good("no findings")

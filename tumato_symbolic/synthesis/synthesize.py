@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from tumato_symbolic.diagnostics import Code, Diagnostic, Note, UserError
+from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.limits import Context, LimitReachedError
 from tumato_symbolic.policy import Policy, as_table
 from tumato_symbolic.semantics import count_states
+from tumato_symbolic.semantics.suspicions import no_valid_state
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.symbolic import Backend, Bdd, available_backend
 from tumato_symbolic.synthesis.certificate import policy_diagram
@@ -74,7 +75,7 @@ def _solve(problem: Problem, policy_format: PolicyFormat) -> Outcome:
     """The pipeline behind the encoding."""
     context, statistics = problem.context, _statistics(problem)
     if not statistics.valid:
-        raise UserError((_no_valid_state(problem.spec),))
+        raise UserError((no_valid_state(problem.spec),))
     if policy_format == "table" and statistics.valid > TABLE_MAXIMUM:
         message = f"a table of {statistics.valid:,} states is more than the {TABLE_MAXIMUM:,} that can be written"
         raise UserError((Diagnostic(Code.TUM508, message, None, "use `--policy-format diagram`"),))
@@ -117,12 +118,6 @@ def _answer_no(
     problem.context.learn(answer)
     problem.context.tell("certifying that there is no policy")
     return answer
-
-
-def _no_valid_state(spec: Spec) -> Diagnostic:
-    notes = tuple(Note("an assumption", rule.span) for rule in spec.assumptions[1:])
-    message = "no state satisfies all assumptions, so there is nothing to decide"
-    return Diagnostic(Code.TUM312, message, spec.assumptions[0].span, "weaken or remove an assumption", notes)
 
 
 @dataclass(frozen=True)

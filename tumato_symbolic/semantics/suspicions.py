@@ -1,0 +1,223 @@
+"""Warnings that need the whole state space, found state by state: what is legal, but surely not meant."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain, combinations
+from math import prod
+from typing import TypeAlias
+
+from tumato_symbolic.diagnostics import Code, Diagnostic, Note
+from tumato_symbolic.semantics.states import ActionSet, State, all_states, count_states, holds, is_valid
+from tumato_symbolic.semantics.step import allowed, nominal_agrees
+from tumato_symbolic.spec import Action, ConditionalGoal, Formula, Goal, GoalList, Rule, Spec, executing_atoms
+from tumato_symbolic.spec.formula import atoms
+
+MAX_STATES = 10_000
+"""The most states that are looked at one by one."""
+
+MAX_WORK = 500_000
+"""How many atoms are looked at for one specification; questions that are open then stay open."""
+
+States: TypeAlias = Sequence[State]
+
+
+def suspicions(spec: Spec) -> tuple[Diagnostic, ...]:
+    """Goals that are never entered, rules that nothing breaks, actions that are allowed nowhere; in source order.
+
+    An error (TUM312) where no state is valid; nothing where there are more than `MAX_STATES` states. What a predicate's
+    own variables decide is left out: that is said when the specification is read.
+    """
+    work = _Work()
+    if count_states(spec) > MAX_STATES or not work.affords(count_states(spec) * _cost(spec.assumptions)):
+        return ()
+    valid = [state for state in all_states(spec) if is_valid(spec, state)]
+    if not valid:
+        return (no_valid_state(spec),)
+    found = []
+    try:
+        for one in chain(_goals(spec, valid, work), _rules(spec, valid, work), _actions(spec, valid, work)):
+            found.append(one)
+    except _SpentError:
+        pass
+    return in_order(found)
+
+
+def in_order(found: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
+    """Diagnostics as their places come in the text."""
+    return tuple(sorted(found, key=lambda one: (one.span.line, one.span.column) if one.span else (0, 0)))
+
+
+def no_valid_state(spec: Spec) -> Diagnostic:
+    """The error where the assumptions exclude every state."""
+    notes = tuple(Note("an assumption", rule.span) for rule in spec.assumptions[1:])
+    message = "no state satisfies all assumptions, so there is nothing to decide"
+    return Diagnostic(Code.TUM312, message, spec.assumptions[0].span, "weaken or remove an assumption", notes)
+
+
+def idle_goal(goal: Goal) -> Diagnostic:
+    """The warning about a goal that is never entered."""
+    message = "this goal is never entered: an earlier goal of the priority list always is"
+    if isinstance(goal, ConditionalGoal):
+        message = f"this goal is never entered: in no valid state where it is tried, `{goal.condition.text}` holds"
+    return Diagnostic(Code.TUM351, message, goal.span, "remove it, or move it before the goal that hides it")
+
+
+def idle_rule(rule: Rule, where: str) -> Diagnostic:
+    """The warning about a rule that nothing breaks; `where` is what could."""
+    message = f"no {where} breaks this rule, so it changes nothing"
+    return Diagnostic(Code.TUM352, message, rule.span, "remove it, or check what it was meant to forbid")
+
+
+def idle_action(action: Action) -> Diagnostic:
+    """The warning about an action that is allowed nowhere."""
+    message = f"`{action.name}` is allowed in no valid state, alone or together with others"
+    return Diagnostic(Code.TUM353, message, action.span, "check its preconditions, and what its effects break")
+
+
+STATES, SETS = "valid state", "applicable set of actions in a valid state"
+"""What could break a state rule, and a reaction rule."""
+
+
+class _SpentError(Exception):
+    """All work that may be done is done."""
+
+
+class _Work:
+    """What may still be done."""
+
+    def __init__(self) -> None:
+        self._left = MAX_WORK
+
+    def affords(self, amount: int) -> bool:
+        """Whether so much may be done; it is counted as done."""
+        self._left -= amount
+        return self._left >= 0
+
+    def spend(self, amount: int) -> None:
+        """Count what is about to be done. Raises `_SpentError` where that is too much."""
+        if not self.affords(amount):
+            raise _SpentError
+
+    def holds(self, formula: Formula, cost: int, state: State, executed: ActionSet = frozenset()) -> bool:
+        """Whether a formula with `cost` atoms is true."""
+        self.spend(cost)
+        return holds(formula, state, executed)
+
+
+def _cost(rules: Iterable[Rule]) -> int:
+    return 1 + sum(sum(1 for _ in atoms(rule.formula)) for rule in rules)
+
+
+def _goals(spec: Spec, valid: States, work: _Work) -> Iterator[Diagnostic]:
+    if spec.goals is None:
+        return
+    entered: set[int] = set()
+    costs = {id(goal): _cost([goal.condition]) for goal in _parts(spec.goals) if isinstance(goal, ConditionalGoal)}
+    everything = {id(goal) for goal in _parts(spec.goals)}
+    for state in valid:
+        if entered == everything:
+            return
+        _enter(spec.goals, state, entered, costs, work)
+    for goal in _idle(spec.goals, entered):
+        if isinstance(goal, ConditionalGoal):
+            formula, cost = goal.condition.formula, costs[id(goal)]
+            if not any(work.holds(formula, cost, state) for state in all_states(spec)):
+                continue
+        yield idle_goal(goal)
+
+
+def _parts(goal: Goal) -> Iterator[Goal]:
+    yield goal
+    if isinstance(goal, ConditionalGoal):
+        yield from _parts(goal.goal)
+    elif isinstance(goal, GoalList):
+        for member in goal.members:
+            yield from _parts(member)
+
+
+def _enter(goal: Goal, state: State, entered: set[int], costs: dict[int, int], work: _Work) -> bool:
+    """Whether a goal is entered in a state; those that are, are noted."""
+    if isinstance(goal, ConditionalGoal):
+        if not work.holds(goal.condition.formula, costs[id(goal)], state):
+            return False
+        _enter(goal.goal, state, entered, costs, work)
+    elif isinstance(goal, GoalList):
+        for member in goal.members:
+            if _enter(member, state, entered, costs, work) and goal.kind == "priority":
+                break
+    work.spend(1)
+    entered.add(id(goal))
+    return True
+
+
+def _idle(goal: Goal, entered: set[int]) -> Iterator[Goal]:
+    """The goals that are not entered, but for those inside others of them."""
+    if id(goal) not in entered:
+        yield goal
+    elif isinstance(goal, ConditionalGoal):
+        yield from _idle(goal.goal, entered)
+    elif isinstance(goal, GoalList):
+        for member in goal.members:
+            yield from _idle(member, entered)
+
+
+def _rules(spec: Spec, valid: States, work: _Work) -> Iterator[Diagnostic]:
+    for rule in spec.state_rules:
+        cost = _cost([rule])
+        if all(work.holds(rule.formula, cost, state) for state in valid) and not all(
+            work.holds(rule.formula, cost, state) for state in all_states(spec)
+        ):
+            yield idle_rule(rule, STATES)
+    for rule in spec.reaction_rules:
+        cost = _cost([rule])
+        sets = list(_compatible(spec, executing_atoms(rule.formula), work))
+        broken = (
+            chosen
+            for state in valid
+            for chosen in sets
+            if not work.holds(rule.formula, cost, state, chosen) and _applicable(spec, state, chosen, work)
+        )
+        if next(broken, None) is None and not all(
+            work.holds(rule.formula, cost, state, chosen) for state in all_states(spec) for chosen in sets
+        ):
+            yield idle_rule(rule, SETS)
+
+
+def _actions(spec: Spec, valid: States, work: _Work) -> Iterator[Diagnostic]:
+    """With an allowed set, the action and those of the set that reaction rules speak of are allowed as well."""
+    spoken_of = frozenset[int]().union(*(executing_atoms(rule.formula) for rule in spec.reaction_rules))
+    for number, action in enumerate(spec.actions):
+        alone = frozenset((number,))
+        sets = [chosen | alone for chosen in _compatible(spec, spoken_of - alone, work)]
+        applicable = (state for state in valid if _applicable(spec, state, alone, work))
+        if not any(_is_allowed(spec, state, chosen, work) for state in applicable for chosen in sets):
+            yield idle_action(action)
+
+
+def _is_allowed(spec: Spec, state: State, chosen: ActionSet, work: _Work) -> bool:
+    """`Ok(s, A)`; the outcomes, of which there may be very many, are counted before they are looked at."""
+    work.spend(_cost(spec.reaction_rules))
+    if not all(holds(rule.formula, state, chosen) for rule in spec.reaction_rules):
+        return False
+    if not _applicable(spec, state, chosen, work):
+        return False
+    ways = prod(1 + len(spec.actions[number].effects) for number in chosen)
+    work.spend(ways * _cost((*spec.state_rules, *spec.assumptions)))
+    return allowed(spec, state, chosen, spec.ordering)
+
+
+def _compatible(spec: Spec, actions: frozenset[int], work: _Work) -> Iterator[ActionSet]:
+    """The sets of some actions that neither share a resource nor disagree nominally, smaller ones first."""
+    for size in range(len(actions) + 1):
+        for chosen in combinations(sorted(actions), size):
+            work.spend(1)
+            held = [resource for number in chosen for resource in spec.actions[number].resources]
+            if len(held) == len(set(held)) and nominal_agrees(spec, frozenset(chosen)):
+                yield frozenset(chosen)
+
+
+def _applicable(spec: Spec, state: State, chosen: ActionSet, work: _Work) -> bool:
+    rules = [rule for number in chosen for rule in spec.actions[number].preconditions]
+    work.spend(_cost(rules))
+    return all(holds(rule.formula, state) for rule in rules)
