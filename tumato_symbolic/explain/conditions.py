@@ -12,6 +12,7 @@ from copy import copy
 from dataclasses import dataclass, replace
 
 from tumato_symbolic.explain.elements import Element, Elements, elements_of, keep_only, replace_rule, rule_of
+from tumato_symbolic.limits import Context
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Assignment, Formula, Ordering, Rule, Spec, variables_of
 from tumato_symbolic.symbolic import (
@@ -41,12 +42,12 @@ class Conditions:
     `valid` are the states that satisfy *all* assumptions: whatever is dropped, only these are asked about.
     """
 
-    def __init__(self, spec: Spec, ordering: Ordering, backend: Backend) -> None:
+    def __init__(self, spec: Spec, ordering: Ordering, backend: Backend, context: Context | None = None) -> None:
         self.spec = spec
         self.ordering = ordering
         self.elements = elements_of(spec)
         no_resources = frozenset(each for each in self.elements if each.kind != "resource")
-        self.encoding: Encoding = encode(keep_only(spec, no_resources), backend)
+        self.encoding: Encoding = encode(keep_only(spec, no_resources), backend, context)
         self.manager = self.encoding.manager
         self.valid: Bdd = self.encoding.domain() & self.encoding.all_of(rule.formula for rule in spec.assumptions)
         self.regions = regions(self.encoding, self.valid)

@@ -2,47 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from itertools import islice
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from typing import Final, TypeAlias
 
 from tumato_symbolic.explain.conditions import Conditions
-from tumato_symbolic.explain.conflicts import conflict_core, served_together
-from tumato_symbolic.explain.cores import (
-    Cause,
-    Failing,
-    causes,
-    core_finder,
-    element_list,
-    failing_states,
-    more_cores,
-)
-from tumato_symbolic.explain.cubes import Cover, StateCube, disjoint_cubes, set_of
-from tumato_symbolic.explain.elements import Element, Elements
 from tumato_symbolic.explain.explanation import (
-    Change,
+    STAGES,
     Explanation,
+    FailingGroup,
+    Found,
+    LeftOut,
     NothingToExplain,
     RealizablePart,
-    Reason,
-    Repair,
+    Stage,
     Unexplained,
+    so_far,
+    stopped,
 )
 from tumato_symbolic.explain.near import near_misses
 from tumato_symbolic.explain.part import largest_part
-from tumato_symbolic.explain.plans import shortest_plan
 from tumato_symbolic.explain.predicates import predicate_text
-from tumato_symbolic.explain.repairs import repairs
-from tumato_symbolic.explain.unmet import own_goals
-from tumato_symbolic.explain.weaken import weakening
-from tumato_symbolic.limits import Context
-from tumato_symbolic.semantics import State, count_states
+from tumato_symbolic.explain.reasons import reasons_found
+from tumato_symbolic.explain.repairs import repairs_found
+from tumato_symbolic.explain.work import Work
+from tumato_symbolic.limits import Context, LimitReachedError
 from tumato_symbolic.spec import Ordering, Spec
-from tumato_symbolic.symbolic import Backend, Bdd, available_backend
-from tumato_symbolic.synthesis import Failure, Realizable, Statistics, Undecided, Unrealizable, synthesize
-from tumato_symbolic.synthesis.repair import RoundsExhaustedError
-
-MAX_CAUSES = 1_000
-"""So many different reasons are looked for at most."""
+from tumato_symbolic.symbolic import Backend, available_backend
+from tumato_symbolic.synthesis import Realizable, Undecided, Unrealizable, synthesize
 
 MAX_CUBES = 1_000
 """So many cubes are listed where nothing else is asked for."""
@@ -50,8 +37,11 @@ MAX_CUBES = 1_000
 NEAR_MISSES = 3
 """So many sets that come near to being allowed are told of each reason."""
 
-MOST_WEAKENED = 3
-"""A repair of more elements is not one that anybody would make line by line."""
+_SHARES: Final[dict[Stage, float]] = {"states": 0.25, "part": 0.35, "reasons": 0.5, "near": 0.2, "repairs": 0.95}
+"""The part of the time that is left which a stage may take, so that there is some for those behind it."""
+
+_Run: TypeAlias = Callable[[Work, Explanation], Iterator[Explanation]]
+"""A stage: from what is known to what is known then, with every step between that is worth telling."""
 
 
 def explain(
@@ -63,157 +53,133 @@ def explain(
     wanted_repairs: int = 3,
     backend: Backend | None = None,
     context: Context | None = None,
-) -> Explanation | NothingToExplain | Unexplained:
+) -> Found:
     """Why `spec` has no policy: all failing states by reason, repairs, and the largest realizable part.
 
-    `max_cubes` caps the list of cubes, `cores` is how many cores each reason gets, `wanted_repairs` how many ways to
+    `max_cubes` caps each list of cubes, `cores` is how many cores each reason gets, `wanted_repairs` how many ways to
     drop elements are looked for. Raises `UserError` where no state is valid.
     """
-    context = context or Context()
-    tell = context.tell
-    tell("encoding states and steps")
-    conditions = Conditions(spec, ordering or spec.ordering, backend or available_backend())
-    failing = failing_states(conditions)
-    if (failing.no_allowed_set | failing.no_plan) == conditions.false:
-        tell("synthesizing")
-        outcome = synthesize(spec, conditions.ordering, backend=conditions.manager.backend)
-        if isinstance(outcome, Realizable):
-            return NothingToExplain(outcome.statistics)
-        if isinstance(outcome, Undecided):
-            return Unexplained(outcome.limit, _statistics(conditions))
-        tell("explaining the conflict")
-        found: tuple[Reason, ...] = (_conflict(conditions, outcome, max_cubes, cores),)
-        omitted = 0
-    else:
-        tell("explaining the failing states")
-        found, omitted = _reasons(conditions, failing, max_cubes, cores)
-    count = conditions.encoding.count_states
-    tell("looking for repairs")
-    mended = repairs(conditions, [frozenset(reason.core) for reason in found], wanted_repairs)
-    tell("looking for the largest realizable part")
-    return Explanation(
+    *_, found = explained(
         spec,
-        conditions.ordering,
-        _statistics(conditions),
-        count(failing.no_allowed_set) + count(failing.no_plan),
-        found,
-        omitted,
-        tuple(_with_weakenings(conditions, mended.found)),
-        mended.complete,
-        mended.hopeless,
-        _part(conditions),
+        ordering,
+        max_cubes=max_cubes,
+        cores=cores,
+        wanted_repairs=wanted_repairs,
+        backend=backend,
+        context=context,
     )
+    return found
 
 
-def _statistics(conditions: Conditions) -> Statistics:
-    count = conditions.encoding.count_states
-    rules = conditions.encoding.all_of(rule.formula for rule in conditions.spec.state_rules)
-    valid, safe = count(conditions.valid), count(conditions.valid & rules)
-    backend = conditions.manager.backend
-    return Statistics(count_states(conditions.spec), valid, safe, valid - safe, None, backend, conditions.ordering)
-
-
-def _reasons(conditions: Conditions, failing: Failing, max_cubes: int, cores: int) -> tuple[tuple[Reason, ...], int]:
-    """The reasons, the largest first, and how many failing states have one that was not looked for."""
-    count = conditions.encoding.count_states
-    found = list(islice(causes(conditions, failing), MAX_CAUSES))
-    found.sort(key=lambda cause: -count(cause.states))
-    explained = conditions.manager.union(cause.states for cause in found)
-    omitted = count((failing.no_allowed_set | failing.no_plan) & ~explained)
-    covered = _covered(conditions, found, max_cubes)
-    return tuple(_reason(conditions, cause, cover, cores) for cause, cover in covered), omitted
-
-
-def _covered(conditions: Conditions, found: list[Cause], max_cubes: int) -> Iterator[tuple[Cause, Cover]]:
-    left = max_cubes
-    for cause in found:
-        cover = cubes_of(conditions, cause.states, left)
-        left -= len(cover.cubes)
-        yield cause, cover
-
-
-def cubes_of(conditions: Conditions, states: Bdd, limit: int) -> Cover:
-    """Disjoint cubes of valid states, the largest first."""
-    encoding = conditions.encoding
-    cover = disjoint_cubes(encoding, states, encoding.domain() & ~conditions.valid, limit)
-
-    def size(cube: StateCube) -> int:
-        return encoding.count_states(states & set_of(encoding, cube))
-
-    return Cover(tuple(sorted(cover.cubes, key=lambda cube: -size(cube))), cover.rest)
-
-
-def _reason(conditions: Conditions, cause: Cause, cover: Cover, cores: int) -> Reason:
-    count = conditions.encoding.count_states
-    spec, example = conditions.spec, cause.example
-    shown = more_cores(conditions, cause.core, cores, core_finder(conditions, cause))
-    stuck = cause.kind == "no-allowed-set"
-    bounded = Element("plan-bound") in cause.core
-    return Reason(
-        cause.kind,
-        count(cause.states),
-        cover.cubes,
-        count(cover.rest),
-        example,
-        tuple(element_list(conditions, core) for core in shown),
-        () if stuck else own_goals(conditions, example),
-        near_misses(spec, example, conditions.ordering, NEAR_MISSES).misses if stuck else (),
-        shortest_plan=shortest_plan(conditions, conditions.encoding.state_cube(example)) if bounded else None,
-    )
-
-
-def _conflict(conditions: Conditions, outcome: Unrealizable, max_cubes: int, cores: int) -> Reason:
-    failure: Failure = outcome.failures[0]
-    states = conditions.manager.union(map(conditions.encoding.state_cube, failure.states))
-    cover = cubes_of(conditions, states, max_cubes)
-    count = conditions.encoding.count_states
-    shown = _conflict_cores(conditions, failure.states, states, cores)
-    return Reason(
-        "conflict",
-        failure.count,
-        cover.cubes,
-        count(cover.rest),
-        failure.example,
-        tuple(element_list(conditions, core) for core in shown),
-        together=failure.states,
-    )
-
-
-def _conflict_cores(
-    conditions: Conditions, together: tuple[State, ...], states: Bdd, cores: int
-) -> tuple[Elements, ...]:
-    """Cores of a conflict; where the question is too hard, everything is to blame."""
+def explained(
+    spec: Spec,
+    ordering: Ordering | None = None,
+    *,
+    max_cubes: int = MAX_CUBES,
+    cores: int = 1,
+    wanted_repairs: int = 3,
+    backend: Backend | None = None,
+    context: Context | None = None,
+) -> Iterator[Found]:
+    """What `explain` returns, again and again as more of it is known: the last one is all that limits allow."""
+    context = context or Context()
+    ordering, backend = ordering or spec.ordering, backend or available_backend()
+    outcome = synthesize(spec, ordering, backend=backend, context=context.within(), certify=False)
+    if isinstance(outcome, Realizable):
+        yield NothingToExplain(outcome.statistics)
+        return
+    if isinstance(outcome, Undecided):
+        yield Unexplained(outcome.limit, outcome.statistics)
+        return
+    known = _verdict(spec, ordering, outcome)
+    yield known
     try:
-        first = conflict_core(conditions, together, conditions.everything)
-    except RoundsExhaustedError:
-        return (conditions.everything,)
-
-    def find(among: Elements) -> Elements | None:
-        return None if served_together(conditions, states, among) else conflict_core(conditions, together, among)
-
-    return more_cores(conditions, first, cores, find)
-
-
-def _with_weakenings(conditions: Conditions, found: tuple[Elements, ...]) -> Iterator[Repair]:
-    """Every repair as it is; single elements, and the first repair, if it is small, also weakened."""
-    for number, dropped in enumerate(found):
-        yield Repair(tuple(Change(element, None) for element in element_list(conditions, dropped)))
-        worth_it = len(dropped) <= (MOST_WEAKENED if number == 0 else 1)
-        weaker = weakening(conditions, dropped) if worth_it else None
-        if weaker is not None:
-            texts: dict[Element, str | None] = {edit.element: edit.text for edit in weaker.edits}
-            yield Repair(tuple(Change(each, texts.get(each)) for each in element_list(conditions, dropped)))
+        context.tell("encoding what every line demands")
+        conditions = Conditions(spec, ordering, backend, context)
+    except LimitReachedError as limit:
+        yield stopped(known, str(limit))
+        return
+    work = Work(conditions, context, outcome, max_cubes, cores, wanted_repairs)
+    for stage in STAGES:
+        for more in _within_its_share(work, known, stage):
+            known = more
+            yield known
 
 
-def _part(conditions: Conditions) -> RealizablePart | None:
-    found = largest_part(conditions)
-    if found is None:
-        return None
-    return RealizablePart(
-        found.count,
-        conditions.encoding.count_states(conditions.valid) - found.count,
-        found.formula,
-        predicate_text(conditions.spec, found.formula),
-        found.unique,
-        found.largest,
+def _verdict(spec: Spec, ordering: Ordering, outcome: Unrealizable) -> Explanation:
+    """That there is no policy, and how many states fail."""
+    groups = tuple(
+        FailingGroup(each.kind, each.count, (), each.count, each.example, each.states)
+        if each.kind == "conflict"
+        else FailingGroup(each.kind, each.count, (), each.count, each.example)
+        for each in outcome.failures
     )
+    failing = sum(group.count for group in groups if group.kind != "conflict")
+    return Explanation(spec, ordering, outcome.statistics, failing, groups)
+
+
+def _within_its_share(work: Work, found: Explanation, stage: Stage) -> Iterator[Explanation]:
+    """What a stage adds, until its share of the time is used up."""
+    known = found
+    try:
+        with work.within(_SHARES[stage]):
+            for more in _RUNS[stage](work, found):
+                known = more
+                yield known
+        if not known.is_over(stage):
+            known = replace(known, finished=(*known.finished, stage))
+    except LimitReachedError as limit:
+        why = str(limit) if work.context.is_over else work.share_met()
+        known = replace(known, left_out=(*known.left_out, LeftOut(stage, so_far(known, stage), why)))
+    yield known
+
+
+def _states(work: Work, found: Explanation) -> Iterator[Explanation]:
+    """The failing states as cubes."""
+    groups, left = [], work.max_cubes
+    for number, group in enumerate(found.groups):
+        work.context.tell(f"listing the failing states: group {number + 1} of {len(found.groups)}")
+        states = work.states_of(group.kind)
+        cover = work.cubes(states, left)
+        left -= len(cover.cubes)
+        example = group.example if group.kind == "conflict" else work.typical(states)
+        omitted = work.count(cover.rest)
+        groups.append(replace(group, cubes=cover.cubes, omitted=omitted, example=example))
+    yield replace(found, groups=tuple(groups))
+
+
+def _part(work: Work, found: Explanation) -> Iterator[Explanation]:
+    """The largest realizable part."""
+    conditions = work.conditions
+    work.context.tell("looking for the largest realizable part")
+    part = largest_part(conditions)
+    if part is not None:
+        given_up = work.count(conditions.valid) - part.count
+        text = predicate_text(conditions.spec, part.formula)
+        known = RealizablePart(part.count, given_up, part.formula, text, part.unique, part.largest)
+        yield replace(found, part=known)
+
+
+def _near(work: Work, found: Explanation) -> Iterator[Explanation]:
+    """What comes near in the examples of states without an allowed set."""
+    reasons, passed_over = list(found.reasons), 0
+    stuck = [number for number, reason in enumerate(reasons) if reason.kind == "no-allowed-set"]
+    for place, number in enumerate(stuck):
+        work.context.tell(f"looking for what comes near: reason {place + 1} of {len(stuck)}")
+        work.conditions.manager.context.check()
+        nearest = near_misses(found.spec, reasons[number].example, found.ordering, NEAR_MISSES)
+        passed_over += nearest.passed_over
+        reasons[number] = replace(reasons[number], near=nearest.misses)
+        yield (found := replace(found, reasons=tuple(reasons)))
+    if passed_over:
+        why = "sets with too many outcomes were passed over"
+        yield replace(found, left_out=(*found.left_out, LeftOut("near", f"{passed_over} were not looked at", why)))
+
+
+_RUNS: Final[dict[Stage, _Run]] = {
+    "states": _states,
+    "part": _part,
+    "reasons": reasons_found,
+    "near": _near,
+    "repairs": repairs_found,
+}

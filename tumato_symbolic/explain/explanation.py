@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Final, Literal, TypeAlias
 
 from tumato_symbolic.explain.cubes import StateCube
 from tumato_symbolic.explain.elements import Element
@@ -88,24 +89,64 @@ class RealizablePart:
     largest: bool
 
 
+Stage: TypeAlias = Literal["states", "part", "reasons", "near", "repairs"]
+"""What an explanation consists of after the verdict, in this order."""
+
+STAGES: Final[tuple[Stage, ...]] = ("states", "part", "reasons", "near", "repairs")
+
+
+@dataclass(frozen=True, slots=True)
+class FailingGroup:
+    """The states that fail in one way, all of them; of a conflict, those that no policy serves together.
+
+    `cubes` are disjoint and hold exactly these valid states, but for the `omitted` ones of which no cube is listed;
+    until they are known all are omitted. `together` are the states of a conflict.
+    """
+
+    kind: FailureKind
+    count: int
+    cubes: tuple[StateCube, ...]
+    omitted: int
+    example: State
+    together: tuple[State, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class LeftOut:
+    """A stage that was not finished: `found` says how far it came, `why` what ended it."""
+
+    stage: Stage
+    found: str
+    why: str
+
+
 @dataclass(frozen=True, slots=True)
 class Explanation:
-    """Why there is no policy, and what would change that.
+    """Why there is no policy, and what would change that; what is known of it by now.
 
-    `reasons` are the largest first; `omitted` counts failing states whose reasons were not looked for, because there
-    are too many of them. `repairs_complete`: there are no other ways to drop. `hopeless` says why there is none.
+    Every stage adds its part: `groups` (`states`), `part`, `reasons` with `omitted` (the failing states whose reason is
+    not among them), what comes near (`near`), and `repairs`. `repairs_complete`: there are no other ways to drop.
+    `hopeless` says why there is none. `finished` are the stages that have said all they can, `left_out` those that
+    were cut short; while work goes on, some are neither.
     """
 
     spec: Spec
     ordering: Ordering
     statistics: Statistics
     failing_states: int
-    reasons: tuple[Reason, ...]
-    omitted: int
-    repairs: tuple[Repair, ...]
-    repairs_complete: bool
-    hopeless: str | None
-    part: RealizablePart | None
+    groups: tuple[FailingGroup, ...]
+    part: RealizablePart | None = None
+    reasons: tuple[Reason, ...] = ()
+    omitted: int = 0
+    repairs: tuple[Repair, ...] = ()
+    repairs_complete: bool = False
+    hopeless: str | None = None
+    finished: tuple[Stage, ...] = ()
+    left_out: tuple[LeftOut, ...] = ()
+
+    def is_over(self, stage: Stage) -> bool:
+        """Whether nothing more comes from a stage."""
+        return stage in self.finished or any(each.stage == stage for each in self.left_out)
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,7 +158,42 @@ class NothingToExplain:
 
 @dataclass(frozen=True, slots=True)
 class Unexplained:
-    """A limit was met before it was known whether there is a policy."""
+    """It is not known whether there is a policy: a limit was met, or (`limit` is None) work goes on."""
 
-    limit: str
-    statistics: Statistics
+    limit: str | None = None
+    statistics: Statistics | None = None
+
+
+Found: TypeAlias = Explanation | NothingToExplain | Unexplained
+"""What is known by now."""
+
+
+def stopped(found: Found, why: str) -> Found:
+    """What is known when work is ended, with what is left out because of it."""
+    match found:
+        case Explanation():
+            unfinished = [stage for stage in STAGES if not found.is_over(stage)]
+            more = tuple(LeftOut(stage, so_far(found, stage), why) for stage in unfinished)
+            return replace(found, left_out=found.left_out + more)
+        case Unexplained():
+            return replace(found, limit=why)
+        case NothingToExplain():
+            return found
+
+
+def so_far(found: Explanation, stage: Stage) -> str:
+    """How far a stage has come, in words."""
+    match stage:
+        case "states":
+            return "not all failing states are listed"
+        case "part":
+            return "none was found"
+        case "reasons":
+            told = sum(reason.count for reason in found.reasons)
+            of = f", for {told:,} of {found.failing_states:,} failing states" if found.failing_states else ""
+            return f"the first {len(found.reasons)}{of}" if found.reasons else "none was found"
+        case "near":
+            return "not all reasons were looked at"
+        case "repairs":
+            drops = sum(repair.drops for repair in found.repairs)
+            return f"the first {drops}" if drops else "none was found"

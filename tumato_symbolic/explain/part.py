@@ -10,10 +10,11 @@ from tumato_symbolic.diagnostics import Span
 from tumato_symbolic.explain.conditions import Conditions
 from tumato_symbolic.explain.plans import restricted
 from tumato_symbolic.explain.predicates import predicate_text, shortest_formula
+from tumato_symbolic.explain.trial import trial
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Formula, Rule, Spec
 from tumato_symbolic.symbolic import Bdd, targets
-from tumato_symbolic.synthesis import Realizable, Unrealizable, synthesize
+from tumato_symbolic.synthesis import Realizable, Unrealizable
 from tumato_symbolic.synthesis.fixpoints import distances
 from tumato_symbolic.synthesis.judging import served
 from tumato_symbolic.synthesis.problem import Problem
@@ -90,8 +91,7 @@ def _conflict(conditions: Conditions, formula: Formula) -> tuple[State, ...] | N
 
     Where synthesis gives up, any state may be to blame, and the first few are.
     """
-    spec = assuming(conditions.spec, formula)
-    outcome = synthesize(spec, conditions.ordering, backend=conditions.manager.backend)
+    outcome = trial(conditions, assuming(conditions.spec, formula))
     if isinstance(outcome, Realizable):
         return None
     if isinstance(outcome, Unrealizable):

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from typing import Literal, TypeAlias
 
 from tumato_symbolic.explain.conditions import Conditions
 from tumato_symbolic.explain.conflicts import conflict_core
-from tumato_symbolic.explain.cores import core_without_plan, core_without_set, typical_state
+from tumato_symbolic.explain.cores import core_without_plan, core_without_set, element_list, typical_state
 from tumato_symbolic.explain.elements import Element, ElementKind, Elements, without
+from tumato_symbolic.explain.explanation import Change, Explanation, Repair
 from tumato_symbolic.explain.plans import failing
-from tumato_symbolic.synthesis import Realizable, Unrealizable, synthesize
+from tumato_symbolic.explain.trial import trial
+from tumato_symbolic.explain.weaken import weakening
+from tumato_symbolic.explain.work import Work
+from tumato_symbolic.synthesis import Realizable, Unrealizable
 from tumato_symbolic.synthesis.repair import RoundsExhaustedError
 from tumato_symbolic.synthesis.solver import HittingSets
 
@@ -30,30 +34,41 @@ _PENALTIES: dict[ElementKind, int] = {
 """Of repairs of one size, those come first that do not pretend that the robot can do what it cannot."""
 
 Hopeless: TypeAlias = Literal["failing", "conflict"]
+"""Why nothing helps: with everything dropped but the assumptions, states still fail, or goals conflict."""
+
+MOST_WEAKENED = 3
+"""A repair of more elements is not one that anybody would make line by line."""
 
 
-@dataclass(frozen=True)
-class Repairs:
+def repairs_found(work: Work, found: Explanation) -> Iterator[Explanation]:
     """Inclusion-minimal sets of elements whose dropping makes the specification realizable, the smallest first.
 
-    `hopeless` tells why there is none: with everything dropped but the assumptions, states still `failing`, or goals in
-    `conflict`. `complete`: there are no others.
-    """
-
-    found: tuple[Elements, ...]
-    complete: bool
-    hopeless: Hopeless | None
-
-
-def repairs(conditions: Conditions, cores: Iterable[Elements], wanted: int) -> Repairs:
-    """Up to `wanted` repairs; `cores` are known reasons for failing.
-
     A repair hits every core. Smallest sets that hit all known cores are tried; one that does not do shows a new core.
+    Single elements, and the first repair where it is small, are weakened as well.
     """
+    conditions, wanted = work.conditions, work.wanted_repairs
+    work.context.tell("repairs: finding out whether there is one")
     hopeless = _hopeless(conditions)
     if hopeless is not None or wanted < 1:
-        return Repairs((), hopeless is not None, hopeless)
-    return _Search(conditions, cores).run(wanted)
+        yield replace(found, hopeless=hopeless, repairs_complete=hopeless is not None)
+        return
+    search = _Search(conditions, (frozenset(reason.core) for reason in found.reasons))
+    for number in range(wanted):
+        work.context.tell(f"repairs: {number + 1} of {wanted}")
+        dropped = search.next()
+        if dropped is None:
+            yield replace(found, repairs_complete=search.complete)
+            return
+        elements = element_list(conditions, dropped)
+        found = replace(found, repairs=(*found.repairs, Repair(tuple(Change(each, None) for each in elements))))
+        yield found
+        worth_it = len(dropped) <= (MOST_WEAKENED if number == 0 else 1)
+        weaker = weakening(conditions, dropped) if worth_it else None
+        if weaker is not None:
+            texts: dict[Element, str | None] = {edit.element: edit.text for edit in weaker.edits}
+            changes = tuple(Change(each, texts.get(each)) for each in elements)
+            found = replace(found, repairs=(*found.repairs, Repair(changes)))
+            yield found
 
 
 def _droppable(elements: Iterable[Element]) -> list[Element]:
@@ -62,12 +77,11 @@ def _droppable(elements: Iterable[Element]) -> list[Element]:
 
 
 def _hopeless(conditions: Conditions) -> Hopeless | None:
-    dropped = _droppable(conditions.elements)
-    kept = conditions.everything - frozenset(dropped)
-    if (conditions.stuck(kept) | failing(conditions, kept, conditions.valid)) != conditions.false:
-        return "failing"
-    outcome = synthesize(without(conditions.spec, dropped), conditions.ordering, backend=conditions.manager.backend)
-    return None if isinstance(outcome, Realizable) else "conflict"
+    outcome = trial(conditions, without(conditions.spec, _droppable(conditions.elements)))
+    if isinstance(outcome, Realizable):
+        return None
+    conflicts = not isinstance(outcome, Unrealizable) or outcome.failures[0].kind == "conflict"
+    return "conflict" if conflicts else "failing"
 
 
 class _Search:
@@ -77,27 +91,29 @@ class _Search:
         self._conditions = conditions
         self._numbers = {element: number for number, element in enumerate(_droppable(conditions.elements))}
         self._hitting = HittingSets([_PENALTIES[element.kind] for element in self._numbers])
+        self._rounds = ROUNDS
+        self.complete = False
+        """Whether there are no other repairs than those that were found."""
         for core in cores:
             self._must_hit(core)
 
-    def run(self, wanted: int) -> Repairs:
-        """The smallest repairs."""
-        found: list[Elements] = []
+    def next(self) -> Elements | None:
+        """The smallest repair that was not found yet; None where there is none, or none is found in so many rounds."""
         elements = list(self._numbers)
-        for _ in range(ROUNDS):
+        while self._rounds:
+            self._rounds -= 1
+            self._conditions.manager.context.check()
             candidate = self._hitting.smallest()
             if candidate is None:
-                return Repairs(tuple(found), True, None)
+                self.complete = True
+                return None
             dropped = frozenset(elements[number] for number in candidate)
             missed = self._missed_core(dropped)
-            if missed is not None:
-                self._must_hit(missed)
-                continue
-            found.append(dropped)
-            self._hitting.exclude(sorted(candidate))
-            if len(found) == wanted:
-                break
-        return Repairs(tuple(found), False, None)
+            if missed is None:
+                self._hitting.exclude(sorted(candidate))
+                return dropped
+            self._must_hit(missed)
+        return None
 
     def _must_hit(self, core: Elements) -> None:
         self._hitting.require([self._numbers[element] for element in _droppable(core)])
@@ -112,7 +128,7 @@ class _Search:
         helpless = failing(conditions, kept, conditions.valid)
         if helpless != conditions.false:
             return core_without_plan(conditions, typical_state(conditions, helpless), kept)
-        outcome = synthesize(without(conditions.spec, dropped), conditions.ordering, backend=conditions.manager.backend)
+        outcome = trial(conditions, without(conditions.spec, dropped))
         if isinstance(outcome, Realizable):
             return None
         if isinstance(outcome, Unrealizable):

@@ -11,9 +11,10 @@ from tumato_symbolic.explain.cubes import StateCube
 from tumato_symbolic.explain.elements import Element, Elements, rule_of, without
 from tumato_symbolic.explain.plans import failing
 from tumato_symbolic.explain.predicates import cube_formula, predicate_text
+from tumato_symbolic.explain.trial import is_realizable, trial
 from tumato_symbolic.semantics import count_states
 from tumato_symbolic.spec import And, Or, Rule, Spec
-from tumato_symbolic.synthesis import Outcome, Realizable, synthesize
+from tumato_symbolic.synthesis import Realizable
 
 TRIES = 400
 """So many exceptions are looked at for one repair at most."""
@@ -50,7 +51,7 @@ def weakening(conditions: Conditions, repair: Elements) -> Weakening | None:
     """
     for suffices in (_no_state_fails, _is_realizable):
         found = _weakened(conditions, repair, suffices)
-        if found is None or _solves(conditions, found.spec):
+        if found is None or is_realizable(conditions, found.spec):
             return found
     return None
 
@@ -76,13 +77,13 @@ def _weakened(conditions: Conditions, repair: Elements, suffices: _Test) -> Weak
 def _raised(conditions: Conditions, bound: Element, others: Elements) -> tuple[Conditions, Edit] | None:
     """The smallest bound that suffices: realizability is monotone in it."""
     base = without(conditions.spec, others)
-    outcome = _outcome(conditions, without(conditions.spec, others | {bound}))
+    outcome = trial(conditions, without(conditions.spec, others | {bound}))
     if not isinstance(outcome, Realizable) or base.max_plan_length is None:
         return None
     too_small, enough = base.max_plan_length, outcome.statistics.longest_run or 1
     while enough - too_small > 1:
         middle = (too_small + enough) // 2
-        if _solves(conditions, replace(base, max_plan_length=middle)):
+        if is_realizable(conditions, replace(base, max_plan_length=middle)):
             enough = middle
         else:
             too_small = middle
@@ -115,7 +116,7 @@ def _excepted(
 
 def _is_realizable(conditions: Conditions, dropped: Elements) -> bool:
     """The exact test, for where goals conflict; it is too slow for large specifications."""
-    return count_states(conditions.spec) <= MOST_STATES and _solves(conditions, without(conditions.spec, dropped))
+    return count_states(conditions.spec) <= MOST_STATES and is_realizable(conditions, without(conditions.spec, dropped))
 
 
 def _no_state_fails(conditions: Conditions, dropped: Elements) -> bool:
@@ -129,11 +130,3 @@ def _with_exception(spec: Spec, rule: Rule, cube: StateCube) -> Rule:
     text = predicate_text(spec, exception)
     text = f"({text})" if isinstance(exception, And | Or) else text
     return Rule(Or((rule.formula, exception)), f"({' '.join(rule.text.split())}) OR {text}", rule.span)
-
-
-def _solves(conditions: Conditions, spec: Spec) -> bool:
-    return isinstance(_outcome(conditions, spec), Realizable)
-
-
-def _outcome(conditions: Conditions, spec: Spec) -> Outcome:
-    return synthesize(spec, conditions.ordering, backend=conditions.manager.backend)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Code, Span
@@ -10,6 +10,7 @@ from tumato_symbolic.explain.cubes import StateCube
 from tumato_symbolic.explain.elements import Element, span_of, text_of
 from tumato_symbolic.explain.explanation import (
     Explanation,
+    FailingGroup,
     NothingToExplain,
     OwnGoal,
     RealizablePart,
@@ -18,11 +19,13 @@ from tumato_symbolic.explain.explanation import (
     Unexplained,
 )
 from tumato_symbolic.explain.predicates import predicate_text
-from tumato_symbolic.report.explained import Explained, cube_text, goal_sentences, headline, near_story
+from tumato_symbolic.report.blame import cube_text, goal_sentences, headline, near_story
+from tumato_symbolic.report.explained import Explained
 from tumato_symbolic.report.failures import FAILURE_CODES
 from tumato_symbolic.report.findings import finding_json, github_command, github_commands
 from tumato_symbolic.report.layout import count
 from tumato_symbolic.report.roles import role
+from tumato_symbolic.report.ways_out import left_out_lines
 from tumato_symbolic.semantics import action_names, active_goals, named
 from tumato_symbolic.spec import Spec
 
@@ -33,15 +36,19 @@ def as_json(done: Explained) -> dict[str, object]:
     report: dict[str, object] = {
         "verdict": _verdict(done),
         "specification": done.source.name,
-        "effect_ordering": numbers.ordering,
-        "states": {"total": numbers.total, "valid": numbers.valid, "safe": numbers.safe, "unsafe": numbers.unsafe},
+        "effect_ordering": numbers.ordering if numbers else None,
+        "states": {"total": numbers.total, "valid": numbers.valid, "safe": numbers.safe, "unsafe": numbers.unsafe}
+        if numbers
+        else None,
         "failing_states": 0,
+        "groups": [],
         "failures": [],
         "omitted": 0,
         "repairs": [],
         "repairs_complete": False,
         "hopeless": None,
         "realizable_part": None,
+        "incomplete": [],
         "limit": found.limit if isinstance(found, Unexplained) else None,
         "written": done.written,
         "warnings": [finding_json(warning, done.source.name) for warning in done.warnings],
@@ -49,14 +56,32 @@ def as_json(done: Explained) -> dict[str, object]:
     if isinstance(found, Explanation):
         report |= {
             "failing_states": found.failing_states,
-            "failures": [_reason_json(done, reason) for reason in found.reasons],
+            "groups": [_group_json(done.spec, group) for group in found.groups],
+            "failures": [_reason_json(done, reason) for reason in largest_first(found.reasons)],
             "omitted": found.omitted,
             "repairs": [_repair_json(done.spec, repair) for repair in found.repairs],
             "repairs_complete": found.repairs_complete,
             "hopeless": found.hopeless,
-            "realizable_part": _part_json(found.part),
+            "realizable_part": _part_json(found.part) if "part" in found.finished else None,
+            "incomplete": [{"what": each.stage, "found": each.found, "why": each.why} for each in found.left_out],
         }
     return report
+
+
+def largest_first(reasons: Sequence[Reason]) -> list[Reason]:
+    """Reasons by how many states have them."""
+    return sorted(reasons, key=lambda reason: -reason.count)
+
+
+def _group_json(spec: Spec, group: FailingGroup) -> dict[str, object]:
+    return {
+        "kind": group.kind,
+        "code": FAILURE_CODES[group.kind].name,
+        "count": group.count,
+        "cubes": [cube_json(spec, cube) for cube in group.cubes],
+        "omitted": group.omitted,
+        "example": named(spec, group.example),
+    }
 
 
 def _verdict(done: Explained) -> str:
@@ -172,7 +197,7 @@ def marks(done: Explained) -> Iterator[Mark]:
     """Every line of the first core of each reason; the lines of the goals where a core is empty."""
     if not isinstance(done.found, Explanation):
         return
-    for reason in done.found.reasons:
+    for reason in largest_first(done.found.reasons):
         code = FAILURE_CODES[reason.kind]
         head = f"{headline(reason)}: {'; '.join(cube_text(done.spec, cube) for cube in reason.cubes[:1])}"
         head += f" (and {len(reason.cubes) - 1} more)" if len(reason.cubes) > 1 else ""
@@ -208,4 +233,6 @@ def as_github(done: Explained) -> str:
                 valid = count(found.statistics.valid, "valid state")
                 message = f"realizable for {found.part.states:,} of {valid}, assuming: "
                 commands.append(github_command("notice", message + found.part.text, file))
+            if found.left_out:
+                commands.append(github_command("warning", "\n".join(left_out_lines(found)), file))
     return "\n".join(commands)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from urllib.parse import quote
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Span
+from tumato_symbolic.explain.explanation import Explanation
 from tumato_symbolic.report.explained import Explained
 from tumato_symbolic.report.explained_data import Mark, marks
 
@@ -14,7 +15,9 @@ _SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
 
 def as_sarif(done: Explained, version: str) -> dict[str, object]:
     """One run with one result for every line to blame, and for every warning."""
-    return _log([*marks(done), *map(_mark, done.warnings)], done.source.name, version)
+    left_out = done.found.left_out if isinstance(done.found, Explanation) else ()
+    incomplete = [{"what": each.stage, "found": each.found, "why": each.why} for each in left_out]
+    return _log([*marks(done), *map(_mark, done.warnings)], done.source.name, version, incomplete)
 
 
 def findings_sarif(diagnostics: Iterable[Diagnostic], file: str, version: str) -> dict[str, object]:
@@ -22,7 +25,9 @@ def findings_sarif(diagnostics: Iterable[Diagnostic], file: str, version: str) -
     return _log([_mark(each) for each in diagnostics], file, version)
 
 
-def _log(found: list[Mark], file: str, version: str) -> dict[str, object]:
+def _log(
+    found: list[Mark], file: str, version: str, incomplete: Sequence[Mapping[str, object]] = ()
+) -> dict[str, object]:
     used = {mark.code for mark in found}
     rules = [
         {
@@ -35,7 +40,9 @@ def _log(found: list[Mark], file: str, version: str) -> dict[str, object]:
     ]
     driver = {"name": "tumato-sym", "version": version, "rules": rules}
     results = [_result(mark, file) for mark in found]
-    run = {"tool": {"driver": driver}, "columnKind": "unicodeCodePoints", "results": results}
+    run: dict[str, object] = {"tool": {"driver": driver}, "columnKind": "unicodeCodePoints", "results": results}
+    if incomplete:
+        run["properties"] = {"incomplete": incomplete}
     return {"$schema": _SCHEMA, "version": "2.1.0", "runs": [run]}
 
 

@@ -1,10 +1,10 @@
-"""What would make a specification realizable, for a person: repairs, and the largest realizable part."""
+"""What would make a specification realizable, for a person: repairs, the largest realizable part, what is left out."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from tumato_symbolic.explain.explanation import Change, Explanation, RealizablePart, Repair
+from tumato_symbolic.explain.explanation import Change, Explanation, RealizablePart, Repair, Stage
 from tumato_symbolic.report.layout import count
 from tumato_symbolic.report.reasons import Place
 from tumato_symbolic.report.roles import KINDS, declared, where
@@ -12,25 +12,39 @@ from tumato_symbolic.report.roles import KINDS, declared, where
 _LONGEST_ASSUMPTION = 1_500
 
 
-def ways_out(place: Place, found: Explanation, written: str | None) -> Iterator[str]:
-    """The paragraphs at the end of an explanation. `written` is the file with the assumption."""
-    yield "\n".join(_repairs(place, found))
-    yield "\n".join(_part(found.part, written))
-
-
-def _repairs(place: Place, found: Explanation) -> Iterator[str]:
+def repair_pieces(place: Place, found: Explanation) -> Iterator[str]:
+    """Repairs, each as it is found."""
     if found.hopeless is not None:
         why = "states still fail" if found.hopeless == "failing" else "the goals still conflict"
-        yield f"No repair by dropping: with every rule, precondition, alternative, resource and bound dropped, {why}."
-        yield "The robot needs another action or effect, or other goals."
-        return
-    if not found.repairs:
-        yield "No repair was looked for, or none was found within the limits."
-        return
-    yield "What would do (each was tried: it makes the specification realizable):"
-    for number, repair in enumerate(found.repairs, 1):
-        yield f"  {number}. {_summary(repair)}"
-        yield from (f"     {line}" for change in repair.changes for line in _change(place, change))
+        yield (
+            f"\nNo repair by dropping: with every rule, precondition, alternative, resource and bound dropped, {why}.\n"
+            "The robot needs another action or effect, or other goals."
+        )
+    elif found.repairs:
+        yield "\nWhat would do (each was tried: it makes the specification realizable):"
+        for number, repair in enumerate(found.repairs, 1):
+            lines = (f"     {line}" for change in repair.changes for line in _change(place, change))
+            yield "\n".join([f"  {number}. {_summary(repair)}", *lines])
+    elif "repairs" in found.finished:
+        yield "\nNo repair was looked for, or none was found within the limits."
+
+
+_NAMES: dict[Stage, str] = {
+    "states": "failing states",
+    "part": "the largest realizable part",
+    "reasons": "reasons",
+    "near": "nearest sets",
+    "repairs": "repairs",
+}
+
+
+def left_out_lines(found: Explanation) -> Iterator[str]:
+    """What the explanation does not say, and why."""
+    yield "Left out:"
+    for each in found.left_out:
+        yield f"  {_NAMES[each.stage]}: {each.found}; {each.why}"
+    if any("time limit" in each.why for each in found.left_out):
+        yield "`--timeout SECONDS` gives it more time."
 
 
 def _summary(repair: Repair) -> str:
@@ -50,7 +64,8 @@ def _change(place: Place, change: Change) -> Iterator[str]:
         yield f"{' ' * len(where(place, element))}  + {declared(place.spec, element, change.text)}"
 
 
-def _part(part: RealizablePart | None, written: str | None) -> Iterator[str]:
+def part_lines(part: RealizablePart | None, written: str | None) -> Iterator[str]:
+    """The largest realizable part. `written` is the file with the assumption."""
     if part is None:
         yield "No part of the states is realizable: no assumption would help."
         return

@@ -48,18 +48,19 @@ def synthesize(
     policy_format: PolicyFormat = "auto",
     backend: Backend | None = None,
     context: Context | None = None,
+    certify: bool = True,
 ) -> Outcome:
     """Synthesize a policy for `spec`, or find out why there is none.
 
     `ordering` overrides the specification's effect ordering (default: what it says, else `any`). `context` limits the
-    work; it is told the name of each stage, and learns what the outcome would be if a limit were met now. Raises
-    `UserError` where no state is valid.
+    work; it is told the name of each stage, and learns what the outcome would be if a limit were met now. Without
+    `certify` the answer no comes without its certificate. Raises `UserError` where no state is valid.
     """
     context = context or Context()
     try:
         problem = pose(spec, ordering or spec.ordering, backend or available_backend(), context)
         with problem.encoding.manager.within_memory():
-            return _solve(problem, policy_format)
+            return _solve(problem, policy_format, certify)
     except LimitReachedError as limit:
         return stopped(context.known, str(limit))
 
@@ -71,7 +72,7 @@ def stopped(known: object, limit: str) -> Unrealizable | Undecided:
     return Undecided(limit, None)
 
 
-def _solve(problem: Problem, policy_format: PolicyFormat) -> Outcome:
+def _solve(problem: Problem, policy_format: PolicyFormat, certify: bool) -> Outcome:
     """The pipeline behind the encoding."""
     context, statistics = problem.context, _statistics(problem)
     if not statistics.valid:
@@ -100,9 +101,11 @@ def _solve(problem: Problem, policy_format: PolicyFormat) -> Outcome:
             failures = (_failure(problem, "no-allowed-set", stuck), _failure(problem, "no-plan", helpless))
             found = tuple(failure for failure in failures if failure is not None)
             answer, state = _answer_no(problem, found, statistics, warnings), found[0].example
+            if not certify:
+                return answer
             reason = no_plan(problem, state, apart) if stuck == problem.false else no_allowed_set(problem, state)
             return replace(answer, certificate=certified(problem, reason))
-        resolved = _resolve(judge, policy, apart, Undecided("", statistics, warnings))
+        resolved = _resolve(judge, policy, apart, Undecided("", statistics, warnings), certify)
         if isinstance(resolved, Undecided | Unrealizable):
             return resolved
         evaluation, statistics = resolved.evaluation, resolved.statistics
@@ -129,7 +132,7 @@ class _Resolved:
 
 
 def _resolve(
-    judge: Judge, policy: Bdd, apart: tuple[Layers, ...], so_far: Undecided
+    judge: Judge, policy: Bdd, apart: tuple[Layers, ...], so_far: Undecided, certify: bool
 ) -> _Resolved | Unrealizable | Undecided:
     """Decide what the own regions leave open, changing earlier decisions only where that is needed.
 
@@ -164,6 +167,8 @@ def _resolve(
             states = repaired.states
             failure = Failure("conflict", len(states), states[0], states)
             answer = _answer_no(problem, (failure,), statistics, so_far.warnings)
+            if not certify:
+                return answer
             return replace(answer, certificate=certified(problem, conflict(problem, apart, repaired)))
         changed = repaired
     tell("giving back decisions that need not change")

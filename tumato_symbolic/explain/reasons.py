@@ -1,0 +1,79 @@
+"""The stage that finds reasons: cores, and all failing states that have them in common."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from tumato_symbolic.explain.conflicts import conflict_core, served_together
+from tumato_symbolic.explain.cores import Cause, causes, core_finder, element_list, more_cores
+from tumato_symbolic.explain.elements import Element, Elements
+from tumato_symbolic.explain.explanation import Explanation, Reason
+from tumato_symbolic.explain.plans import shortest_plan
+from tumato_symbolic.explain.unmet import own_goals
+from tumato_symbolic.explain.work import Work
+from tumato_symbolic.synthesis.repair import RoundsExhaustedError
+
+MAX_CAUSES = 1_000
+"""So many different reasons are looked for at most."""
+
+
+def reasons_found(work: Work, found: Explanation) -> Iterator[Explanation]:
+    """Every reason as it is found; reasons of larger cubes of states come first."""
+    if found.groups[0].kind == "conflict":
+        work.context.tell("cores: 1 of 1, of the conflict")
+        yield replace(found, reasons=(_conflict(work, found),))
+        return
+    found, left = replace(found, omitted=found.failing_states), work.max_cubes
+    _tell(work, found)
+    for cause in causes(work.conditions, work.failing):
+        reason = _reason(work, cause, left)
+        left -= len(reason.cubes)
+        found = replace(found, reasons=(*found.reasons, reason), omitted=found.omitted - reason.count)
+        yield found
+        if len(found.reasons) == MAX_CAUSES:
+            break
+        _tell(work, found)
+
+
+def _tell(work: Work, found: Explanation) -> None:
+    number, told = len(found.reasons) + 1, found.failing_states - found.omitted
+    work.context.tell(f"cores: reason {number}, {told:,} of {found.failing_states:,} failing states explained")
+
+
+def _reason(work: Work, cause: Cause, limit: int) -> Reason:
+    conditions, example = work.conditions, cause.example
+    shown = more_cores(conditions, cause.core, work.cores, core_finder(conditions, cause))
+    bounded = Element("plan-bound") in cause.core
+    cover = work.cubes(cause.states, limit)
+    return Reason(
+        cause.kind,
+        work.count(cause.states),
+        cover.cubes,
+        work.count(cover.rest),
+        example,
+        tuple(element_list(conditions, core) for core in shown),
+        () if cause.kind == "no-allowed-set" else own_goals(conditions, example),
+        shortest_plan=shortest_plan(conditions, conditions.encoding.state_cube(example)) if bounded else None,
+    )
+
+
+def _conflict(work: Work, found: Explanation) -> Reason:
+    group = found.groups[0]
+    cores = tuple(element_list(work.conditions, core) for core in _conflict_cores(work))
+    return Reason(group.kind, group.count, group.cubes, group.omitted, group.example, cores, together=group.together)
+
+
+def _conflict_cores(work: Work) -> tuple[Elements, ...]:
+    """Cores of a conflict; where the question is too hard, everything is to blame."""
+    conditions, states = work.conditions, work.states_of("conflict")
+    together = work.outcome.failures[0].states
+    try:
+        first = conflict_core(conditions, together, conditions.everything)
+    except RoundsExhaustedError:
+        return (conditions.everything,)
+
+    def find(among: Elements) -> Elements | None:
+        return None if served_together(conditions, states, among) else conflict_core(conditions, together, among)
+
+    return more_cores(conditions, first, work.cores, find)

@@ -1,0 +1,78 @@
+"""What the stages of an explanation share: the conditions, what was asked for, and how much time there is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import cached_property
+
+from tumato_symbolic.explain.conditions import Conditions
+from tumato_symbolic.explain.cores import Failing, failing_states, typical_state
+from tumato_symbolic.explain.cubes import Cover, StateCube, disjoint_cubes, set_of
+from tumato_symbolic.limits import Context
+from tumato_symbolic.semantics import State
+from tumato_symbolic.symbolic import Bdd
+from tumato_symbolic.synthesis import Unrealizable
+from tumato_symbolic.synthesis.outcome import FailureKind
+
+
+@dataclass
+class Work:
+    """What is asked about, and what was asked for; `context` is that of the whole explanation."""
+
+    conditions: Conditions
+    context: Context
+    outcome: Unrealizable
+    max_cubes: int
+    cores: int
+    wanted_repairs: int
+
+    @cached_property
+    def failing(self) -> Failing:
+        """The valid states that fail."""
+        return failing_states(self.conditions)
+
+    def states_of(self, kind: FailureKind) -> Bdd:
+        """The states that fail in one way; of a conflict, those that no policy serves together."""
+        match kind:
+            case "no-allowed-set":
+                return self.failing.no_allowed_set
+            case "no-plan":
+                return self.failing.no_plan
+            case "conflict":
+                states = self.outcome.failures[0].states
+                return self.conditions.manager.union(map(self.conditions.encoding.state_cube, states))
+
+    def count(self, states: Bdd) -> int:
+        """How many states there are in a set."""
+        return self.conditions.encoding.count_states(states)
+
+    def typical(self, states: Bdd) -> State:
+        """A state that is like most others of a set."""
+        return typical_state(self.conditions, states)
+
+    def cubes(self, states: Bdd, limit: int) -> Cover:
+        """Disjoint cubes of valid states, the largest first."""
+        encoding = self.conditions.encoding
+        cover = disjoint_cubes(encoding, states, encoding.domain() & ~self.conditions.valid, limit)
+
+        def size(cube: StateCube) -> int:
+            return encoding.count_states(states & set_of(encoding, cube))
+
+        return Cover(tuple(sorted(cover.cubes, key=lambda cube: -size(cube))), cover.rest)
+
+    @contextmanager
+    def within(self, share: float) -> Iterator[None]:
+        """Let work take a share of the time that is left. Raises `LimitReachedError` when it is used up."""
+        left, manager = self.context.seconds_left(), self.conditions.manager
+        manager.context = self.context.within(None if left is None else share * left)
+        try:
+            with manager.within_memory():
+                yield
+        finally:
+            manager.context = self.context
+
+    def share_met(self) -> str:
+        """That a stage used up its share of the time limit."""
+        return f"its share of the time limit of {self.context.limits.seconds:g} s was used up"
