@@ -69,5 +69,5 @@ def test_rows_share_what_is_equal():
 @pytest.mark.parametrize("actions", ["", "a", {}, {"a": 1}, None, [["a"]], [1], 0])
 def test_what_is_no_list_of_actions_is_no_row(actions):
     """Not even after rows whose actions would look alike as a sequence."""
-    like = [{"S": "on", "Actions": []}, {"S": "on", "Actions": ["a"]}]
-    assert parse_json(json.dumps([*like, {"S": "on", "Actions": actions}]), "rows")[2] == {"S": "on", "Actions": actions}
+    rows = [{"S": "on", "Actions": each} for each in ([], ["a"], actions)]
+    assert parse_json(json.dumps(rows), "rows")[2] == rows[2]
