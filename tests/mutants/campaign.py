@@ -27,7 +27,7 @@ from tumato_symbolic.verify import verify
 LARGEST = 60
 """The most states of a specification that is taken."""
 
-PROVERS: tuple[Literal["z3", "walk"], ...] = ("z3", "walk")
+PROVERS: tuple[Literal["z3", "walk", "explicit"], ...] = ("z3", "walk", "explicit")
 TIERS = (*PROVERS, "checker")
 Answer = Literal["accepted", "rejected", "undecided"]
 

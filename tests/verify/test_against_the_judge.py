@@ -10,15 +10,17 @@ from tests.verify.policies import certified, dressed, exact_ranks, near_policies
 from tumato_symbolic.policy import Policy
 from tumato_symbolic.semantics import State, better_sets, duration, judge
 from tumato_symbolic.spec import Ordering, Spec
-from tumato_symbolic.verify import Refutation, Verification, verify
+from tumato_symbolic.verify import ProverName, Refutation, Verification, verify
 from tumato_symbolic.verify.by_z3 import rank_terms
 
 Rows = dict[State, frozenset[int]]
 
 
-def _assert_as_judged(spec: Spec, rows: Rows, ordering: Ordering, policy: Policy) -> Verification:
+def _assert_as_judged(
+    spec: Spec, rows: Rows, ordering: Ordering, policy: Policy, prover: ProverName = "auto"
+) -> Verification:
     judged = judge(spec, rows, ordering)
-    answer = verify(policy, spec, ordering=ordering)
+    answer = verify(policy, spec, ordering=ordering, prover=prover)
     assert {result.name: result.verdict for result in answer.properties} == {
         "total": "refuted" if judged.missing else "proved",
         "safe": "refuted" if judged.not_allowed else "proved",
@@ -48,15 +50,16 @@ def _assert_witness(spec: Spec, rows: Rows, ordering: Ordering, refutation: Refu
             assert refutation.cheaper == min(better, key=lambda each: (duration(spec, each), len(each), sorted(each)))
 
 
+@pytest.mark.parametrize("prover", ["auto", "explicit"])
 @pytest.mark.parametrize("profile", PROFILES)
 @pytest.mark.parametrize("ordering", ["any", "first"])
-def test_strangers_are_judged_as_by_the_explicit_meaning(profile: str, ordering: Ordering) -> None:
+def test_strangers_are_judged_as_by_the_explicit_meaning(profile: str, ordering: Ordering, prover: ProverName) -> None:
     """Every verdict is the judge's, and every witness is one: the first state for total and minimal, the best set."""
     met = set()
     for seed in range(7):
         spec, random = random_spec(seed, PROFILES[profile]), Random(seed)
         for rows in near_policies(spec, ordering, random):
-            answer = _assert_as_judged(spec, rows, ordering, dressed(spec, rows, random))
+            answer = _assert_as_judged(spec, rows, ordering, dressed(spec, rows, random), prover)
             for result in answer.properties:
                 met.add((result.name, result.verdict))
                 if result.refutation is not None:
@@ -64,8 +67,10 @@ def test_strangers_are_judged_as_by_the_explicit_meaning(profile: str, ordering:
     assert len(met) >= 7
 
 
-@pytest.mark.parametrize("parts", [False, True], ids=["at-once", "by-parts"])
-def test_a_certificate_changes_no_verdict(parts: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(
+    ("prover", "parts"), [("auto", False), ("auto", True), ("explicit", False)], ids=["at-once", "by-parts", "explicit"]
+)
+def test_a_certificate_changes_no_verdict(prover: ProverName, parts: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     """Right ranks are used; wrong ranks are set aside; the policy gets the same verdicts either way."""
     if parts:
         monkeypatch.setattr(rank_terms, "AT_ONCE", -1.0)
@@ -77,9 +82,9 @@ def test_a_certificate_changes_no_verdict(parts: bool, monkeypatch: pytest.Monke
             if judge(spec, rows, "any").not_allowed:
                 continue
             ranks = exact_ranks(spec, rows, "any")
-            answer = _assert_as_judged(spec, rows, "any", certified(spec, rows, ranks))
+            answer = _assert_as_judged(spec, rows, "any", certified(spec, rows, ranks), prover)
             assert answer.certificate.status == "used"
             if ranks:
                 changed = certified(spec, rows, wrong_ranks(ranks, random))
-                met.add(_assert_as_judged(spec, rows, "any", changed).certificate.status)
+                met.add(_assert_as_judged(spec, rows, "any", changed, prover).certificate.status)
     assert met >= {"used", "wrong", "incomplete"}

@@ -44,6 +44,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[int]:
 
     monkeypatch.setattr(prover, "FEWEST_NODES", 0)
     monkeypatch.setattr(provers, "MANY_RANK_NODES", -1)
+    monkeypatch.setattr(provers, "LARGEST_TABLE", -1)
     monkeypatch.setattr(ahead, "in_children", counting)
     return counts
 

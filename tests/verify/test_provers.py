@@ -1,4 +1,4 @@
-"""Who proves what: Z3, the walk, both, or whoever is quicker."""
+"""Who proves what: Z3, the walk, explicit-state checking, both, or whoever is quicker."""
 
 import subprocess
 import sys
@@ -9,10 +9,11 @@ import pytest
 from tests.repo.documents import ROOT
 from tests.semantics.build import Build, chosen, constraint
 from tests.verify.policies import certified, exact_ranks
+from tumato_symbolic.limits import Context, Limits
 from tumato_symbolic.policy import as_diagram, policy_from_rows
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import Spec
-from tumato_symbolic.verify import PropertyResult, provers, verify
+from tumato_symbolic.verify import PropertyName, PropertyResult, provers, verify
 from tumato_symbolic.verify.by_walk.prover import WalkProver
 
 NAMES = ["total", "safe", "goals", "minimal"]
@@ -40,21 +41,62 @@ def test_the_answer_says_who_proved_what(monkeypatch: pytest.MonkeyPatch) -> Non
     assert _proved_by("z3") == ["z3"] * 4
     assert _proved_by("walk") == ["walk"] * 4
     assert _proved_by("both") == ["z3+walk"] * 4
+    assert _proved_by("explicit") == ["explicit"] * 4
     assert _proved_by("auto") == ["z3"] * 4
     monkeypatch.setattr(provers, "SOON", -1.0)
-    assert _proved_by("auto") == ["z3", "walk", "walk", "walk"], "what folds to false needs no time"
+    assert _proved_by("auto") == ["z3", *["explicit"] * 3], "what folds to false needs no time"
+    monkeypatch.setattr(provers, "LITTLE", -1)
+    assert _proved_by("auto") == ["z3", "walk", "walk", "walk"]
     monkeypatch.setattr(provers, "MANY_RANK_NODES", 0)
     assert _proved_by("auto") == ["walk"] * 4
 
 
-def test_z3_has_the_last_word(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Where the walk gives up as well, Z3 may take the time that an obligation has."""
+def _tired(_: object, name: PropertyName, *__: object) -> PropertyResult:
+    return PropertyResult(name, "undecided", reason="tired")
+
+
+def test_z3_is_asked_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where there is much to look at and the walk gives up as well, Z3 may take the time that an obligation has."""
     monkeypatch.setattr(provers, "SOON", -1.0)
-    monkeypatch.setattr(WalkProver, "prove", lambda _, name: PropertyResult(name, "undecided", reason="tired"))
+    monkeypatch.setattr(provers, "LITTLE", -1)
+    monkeypatch.setattr(WalkProver, "prove", _tired)
     assert _proved_by("auto") == ["z3"] * 4
 
 
-@pytest.mark.parametrize("prover", ["z3", "walk", "both", "auto"])
+def test_the_explicit_meaning_has_the_last_word(monkeypatch: pytest.MonkeyPatch) -> None:
+    """However much there is to look at, what Z3 and the walk leave open is looked up state by state."""
+    from tumato_symbolic.verify.by_z3.prover import Z3Prover
+
+    def tired(_: object, name: PropertyName, within: float = 0.0) -> PropertyResult:
+        return _tired(_, name)
+
+    monkeypatch.setattr(provers, "LITTLE", -1)
+    monkeypatch.setattr(WalkProver, "prove", _tired)
+    monkeypatch.setattr(Z3Prover, "prove", tired)
+    assert _proved_by("auto") == ["explicit"] * 4
+
+
+def test_what_even_the_explicit_meaning_leaves_open(monkeypatch: pytest.MonkeyPatch) -> None:
+    """More decided states than it looks at: undecided, and every reason is told."""
+    from tumato_symbolic.verify.by_states import prover
+
+    monkeypatch.setattr(prover, "LARGEST_TABLE", 3)
+    spec, rows = _ring()
+    answer = verify(policy_from_rows(spec, rows), spec, prover="explicit")
+    assert [result.verdict for result in answer.properties] == ["undecided"] * 4
+    assert "too many to list" in (answer.properties[0].reason or "")
+
+
+def test_the_explicit_meaning_heeds_the_time_limit() -> None:
+    """The limit of the whole is the only one."""
+    spec, rows = _ring()
+    context = Context(Limits(0.0))
+    answer = verify(policy_from_rows(spec, rows), spec, prover="explicit", context=context)
+    assert answer.verdict == "undecided"
+    assert verify(policy_from_rows(spec, rows), spec, prover="explicit", timeout=0.0).verdict == "proved"
+
+
+@pytest.mark.parametrize("prover", ["z3", "walk", "both"])
 def test_no_time_is_undecided(prover: provers.ProverName) -> None:
     """What nobody proves in time is undecided, with a reason."""
     spec, rows = _ring()
@@ -88,8 +130,9 @@ def test_a_large_diagram_needs_no_certificate(monkeypatch: pytest.MonkeyPatch) -
     assert [(result.name, result.verdict) for result in answer.properties] == [(name, "proved") for name in NAMES]
 
 
-def test_the_walk_does_without_z3() -> None:
-    """With `--prover walk`, Z3 is not even imported."""
+@pytest.mark.parametrize("prover", ["walk", "explicit"])
+def test_these_do_without_z3(prover: provers.ProverName) -> None:
+    """With `--prover walk` or `explicit`, Z3 is not even imported."""
     code = (
         "import sys\n"
         "from pathlib import Path\n"
@@ -99,7 +142,7 @@ def test_the_walk_does_without_z3() -> None:
         "from tumato_symbolic.verify import verify\n"
         "text = Path('examples/amr.tum').read_text(encoding='utf-8')\n"
         "spec = load(Source('amr.tum', text)).spec\n"
-        "answer = verify(policy_from_rows(spec, {}), spec, prover='walk')\n"
+        f"answer = verify(policy_from_rows(spec, {{}}), spec, prover='{prover}')\n"
         "assert answer.verdict == 'refuted'\n"
         "assert 'z3' not in sys.modules and 'dd' not in sys.modules\n"
     )

@@ -423,11 +423,12 @@ def _limits(parser: argparse.ArgumentParser, default: str = "no limit") -> None:
 def _prover(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--prover",
-        choices=("auto", "z3", "walk", "both"),
+        choices=("auto", "z3", "walk", "explicit", "both"),
         default="auto",
-        help="who proves a policy: Z3; the walk, our own checker over decision diagrams, which does without Z3; both, "
-        "which must agree; or Z3 for what it answers soon and the walk for the rest (default: auto). That there is no "
-        "policy is proved by Z3",
+        help="who proves a policy: Z3; the walk, our own checker over decision diagrams, which does without Z3; "
+        "explicit-state checking, which looks at every decided state, up to 200,000; both Z3 and the walk, which must "
+        "agree; or Z3 for what it answers soon, the walk for the rest, and explicit-state checking for what they leave "
+        "open (default: auto). That there is no policy is proved by Z3",
     )
 
 

@@ -23,7 +23,7 @@ _CLAIMS: Final[dict[PropertyName, str]] = {
     "ordering": "the policy was made for the effect ordering that the specification means",
 }
 
-_PROVERS: Final = {"z3": "Z3", "walk": "the walk"}
+_PROVERS: Final = {"z3": "Z3", "walk": "the walk", "explicit": "explicit-state checking"}
 
 _STEPS_SHOWN = 12
 

@@ -1,15 +1,18 @@
-"""Who proves what: Z3, the walk, both, or whoever is quicker (`docs/certificate.md`)."""
+"""Who proves what: Z3, the walk, explicit-state checking, or whoever is quicker (`docs/certificate.md`)."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Protocol
 
 from tumato_symbolic.limits import Budget
+from tumato_symbolic.policy.convert import count_defined
 from tumato_symbolic.policy.model import Policy, Table
 from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.verify.by_states.prover import StateProver
 from tumato_symbolic.verify.by_walk.prover import WalkProver
+from tumato_symbolic.verify.decisions import LARGEST_TABLE
 from tumato_symbolic.verify.result import CertificateUse, PropertyName, PropertyResult, ProverName
 
 if TYPE_CHECKING:
@@ -19,7 +22,14 @@ SOON = 2.0
 """How many seconds Z3 may think about a property before the walk is tried."""
 
 SOON_REMEMBERED = 300_000
-"""How many results the walk may remember for `safe` before Z3 is tried, which does not mind many orders of effects."""
+"""How many results the walk may remember for a property before others are tried.
+
+For `safe` Z3, which does not mind many orders of effects; for all, explicit-state checking, where there is little to
+look at.
+"""
+
+LITTLE = 20_000_000
+"""How many outcomes and steps are listed sooner than Z3 and the walk have used up their time."""
 
 MANY_RANK_NODES = 500
 """Ranks with more nodes than that tend to count, and then Z3 takes long."""
@@ -58,6 +68,8 @@ def make_prover(name: ProverName, spec: Spec, policy: Policy, ordering: Ordering
             return _z3(spec, policy, ordering, budget)
         case "walk":
             return WalkProver(spec, policy, ordering, budget)
+        case "explicit":
+            return StateProver(spec, policy, ordering, budget.context)
         case "both":
             return _Both(spec, policy, ordering, budget)
         case _:
@@ -77,6 +89,7 @@ class _Pair:
         self._policy = policy
         self._walk = WalkProver(spec, policy, ordering, budget)
         self._make_z3 = partial(_z3, spec, policy, ordering, budget)
+        self._make_explicit = partial(StateProver, spec, policy, ordering, budget.context)
 
     @cached_property
     def _z3(self) -> Z3Prover:
@@ -84,9 +97,20 @@ class _Pair:
         prover.policy_is_safe = self._walk.policy_is_safe
         return prover
 
+    @cached_property
+    def _explicit(self) -> StateProver:
+        prover = self._make_explicit()
+        prover.policy_is_safe = self._walk.policy_is_safe
+        return prover
+
     @property
-    def _asked(self) -> list[Z3Prover | WalkProver]:
-        return [self._z3, self._walk] if "_z3" in self.__dict__ else [self._walk]
+    def _asked(self) -> list[Z3Prover | WalkProver | StateProver]:
+        asked: list[Z3Prover | WalkProver | StateProver] = [self._walk]
+        if "_z3" in self.__dict__:
+            asked.append(self._z3)
+        if "_explicit" in self.__dict__:
+            asked.append(self._explicit)
+        return asked
 
     @property
     def use(self) -> CertificateUse:
@@ -98,8 +122,9 @@ class _Pair:
         return self._first.has_valid_state()
 
     def valid_states(self) -> int | None:
-        """How many states are valid, where the first who is asked can tell."""
-        return self._first.valid_states()
+        """How many states are valid, where the first who is asked can tell, or the last."""
+        found = self._first.valid_states()
+        return self._explicit.valid_states() if found is None and "_explicit" in self.__dict__ else found
 
     def ahead(
         self, names: Sequence[PropertyName], jobs: int, started: Callable[[PropertyName], None]
@@ -134,7 +159,10 @@ class _Both(_Pair):
 
 
 class _Auto(_Pair):
-    """Z3 where it answers soon, otherwise the walk, otherwise Z3 after all; the walk first where ranks are large."""
+    """Z3 where it answers soon, the walk first where ranks are large; then whoever can, explicit-state checking last.
+
+    Where there is little to look at, explicit-state checking comes before the others have used up their time.
+    """
 
     def prove(self, name: PropertyName) -> PropertyResult:
         """The verdict of whoever reaches one."""
@@ -145,31 +173,49 @@ class _Auto(_Pair):
         return result
 
     def _prove(self, name: PropertyName) -> PropertyResult:
-        if self._is_large and name == "safe":
-            soon = self._walk.prove(name, SOON_REMEMBERED)
-            if soon.verdict != "undecided":
-                return soon
+        reasons: list[str | None] = []
+        for prove in self._attempts(name):
+            result = prove()
+            if result.verdict != "undecided":
+                return result
+            reasons.append(result.reason)
+        return PropertyResult(name, "undecided", reason="; ".join(dict.fromkeys(filter(None, reasons[-3:]))))
+
+    def _attempts(self, name: PropertyName) -> Iterator[Callable[[], PropertyResult]]:
+        """Who is asked, one after the other."""
+        if self._is_large:
+            yield lambda: self._walk.prove(name, SOON_REMEMBERED)
+        if self._is_large and self._is_little:
+            yield lambda: self._explicit.prove(name, LITTLE)
         if name == "safe" or not self._is_large:
-            soon = self._z3.prove(name, within=SOON)
-            if soon.verdict != "undecided":
-                return soon
-        walked = self._walk.prove(name)
-        if walked.verdict != "undecided":
-            return walked
-        last = self._z3.prove(name)
-        if last.verdict == "undecided":
-            return PropertyResult(name, "undecided", reason=f"{last.reason}; {walked.reason}")
-        return last
+            yield lambda: self._z3.prove(name, within=SOON)
+        if not self._is_large and self._is_little:
+            yield lambda: self._explicit.prove(name, LITTLE)
+        yield lambda: self._walk.prove(name)
+        yield lambda: self._z3.prove(name)
+        yield lambda: self._explicit.prove(name)
 
     def ahead(
         self, names: Sequence[PropertyName], jobs: int, started: Callable[[PropertyName], None]
     ) -> Mapping[PropertyName, float]:
-        """What the walk has children do, where it is asked first."""
-        return self._walk.ahead(names, jobs, started, SOON_REMEMBERED) if self._is_large else {}
+        """What the walk has children do, where it has to answer."""
+        if not self._is_large or self._may_be_little:
+            return {}
+        return self._walk.ahead(names, jobs, started, SOON_REMEMBERED)
 
     @property
     def _first(self) -> Z3Prover | WalkProver:
         return self._walk if self._is_large else self._z3
+
+    @cached_property
+    def _is_little(self) -> bool:
+        """Whether all outcomes of all decisions are soon listed."""
+        work = self._explicit.work if self._may_be_little else None
+        return work is not None and work <= LITTLE
+
+    @cached_property
+    def _may_be_little(self) -> bool:
+        return count_defined(self._policy) <= LARGEST_TABLE
 
     @cached_property
     def _is_large(self) -> bool:

@@ -11,7 +11,7 @@ from tumato_symbolic.spec import Ordering
 Verdict: TypeAlias = Literal["proved", "refuted", "undecided"]
 PropertyName: TypeAlias = Literal["total", "safe", "goals", "minimal", "ordering"]
 OrderingSource: TypeAlias = Literal["command line", "certificate", "specification", "default"]
-ProverName: TypeAlias = Literal["z3", "walk", "both", "auto"]
+ProverName: TypeAlias = Literal["z3", "walk", "explicit", "both", "auto"]
 UnrealizabilityKind: TypeAlias = Literal["no-allowed-set", "no-plan", "conflict"]
 
 PROPERTIES: tuple[PropertyName, ...] = ("total", "safe", "goals", "minimal")
@@ -40,7 +40,7 @@ class PropertyResult:
     """The verdict on one property.
 
     `obligations` counts what had to be proved of all states and was; `proved_by` names the prover of a proved
-    property, `z3`, `walk` or `z3+walk` (both); `reason` tells why an undecided one is undecided.
+    property, `z3`, `walk`, `z3+walk` (both) or `explicit`; `reason` tells why an undecided one is undecided.
     """
 
     name: PropertyName

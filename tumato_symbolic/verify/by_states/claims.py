@@ -1,0 +1,68 @@
+"""The claims of a certificate, looked at one by one (`docs/certificate.md`)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from tumato_symbolic.policy.model import Certificate
+from tumato_symbolic.semantics import ActionSet, Residual
+from tumato_symbolic.spec import Spec
+from tumato_symbolic.verify.by_states.packed import Code, Packing
+from tumato_symbolic.verify.by_states.runs import Runs
+from tumato_symbolic.verify.given import UNNEEDED, GivenRanks
+
+
+class Claims:
+    """The numbers that a certificate gives to safe states."""
+
+    def __init__(self, spec: Spec, packing: Packing, runs: Runs, certificate: Certificate, given: GivenRanks) -> None:
+        self._spec, self._packing, self._runs = spec, packing, runs
+        self._ranks, self._given = certificate.ranks, given
+
+    def look(self, safe: Iterable[Code], owing: Mapping[Code, ActionSet]) -> None:
+        """Say what became of the certificate: wrong where a number is false, incomplete where one is missing.
+
+        `safe` are all safe states; `owing` the decided states with an allowed decision, and that decision.
+        """
+        if self._given.use != UNNEEDED:
+            return
+        states = list(safe)
+        numbers = {goal: self._numbers(goal, states) for goal in self._given.roots}
+        for goal, known in numbers.items():
+            if not all(self._is_true(goal, known, code, number) for code, number in known.items()):
+                self._given.reject(f"the ranks of {self._given.described(goal)} do not go down to it")
+                return
+        self._look_at_the_bound(numbers, owing)
+
+    def _look_at_the_bound(self, numbers: dict[Residual, dict[Code, int]], owing: Mapping[Code, ActionSet]) -> None:
+        whole, bound = True, self._spec.max_plan_length
+        for code, chosen in owing.items():
+            goal, after = self._runs.residual(code, chosen), self._runs.follower(code)
+            if not goal.bodies or after is None or not self._runs.serves(code, chosen):
+                continue  # nothing is owed, or there is no number to give
+            number = numbers.get(goal, {}).get(after)
+            if number is None:
+                if whole:
+                    self._given.lacks(goal, self._packing.unpack(code) if goal in numbers else None)
+                whole = False
+            elif bound is not None and number >= bound:
+                self._given.reject(f"its ranks of {self._given.described(goal)} exceed the bound")
+                return
+        if whole:
+            self._given.serve()
+
+    def _numbers(self, goal: Residual, states: list[Code]) -> dict[Code, int]:
+        root, found = self._given.roots[goal], dict[Code, int]()
+        for code in states:
+            number = self._ranks.evaluate(root, self._packing.unpack(code))
+            if number is not None:
+                found[code] = number
+        return found
+
+    def _is_true(self, goal: Residual, known: dict[Code, int], code: Code, number: int) -> bool:
+        """0 where the goal holds; otherwise more than the number of the next state, which is safe and has one."""
+        if number == 0:
+            return self._runs.reached(goal, code)
+        after = self._runs.follower(code)
+        following = None if after is None else known.get(after)
+        return following is not None and following < number

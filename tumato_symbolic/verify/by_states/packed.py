@@ -1,0 +1,83 @@
+"""States as whole numbers, and predicates that are remembered by the variables they mention."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+
+from tumato_symbolic.semantics import NOTHING, ActionSet, State, holds
+from tumato_symbolic.spec import Assignment, Formula, Rule, Spec, variables_of
+
+Code = int
+"""A state: the values of its variables side by side, in a few bits each."""
+
+
+class Packing:
+    """States as numbers and back."""
+
+    def __init__(self, spec: Spec) -> None:
+        widths = [max(1, (len(variable.values) - 1).bit_length()) for variable in spec.variables]
+        self._shifts = [sum(widths[:number]) for number in range(len(widths))]
+        self._masks = [((1 << width) - 1) << shift for width, shift in zip(widths, self._shifts, strict=True)]
+        self.all = sum(self._masks)
+
+    def pack(self, state: State) -> Code:
+        """The number of a state."""
+        code = 0
+        for value, shift in zip(state, self._shifts, strict=True):
+            code |= value << shift
+        return code
+
+    def unpack(self, code: Code) -> State:
+        """The state with a number."""
+        return tuple([(code & mask) >> shift for mask, shift in zip(self._masks, self._shifts, strict=True)])
+
+    def mask(self, variables: Iterable[int]) -> int:
+        """The bits of some variables."""
+        return sum(self._masks[variable] for variable in variables)
+
+    def writes(self, assignment: Assignment) -> tuple[int, int]:
+        """`(keep, put)`: the number of the state after an assignment is `code & keep | put`."""
+        put = sum(value << self._shifts[variable] for variable, value in assignment)
+        return self.all & ~self.mask(variable for variable, _ in assignment), put
+
+
+class Remembered:
+    """Whether a formula holds while `executed` runs: asked of `holds` once for the values of what it mentions."""
+
+    def __init__(self, packing: Packing, formula: Formula, executed: ActionSet = NOTHING) -> None:
+        self._packing, self._formula, self._executed = packing, formula, executed
+        self._mask = packing.mask(variables_of(formula))
+        self._known: dict[int, bool] = {}
+
+    def __call__(self, code: Code) -> bool:
+        """Its truth in a state."""
+        key = code & self._mask
+        found = self._known.get(key)
+        if found is None:
+            found = self._known[key] = holds(self._formula, self._packing.unpack(key), self._executed)
+        return found
+
+
+def all_hold(packing: Packing, rules: Sequence[Rule], executed: ActionSet = NOTHING) -> Callable[[Code], bool]:
+    """Whether all of some rules hold."""
+    tests = [Remembered(packing, rule.formula, executed) for rule in rules]
+    return lambda code: all(test(code) for test in tests)
+
+
+def valid_states(spec: Spec, packing: Packing) -> Iterator[State]:
+    """All valid states in their order; an assumption is looked at as soon as all that it mentions has a value."""
+    settled: list[list[Remembered]] = [[] for _ in range(len(spec.variables) + 1)]
+    for rule in spec.assumptions:
+        settled[max(variables_of(rule.formula), default=-1) + 1].append(Remembered(packing, rule.formula))
+    sizes = [len(variable.values) for variable in spec.variables]
+    undone: State = (0,) * len(sizes)
+    waiting: list[State] = [()]
+    while waiting:
+        begun = waiting.pop()
+        code = packing.pack((*begun, *undone[len(begun) :]))
+        if not all(test(code) for test in settled[len(begun)]):
+            continue
+        if len(begun) == len(sizes):
+            yield begun
+        else:
+            waiting += [(*begun, value) for value in reversed(range(sizes[len(begun)]))]
