@@ -27,7 +27,7 @@ test: $(VENV)/.development
 	$(BIN)/mypy
 	$(BIN)/mypy --strict proofs/checker.py
 	$(BIN)/lint-imports
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest -n auto --dist worksteal
 
 proofs: $(VENV)/.development
 	@$(BIN)/python -m tests.export
