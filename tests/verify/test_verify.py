@@ -287,7 +287,7 @@ def test_ctrl_c_stops_the_proof(monkeypatch: pytest.MonkeyPatch) -> None:
         def __getattr__(self, name: str) -> Any:
             return lambda *_: {"check": "unknown", "reason_unknown": "interrupted from keyboard"}.get(name)
 
-    monkeypatch.setattr("z3.SolverFor", lambda *_, **__: Interrupted())
+    monkeypatch.setattr("z3.Solver", lambda *_: Interrupted())
     spec, rows = _ring()
     with pytest.raises(KeyboardInterrupt):
         verify(policy_from_rows(spec, rows), spec)

@@ -37,7 +37,7 @@ class CheapestSet:
             if action.duration
         ]
         self._small = sum(duration for _, duration in self._terms) <= MACHINE_INTEGER
-        self._solver = z3.SolverFor("QF_FD", self._context) if self._small else z3.Solver(ctx=self._context)
+        self._solver = _finite_domain_solver(self._context) if self._small else z3.Solver(ctx=self._context)
         self._solver.add(self._term(relation))
 
     def exclude(self, states: Bdd) -> None:
@@ -87,7 +87,7 @@ class Choices:
     def __init__(self, manager: Manager) -> None:
         self._manager = manager
         self._context = z3.Context()
-        self._solver = z3.SolverFor("QF_FD", self._context)
+        self._solver = _finite_domain_solver(self._context)
         self._options: list[list[Term]] = []
         self._guards: dict[int, Term] = {}
         self._kept: dict[int, Term] = {}
@@ -133,7 +133,7 @@ class Choices:
 
     def refutation(self, clauses: Sequence[int]) -> list[int]:
         """Those of some clauses (by number) that contradict each other; together they must."""
-        solver = z3.SolverFor("QF_FD", self._context)
+        solver = _finite_domain_solver(self._context)
         for literals in self._options:
             solver.add(_any(literals, self._context), z3.AtMost(*literals, 1))
         guards = {number: z3.Bool(f"c{number}", self._context) for number in clauses}
@@ -165,6 +165,11 @@ def _is_true(model: Term, literal: Term) -> bool:
     declaration = z3.Z3_get_app_decl(context, literal.as_ast())
     found = z3.Z3_model_get_const_interp(context, model.model, declaration)
     return bool(found) and z3.Z3_get_bool_value(context, found) == z3.Z3_L_TRUE
+
+
+def _finite_domain_solver(context: Term) -> Term:
+    """What `z3.SolverFor` makes, without the process-wide context, which it would make beside this one."""
+    return z3.Solver(z3.Z3_mk_solver_for_logic(context.ref(), z3.to_symbol("QF_FD", context)), context)
 
 
 def _any(literals: Sequence[Term], context: Term) -> Term:
@@ -201,7 +206,7 @@ class HittingSets:
 
     def __init__(self, penalties: Sequence[int]) -> None:
         self._context = z3.Context()
-        self._solver = z3.SolverFor("QF_FD", self._context)
+        self._solver = _finite_domain_solver(self._context)
         self._literals = [z3.Bool(f"h{number}", self._context) for number in range(len(penalties))]
         self._penalties = penalties
         self._useful: set[int] = set()

@@ -27,12 +27,17 @@ class UndecidedError(Exception):
         super().__init__(f"{why}: {claim}")
 
 
+def _finite_domain_solver(context: Context) -> Any:  # noqa: ANN401 - z3 has no types
+    """What `z3.SolverFor` makes, without the process-wide context, which it would make beside this one."""
+    return z3.Solver(z3.Z3_mk_solver_for_logic(context.ref(), z3.to_symbol("QF_FD", context)), context)
+
+
 class Solver:
     """A Z3 solver for finite domains, in a given context or in one of its own."""
 
     def __init__(self, context: Context | None = None) -> None:
         self.context: Context = z3.Context() if context is None else context
-        self._solver = z3.SolverFor("QF_FD", ctx=self.context)
+        self._solver = _finite_domain_solver(self.context)
         self._depth = 0
         self._lost: list[Term] = []
         self._model: Any = None
