@@ -48,6 +48,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--module", default="", help="only modules with this in their names")
     parser.add_argument("--named", default="", help="only faults with this in their names, all of them")
     parser.add_argument("--processes", type=int, default=2)
+    parser.add_argument("--limit", type=float, help="seconds of the processor for a fault; not measured first")
     parser.add_argument("--list", action="store_true", help="only list the faults")
     options = parser.parse_args(arguments)
     modules = {each.module: each for each in covered(ROOT) if options.module in each.module}
@@ -63,13 +64,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(*(f"{site.line}: {site.name}" for _, site in chosen), sep="\n")
         return 0
     load_what_tests_need()
-    limits = _limits({modules[module] for module, _ in chosen}, options.processes)
+    tests = sorted({modules[module].tests for module, _ in chosen})
+    limits = dict.fromkeys(tests, options.limit) if options.limit else _limits(tests, options.processes)
     return _campaign(chosen, modules, limits, known, options.processes)
 
 
-def _limits(modules: set[Covered], processes: int) -> dict[tuple[str, ...], float]:
-    """How many seconds each list of tests may take: several times what they take without a fault."""
-    lists = sorted({each.tests for each in modules})
+def _limits(lists: list[tuple[str, ...]], processes: int) -> dict[tuple[str, ...], float]:
+    """How many seconds each list of tests may take: twice what they take without a fault, and two."""
     with ThreadPoolExecutor(processes) as pool:
         endings = pool.map(lambda tests: run_tests(tests, None, "", 0, 600), lists)
     limits = {}

@@ -78,11 +78,22 @@ def _be_the_child(tests: Sequence[str], path: Path | None, module: str, number: 
             os.dup2(out.fileno(), 2)
             if path is not None:
                 _plant(path, module, number)
-            import pytest
-
-            code = int(pytest.main([*tests, "-x", "-q", "-p", "no:cacheprovider", "--no-header", "--tb=no"]))
+            code = _first_failure(tests)
     finally:
         os._exit(code)
+
+
+def _first_failure(tests: Sequence[str]) -> int:
+    """The exit code of the first file with a test that fails; 0 without one. Later files are not even loaded."""
+    import pytest
+
+    files = [test for test in tests if test.startswith("tests/")]
+    options = [test for test in tests if not test.startswith("tests/")]
+    for file in files:
+        code = int(pytest.main([file, *options, "-x", "-q", "-p", "no:cacheprovider", "--no-header", "--tb=no"]))
+        if code not in (0, pytest.ExitCode.NO_TESTS_COLLECTED):
+            return code
+    return 0
 
 
 def _plant(path: Path, module: str, number: int) -> None:

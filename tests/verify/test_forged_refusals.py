@@ -217,11 +217,28 @@ def _two(build: Build) -> tuple:
     return Executing(0), Executing(1)
 
 
+def forced() -> Spec:
+    """In every state two actions are forced, of which one may strike after the other, and then it is too much."""
+    build = Build({"x": "ab", "y": "ab"})
+    one, two = build.action("x=b"), build.action("", ["y=b"])
+    return build.spec(state_rules=[Not(And((build.atom("x=b"), build.atom("y=b"))))], reaction_rules=[one, two])
+
+
+def test_two_effects_count_under_any_alone() -> None:
+    """Nothing is allowed under `any`, where both effects strike; the same certificate is no proof under `first`."""
+    certificate = certified(forced(), "any")
+    assert certificate is not None and isinstance(certificate.reason, NoAllowedSet)
+    assert max(len(cube.violation.outcome) for cube in certificate.reason.cubes or ()) == 2
+    assert verify_unrealizable(certificate, forced()).verdict == "proved"
+    assert verify_unrealizable(certificate, forced(), ordering="first").verdict == "refuted"
+    assert certified(forced(), "first") is None or literal.allowed(forced(), certificate.reason.state, "first")
+
+
 @pytest.mark.parametrize("ordering", ["any", "first"])
 def test_every_violation_of_every_cube(ordering: Ordering) -> None:
     """A condition that a cube names is violated by all its sets, or is none: all conditions, of each cube."""
-    for spec in (stuck()[1], stuck(3, [Not(Iff(*_two(stuck()[0])))])[1], knotted()):
-        certificate = certified(spec, ordering)
+    for spec in (stuck()[1], stuck(3, [Not(Iff(*_two(stuck()[0])))])[1], knotted(), forced()):
+        certificate = certified(spec, "any")
         assert certificate is not None and isinstance(certificate.reason, NoAllowedSet)
         reason, meaning = certificate.reason, Meaning(spec, ordering)
         step = AllowedStep(spec, ordering, Budget())
