@@ -157,6 +157,17 @@ def test_only_what_is_asked_counts(cli: Cli) -> None:
     assert "Not asked: minimal" in ran.out
 
 
+def test_a_report_says_of_which_states_it_speaks(cli: Cli) -> None:
+    """Nothing is called proved for all valid states of a policy that does not decide all of them."""
+    policy = json.loads(Path("amr.json").read_text(encoding="utf-8"))
+    Path("partial.json").write_text(json.dumps({**policy, "Policy": policy["Policy"][:1]}), encoding="utf-8")
+    asked = cli("verify", "partial.json", "amr.tum", "--properties", "safe")
+    assert (asked.code, "for the 1 of 32 valid states that it decides" in asked.out) == (0, True)
+    assert "all" not in asked.out.splitlines()[0]
+    whole = cli("verify", "partial.json", "amr.tum")
+    assert (whole.code, "states: the 1 of 32 valid states that it decides" in whole.out) == (1, True)
+
+
 @pytest.mark.parametrize("output", ["missing/policy.json", ".", "amr.tum/policy.json"])
 def test_where_nothing_can_be_written_is_2(cli: Cli, output: str) -> None:
     """An output that cannot be is found out before the work: exit 2 with a way out, and no report."""

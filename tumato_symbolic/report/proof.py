@@ -18,7 +18,7 @@ ORDERINGS: Final[dict[Ordering, str]] = {
 _CLAIMS: Final[dict[PropertyName, str]] = {
     "total": "every valid state has a decision",
     "safe": "every decision is allowed: whatever effects occur, no rule is broken",
-    "goals": "from every valid state, the nominal run reaches the active goals",
+    "goals": "from every {decided} state, the nominal run reaches the active goals",
     "minimal": "where safety is restored, no cheaper set would do as well",
     "ordering": "the policy was made for the effect ordering that the specification means",
 }
@@ -34,7 +34,19 @@ def proof_text(verification: Verification, valid: int, took: float, paint: Paint
     head = f"{paint.good('Proved')} by {provers(verification)} for {every(valid, 'valid state')}, in {seconds(took)}:"
     if verification.verdict != "proved":
         head = f"{paint.doubt('Not everything could be proved')}; it took {seconds(took)}:"
-    return "\n".join((head, *(f"  {property_line(result, paint)}" for result in results)))
+    return "\n".join((head, *(f"  {property_line(result, paint, verification)}" for result in results)))
+
+
+def states_spoken_of(verification: Verification) -> str:
+    """Of which states a verification speaks: `all 64 valid states`, `the 5 of 64 valid states that it decides`."""
+    decided, valid = verification.decided_states, verification.valid_states
+    if verification.decides_all:
+        return "all valid states" if valid is None else every(valid, "valid state")
+    if decided is None:
+        return "the valid states that it decides"
+    if valid is None:
+        return f"the {count(decided, 'valid state')} that it decides"
+    return f"the {decided:,} of {count(valid, 'valid state')} that it decides"
 
 
 def provers(verification: Verification) -> str:
@@ -47,7 +59,7 @@ def _named(proved_by: str) -> str:
     return enumeration([_PROVERS.get(name, name) for name in names])
 
 
-def property_line(result: PropertyResult, paint: Paint) -> str:
+def property_line(result: PropertyResult, paint: Paint, verification: Verification) -> str:
     """One property with its verdict."""
     verdict = {
         "proved": paint.good("proved"),
@@ -56,7 +68,8 @@ def property_line(result: PropertyResult, paint: Paint) -> str:
     }[result.verdict]
     reason = f" ({result.reason})" if result.reason else ""
     prover = f" by {_named(result.proved_by)}" if result.proved_by not in (None, "z3") else ""
-    return f"{result.name:<9}{verdict}{prover}: {_CLAIMS[result.name]}{reason}"
+    claim = _CLAIMS[result.name].format(decided="valid" if verification.decides_all else "decided")
+    return f"{result.name:<9}{verdict}{prover}: {claim}{reason}"
 
 
 def refutation_text(place: Place, refutation: Refutation) -> str:
@@ -117,6 +130,7 @@ def proof_json(spec: Spec, verification: Verification) -> dict[str, object]:
         "properties": {result.name: _property_json(spec, result) for result in verification.properties},
         "effect_ordering": verification.ordering,
         "valid_states": verification.valid_states,
+        "decided_states": verification.decided_states,
         "certificate": {"status": verification.certificate.status, "reason": verification.certificate.reason},
     }
 

@@ -8,8 +8,15 @@ from typing import Final
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source
 from tumato_symbolic.report.findings import finding_json, github_command, github_commands
-from tumato_symbolic.report.layout import Paint, enumeration, every, seconds
-from tumato_symbolic.report.proof import ORDERINGS, proof_json, property_line, provers, refutation_text
+from tumato_symbolic.report.layout import Paint, enumeration, seconds
+from tumato_symbolic.report.proof import (
+    ORDERINGS,
+    proof_json,
+    property_line,
+    provers,
+    refutation_text,
+    states_spoken_of,
+)
 from tumato_symbolic.report.reasons import Place
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.verify.result import PROPERTIES, CertificateUse, OrderingSource, Verdict, Verification
@@ -69,10 +76,12 @@ def as_text(done: Verified, colour: bool) -> str:
         f"{_verdict(done, paint)} In {seconds(done.took)}.",
         f"  effects: {ORDERINGS[found.ordering]}, {_SOURCES[found.ordering_source]}",
         f"  certificate: {_certificate(found.certificate)}",
-        "",
     ]
+    if found.verdict != "proved" and not found.decides_all and found.decided_states is not None:
+        lines.append(f"  states: {states_spoken_of(found)}")
+    lines.append("")
     for result in found.properties:
-        lines.append(f"  {property_line(result, paint)}")
+        lines.append(f"  {property_line(result, paint, found)}")
         if result.refutation is not None:
             lines += [f"      {line}" for line in refutation_text(done.place, result.refutation).splitlines()]
     left = [name for name in PROPERTIES if name not in {result.name for result in found.properties}]
@@ -89,10 +98,8 @@ def _verdict(done: Verified, paint: Paint) -> str:
     found = done.verification
     match found.verdict:
         case "proved":
-            states = "all valid states" if found.valid_states is None else every(found.valid_states, "valid state")
-            return (
-                f"{done.policy} is {paint.good('proved')} against {done.source.name} by {provers(found)}, for {states}."
-            )
+            proved = f"{done.policy} is {paint.good('proved')} against {done.source.name} by {provers(found)}"
+            return f"{proved}, for {states_spoken_of(found)}."
         case "refuted":
             return f"{done.policy} is {paint.bad('refuted')} against {done.source.name}."
         case "undecided":
@@ -135,7 +142,7 @@ def as_github(done: Verified) -> str:
     commands = [github_commands(done.warnings, done.source.name)] if done.warnings else []
     open_results = [result for result in done.verification.properties if result.verdict != "proved"]
     for result in open_results:
-        message = " ".join(property_line(result, Paint(False)).split())
+        message = " ".join(property_line(result, Paint(False), done.verification).split())
         span = None
         file = done.policy
         if result.refutation is not None:
@@ -150,5 +157,9 @@ def as_github(done: Verified) -> str:
     if misfits := _misfits(done):
         commands.append(github_commands(misfits, done.policy))
     if not open_results:
-        commands.append(github_command("notice", f"proved against {done.source.name}", done.policy))
+        commands.append(
+            github_command(
+                "notice", f"proved against {done.source.name}, for {states_spoken_of(done.verification)}", done.policy
+            )
+        )
     return "\n".join(commands)

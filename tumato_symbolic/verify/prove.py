@@ -11,7 +11,9 @@ from tumato_symbolic.limits import Budget, Context, LimitReachedError
 from tumato_symbolic.limits.processes import can_fork
 from tumato_symbolic.policy.bind import bind, made_for_less
 from tumato_symbolic.policy.model import Policy
+from tumato_symbolic.semantics import all_states, count_states, is_valid
 from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.verify.decisions import LARGEST_TABLE, Decisions
 from tumato_symbolic.verify.provers import Prover, make_prover
 from tumato_symbolic.verify.result import (
     PROPERTIES,
@@ -73,7 +75,7 @@ def verify(
             so_far = replace(so_far, certificate=chosen.use)
             _learn(context, so_far, results, asked)
         context.tell("counting the valid states")
-        return replace(_with(so_far, results), valid_states=chosen.valid_states())
+        return _counted(_with(so_far, results), bound, spec, chosen.valid_states())
     except LimitReachedError as limit:
         return stopped(_with(so_far, results, asked), str(limit))
 
@@ -102,6 +104,16 @@ def _with(so_far: Verification, results: Sequence[PropertyResult], asked: Sequen
     done = {result.name for result in results}
     every = (*results, *(PropertyResult(name, "undecided") for name in asked if name not in done))
     return replace(so_far, verdict=_overall([result.verdict for result in every]), properties=every)
+
+
+def _counted(answer: Verification, policy: Policy, spec: Spec, valid: int | None) -> Verification:
+    """The answer with the numbers of valid and of decided states; one by one where that is cheap, else unknown."""
+    if answer.decides_all:
+        return replace(answer, valid_states=valid, decided_states=valid)
+    if valid is None and count_states(spec) <= LARGEST_TABLE:
+        valid = sum(is_valid(spec, state) for state in all_states(spec))
+    rows = Decisions(spec, policy).rows
+    return replace(answer, valid_states=valid, decided_states=None if rows is None else len(rows))
 
 
 def _learn(

@@ -67,7 +67,11 @@ class CertificateUse:
 
 @dataclass(frozen=True, slots=True)
 class Verification:
-    """The answer of `verify`. `valid_states` is None where they could not be counted cheaply."""
+    """The answer of `verify`.
+
+    It speaks of the valid states that the policy decides, and of how many is `decided_states`, out of `valid_states`;
+    each is None where it could not be counted cheaply.
+    """
 
     verdict: Verdict
     properties: tuple[PropertyResult, ...]
@@ -75,6 +79,13 @@ class Verification:
     ordering_source: OrderingSource
     certificate: CertificateUse
     valid_states: int | None
+    decided_states: int | None = None
+
+    @property
+    def decides_all(self) -> bool:
+        """Whether the policy is known to decide every valid state."""
+        total = any((result.name, result.verdict) == ("total", "proved") for result in self.properties)
+        return total or (self.decided_states is not None and self.decided_states == self.valid_states)
 
 
 @dataclass(frozen=True, slots=True)
