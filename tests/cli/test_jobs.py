@@ -38,6 +38,7 @@ def forked(monkeypatch: pytest.MonkeyPatch) -> list[int]:
 
     monkeypatch.setattr(prover, "FEWEST_NODES", 0)
     monkeypatch.setattr(provers, "MANY_RANK_NODES", -1)
+    monkeypatch.setattr(provers, "LARGEST_TABLE", -1)
     monkeypatch.setattr(folder_command, "FEWEST_BYTES", 0)
     monkeypatch.setattr(os, "fork", counted)
     return made

@@ -20,7 +20,7 @@ def files(folder: Path) -> set[str]:
         ((), "policy.unrealizable.json"),
         (("-o", "foo.json"), "foo.unrealizable.json"),
         (("-o", "foo"), "foo.unrealizable.json"),
-        (("-o", "foo.policy.json"), "foo.policy.unrealizable.json"),
+        (("-o", "foo.policy.json"), "foo.unrealizable.json"),
     ],
 )
 @pytest.mark.parametrize("spec", ["no_plan.tum", "conflict.tum", "two_robots.tum"])

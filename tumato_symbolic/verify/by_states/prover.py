@@ -174,16 +174,16 @@ class StateProver:
         return PropertyResult("goals", "refuted", refutation=Refutation("goal-missed", state, chosen, run=run))
 
     def _look_at_the_certificate(self, decided: Mapping[Code, ActionSet]) -> None:
-        certificate = self._policy.certificate
+        given, certificate = self._given, self._policy.certificate
         if certificate is None:
             return
-        claims = Claims(self._spec, self._packing, self._runs, certificate, self._given)
+        claims = Claims(self._spec, self._packing, self._runs, certificate, given)
         try:
             claims.look(self._safe_states(decided), self._allowed)
         except TooManyError as many:
             if self._most is not None:
                 raise
-            self._given.fall_short(str(many))
+            given.fall_short(str(many))
 
     def _safe_states(self, decided: Mapping[Code, ActionSet]) -> Iterator[Code]:
         """All safe states, decided or not."""
