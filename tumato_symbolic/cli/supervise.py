@@ -33,6 +33,9 @@ _TICK = 0.05
 _FAREWELL = 1.0
 """Seconds in which the children of a child that was ended end as well."""
 
+_SIGNALS = frozenset({signal.SIGINT, signal.SIGTERM, signal.SIGHUP})
+"""What ends the work from outside."""
+
 _HEAD = 9
 """Bytes before the body of a message: its kind, and how long the body is."""
 
@@ -66,7 +69,7 @@ def supervised(work: Callable[[], int], context: Context) -> int:
     leave, granter = os.pipe()
     parent = os.getpid()
     console.flush()
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM, signal.SIGHUP})
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, _SIGNALS)
     child = os.fork()
     if child == 0:
         os.close(messages)
@@ -78,8 +81,7 @@ def supervised(work: Callable[[], int], context: Context) -> int:
     handlers = {number: signal.signal(number, _terminate) for number in (signal.SIGTERM, signal.SIGHUP)}
     watch = _Watch(child, messages, granter, context)
     try:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
-        return watch.run()
+        return watch.run(before)
     finally:
         watch.end()
         for number, handler in handlers.items():
@@ -138,10 +140,11 @@ class _Watch:
     _open: bool = True
     _status: int | None = None
 
-    def run(self) -> int:
-        """Wait for the exit code."""
+    def run(self, mask: set[int]) -> int:
+        """Wait for the exit code, with this signal mask: until then, and while a message is read, signals wait."""
         line = console.ProgressLine(self.context)
         try:
+            signal.pthread_sigmask(signal.SIG_SETMASK, mask)
             while not self._ended():
                 line.draw()
                 self._check()
@@ -182,7 +185,7 @@ class _Watch:
 
     def _let_it_write(self, line: console.ProgressLine) -> None:
         """Wait for the end of an output that was begun, for a while."""
-        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM, signal.SIGHUP})
+        signal.pthread_sigmask(signal.SIG_BLOCK, _SIGNALS)
         latest = time.monotonic() + PATIENCE_WITH_OUTPUT
         while self._writing and self._open and time.monotonic() < latest:
             self._receive(line)
@@ -206,9 +209,13 @@ class _Watch:
         """Take what the child sends within some seconds; False where it sends nothing."""
         if not select.select([self.messages], [], [], within)[0]:
             return False
-        data = os.read(self.messages, 2**20)
-        self._open = bool(data)
-        self._received += data
+        mask = signal.pthread_sigmask(signal.SIG_BLOCK, _SIGNALS)
+        try:
+            data = os.read(self.messages, 2**20)
+            self._open = bool(data)
+            self._received += data
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, mask)
         while len(self._received) >= _HEAD:
             end = _HEAD + int.from_bytes(self._received[1:_HEAD], "big")
             if len(self._received) < end:
