@@ -14,23 +14,38 @@ import sys
 import tempfile
 import time
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from types import CodeType
+from typing import Any, Literal
 
 from tests.mutants_code.sites import planted
 
-WALL = 6
-"""A fault may take so many times its limit of processor time on the clock, where others use the machine."""
+IDLE = 60.0
+"""After so many seconds in which a run, with all its children, uses no processor, it waits for ever."""
+
+Outcome = Literal["survived", "noticed", "no end", "crash", "not loaded", "error"]
+"""How the tests ended.
+
+`noticed`: a test failed. `no end`: they took many times the processor time that they take without a fault, or wait for
+ever. `crash`: a signal ended the interpreter. `not loaded`: the module cannot be compiled or imported, and nobody can
+miss that. `error`: pytest itself failed.
+"""
+_CODES: dict[int, Outcome] = {10: "survived", 11: "noticed", 12: "not loaded"}
 
 
 @dataclass(frozen=True)
 class Ending:
-    """How the tests ended, in how many seconds of the processor. `killed`: a test failed, or they did not end."""
+    """How the tests ended, in how many seconds of the processor."""
 
-    killed: bool
-    how: str
+    how: Outcome
     seconds: float
+
+    @property
+    def killed(self) -> bool:
+        """Whether the tests would have stopped the fault: one failed, or they did not come to an end by themselves."""
+        return self.how in ("noticed", "no end", "crash")
 
 
 def load_what_tests_need() -> None:
@@ -49,26 +64,44 @@ def load_what_tests_need() -> None:
 
 def run_tests(tests: Sequence[str], path: Path | None, module: str, number: int, seconds: float) -> Ending:
     """The tests with fault `number` of the module at `path` (None: with none), within some seconds of the processor."""
-    started = time.monotonic()
     child = os.fork()
     if child == 0:
         _be_the_child(tests, path, module, number, seconds)
+    used, moved = 0, time.monotonic()
     while True:
         ended, status, usage = os.wait4(child, os.WNOHANG)
         if ended:
             break
-        if time.monotonic() - started > WALL * seconds:
-            os.killpg(child, signal.SIGKILL)
+        now = time.monotonic()
+        if now - moved > IDLE / 10:
+            before, used = used, _ticks(child)
+            if used != before:
+                moved = now
+            elif now - moved > IDLE:
+                os.killpg(child, signal.SIGKILL)
         time.sleep(0.02)
-    used = usage.ru_utime + usage.ru_stime
+    return Ending(_outcome(status), usage.ru_utime + usage.ru_stime)
+
+
+def _outcome(status: int) -> Outcome:
     if os.WIFSIGNALED(status):
-        return Ending(True, "no end" if os.WTERMSIG(status) in (signal.SIGXCPU, signal.SIGKILL) else "crash", used)
-    code = os.WEXITSTATUS(status)
-    return Ending(code != 0, {0: "survived", 1: "test"}.get(code, f"exit {code}"), used)
+        return "no end" if os.WTERMSIG(status) in (signal.SIGXCPU, signal.SIGKILL) else "crash"
+    return _CODES.get(os.WEXITSTATUS(status), "error")
+
+
+def _ticks(group: int) -> int:
+    """The processor time of a process and of all that it has started, in ticks."""
+    ticks = 0
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        with suppress(OSError):
+            fields = stat.read_text(encoding="utf-8", errors="replace").rpartition(")")[2].split()
+            if int(fields[2]) == group:
+                ticks += sum(map(int, fields[11:15]))
+    return ticks
 
 
 def _be_the_child(tests: Sequence[str], path: Path | None, module: str, number: int, seconds: float) -> None:
-    code = 3
+    code = 13
     try:
         os.setpgid(0, 0)
         resource.setrlimit(resource.RLIMIT_CPU, (int(seconds) + 1, int(seconds) + 2))
@@ -76,31 +109,58 @@ def _be_the_child(tests: Sequence[str], path: Path | None, module: str, number: 
         with tempfile.TemporaryFile() as out:
             os.dup2(out.fileno(), 1)
             os.dup2(out.fileno(), 2)
-            if path is not None:
-                _plant(path, module, number)
-            code = _first_failure(tests)
+            code = 12 if path is not None and not _plant(path, module, number) else _first_failure(tests)
     finally:
         os._exit(code)
 
 
+class _Record:
+    """What pytest reports: which tests failed, and which files could not be loaded."""
+
+    def __init__(self) -> None:
+        self.failed = self.unloaded = self.passed = 0
+
+    def pytest_runtest_logreport(self, report: Any) -> None:
+        """A test, before, in or after its call."""
+        self.failed += report.failed
+        self.passed += report.when == "call" and not report.failed
+
+    def pytest_collectreport(self, report: Any) -> None:
+        """A file whose tests are looked up."""
+        self.unloaded += report.failed
+
+
 def _first_failure(tests: Sequence[str]) -> int:
-    """The exit code of the first file with a test that fails; 0 without one. Later files are not even loaded."""
+    """How the first file ends whose tests do not all pass. Later files are not even loaded."""
     import pytest
 
     files = [test for test in tests if test.startswith("tests/")]
     options = [test for test in tests if not test.startswith("tests/")]
+    passed = 0
     for file in files:
-        code = int(pytest.main([file, *options, "-x", "-q", "-p", "no:cacheprovider", "--no-header", "--tb=no"]))
-        if code not in (0, pytest.ExitCode.NO_TESTS_COLLECTED):
-            return code
-    return 0
+        record = _Record()
+        arguments = [file, *options, "-x", "-q", "-p", "no:cacheprovider", "-p", "no:xdist", "--no-header", "--tb=no"]
+        code = pytest.main(arguments, plugins=[record])
+        passed += record.passed
+        if record.failed:
+            return 11
+        if record.unloaded:
+            return 12
+        if code not in (pytest.ExitCode.OK, pytest.ExitCode.NO_TESTS_COLLECTED):
+            return 13
+    return 10 if passed else 13
 
 
-def _plant(path: Path, module: str, number: int) -> None:
-    code = compile(planted(path, module, number), str(path), "exec")
+def _plant(path: Path, module: str, number: int) -> bool:
+    """Whether the changed module can be compiled; it is loaded in the place of its file from now on."""
+    try:
+        code = compile(planted(path, module, number), str(path), "exec")
+    except SyntaxError:
+        return False
     plain = importlib.machinery.SourceFileLoader.get_code
 
     def get_code(loader: importlib.machinery.SourceFileLoader, fullname: str) -> CodeType | None:
         return code if Path(loader.path) == path else plain(loader, fullname)
 
     importlib.machinery.SourceFileLoader.get_code = get_code  # type: ignore[method-assign]
+    return True

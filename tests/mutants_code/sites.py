@@ -49,6 +49,8 @@ OPPOSITE = {one: other for pair in OPPOSITES for one, other in (pair, pair[::-1]
 NEGATIONS = {"negation", "Not"}
 COLLECTING = {"conjunction", "disjunction", "all_of", "any_of", "intersection", "union", "And", "Or"}
 """Functions of several terms, given as one tuple or list: one of them may be forgotten."""
+EITHER_WAY = {"min", "max", "gcd", "same", "isinstance"}
+"""Functions whose arguments are not exchanged: it would change nothing, or fail wherever it is met."""
 ASKING = {"add", "ask", "define", "some_state", "some_step"}
 """Functions of several terms, given as arguments."""
 WORDS = {
@@ -219,14 +221,14 @@ def _other_calls(node: ast.Call) -> Iterator[ast.AST]:
     name = node.func.id if isinstance(node.func, ast.Name) else getattr(node.func, "attr", "")
     if name in OPPOSITE:
         other = OPPOSITE[name]
-        function = ast.Name(other) if isinstance(node.func, ast.Name) else _with(node.func, attr=other)
+        function = ast.Name(other, ast.Load()) if isinstance(node.func, ast.Name) else _with(node.func, attr=other)
         yield _with(node, func=function)
     if name in NEGATIONS and len(node.args) == 1:
         yield node.args[0]
     if name == "range" and len(node.args) == 1:
         yield _with(node, args=[ast.BinOp(node.args[0], ast.Sub(), ast.Constant(1))])
     starred = any(isinstance(argument, ast.Starred) for argument in node.args)
-    if len(node.args) >= 2 and not starred and name not in ASKING:
+    if len(node.args) >= 2 and not starred and name not in ASKING | EITHER_WAY:
         *rest, one, other = node.args
         yield _with(node, args=[*rest, other, one])
     if name in ASKING and len(node.args) >= 2:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.mutants_code.__main__ import drawn
+from tests.mutants_code.__main__ import drawn, is_within
 from tests.mutants_code.covering import covered
 from tests.mutants_code.sites import planted, sites
 
@@ -59,9 +59,9 @@ def test_a_fault_changes_one_thing_and_its_name_not_with_the_lines(module: Path)
     plain = ast.unparse(ast.parse(TEXT))
     before = sites(module, "m")
     for site in before:
-        text = ast.unparse(planted(module, "m", site.number))
-        compile(text, "m", "exec")
-        assert text != plain
+        tree = planted(module, "m", site.number)
+        compile(tree, "m", "exec")
+        assert ast.unparse(tree) != plain
     module.write_text("import math\n\n" + TEXT, encoding="utf-8")
     assert [site.name for site in sites(module, "m")] == [site.name for site in before]
 
@@ -72,12 +72,96 @@ def test_every_module_of_the_trusted_base_has_its_share() -> None:
     names = {each.module for each in modules}
     assert {"tumato_symbolic.semantics.step", "tumato_symbolic.verify.by_z3.outcomes", "proofs.checker"} <= names
     assert {"tumato_symbolic.symbolic.steps", "tumato_symbolic.policy.bind"} <= names
-    for each in modules:
-        paths = [test.split("::")[0] for test in each.tests if test.startswith("tests/")]
-        assert paths and all((ROOT / path).exists() for path in paths)
+    assert {"tumato_symbolic.verify.by_states.steps", "tumato_symbolic.verify.by_walk.walk"} <= names
     everything = {each.module: sites(ROOT / each.path, each.module) for each in modules[:4]}
     assert {module for module, _ in drawn(everything, 40, 1)} == set(everything)
     assert drawn(everything, 40, 1) == drawn(everything, 40, 1) != drawn(everything, 40, 2)
+
+
+def test_the_tests_that_are_named_exist() -> None:
+    """Every module has tests, and a test that was renamed is missed."""
+    lists = {each.tests for each in covered(ROOT)}
+    named = sorted({test for tests in lists for test in tests if test.startswith("tests/")})
+    assert all(any(test in named for test in tests) for tests in lists)
+    command = [sys.executable, "-m", "pytest", "--collect-only", "-p", "no:cacheprovider", *named]
+    found = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert found.returncode == 0, found.stdout + found.stderr
+
+
+@pytest.mark.parametrize(
+    ("wanted", "expected"),
+    [
+        (None, True),
+        ("tumato_symbolic.symbolic.steps", True),
+        ("symbolic.steps", True),
+        ("symbolic", True),
+        ("steps", False),
+        ("symbolic.step", False),
+        ("verify", False),
+    ],
+)
+def test_which_modules_are_wanted(wanted: str | None, expected: bool) -> None:
+    """A module or a package by its whole name."""
+    assert is_within("tumato_symbolic.symbolic.steps", wanted) == expected
+
+
+TESTS = """
+import time
+
+import pytest
+
+import changed
+
+
+def test_it() -> None:
+    while changed.ONE == 2 and changed.HOW == "loop":
+        pass
+    if changed.ONE == 2 and changed.HOW == "wait":
+        time.sleep(1000)
+    assert changed.ONE == 1 or changed.HOW != "fail"
+    if changed.ONE == 2 and changed.HOW == "exit":
+        pytest.exit("no verdict", 4)
+"""
+
+
+ENDINGS = {
+    "fail": ("noticed", True),
+    "loop": ("no end", True),
+    "wait": ("no end", True),
+    "pass": ("survived", False),
+    "exit": ("error", False),
+    "load": ("not loaded", False),
+}
+RUN = """
+import os, sys
+from pathlib import Path
+from tests.mutants_code import run, sites
+
+os.chdir(sys.argv[1])
+sys.path.insert(0, sys.argv[1])
+run.IDLE = 2.0
+run.load_what_tests_need()
+path = Path("changed.py").resolve()
+plain = path.read_text()
+for how in sys.argv[2:]:
+    path.write_text(f"HOW = {how!r}" + plain)
+    number = next(each.number for each in sites.sites(path, "changed") if each.name.endswith("1 -> 2"))
+    without = run.run_tests(["tests/test_it.py"], None, "", 0, 60)
+    ending = run.run_tests(["tests/test_it.py"], path, "changed", number, 2)
+    print(without.how, ending.how, ending.killed, sep=",")
+"""
+
+
+def test_how_the_tests_end(tmp_path: Path) -> None:
+    """A failed test and one that finds no end are deaths; an error of pytest and a module that cannot be loaded not."""
+    (tmp_path / "tests").mkdir()
+    (tmp_path / "tests" / "test_it.py").write_text(TESTS, encoding="utf-8")
+    bad = 'if one() == 2 and HOW == "load":\n    raise ImportError\n'
+    text = f"\n\n\ndef one() -> int:\n    return 1\n\n\nONE = one()\n{bad}"
+    (tmp_path / "changed.py").write_text(text, encoding="utf-8")
+    command = [sys.executable, "-c", RUN, str(tmp_path), *ENDINGS]
+    told = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    assert told.splitlines() == [f"survived,{how},{killed}" for how, killed in ENDINGS.values()]
 
 
 def test_a_planted_fault_is_noticed() -> None:
@@ -88,7 +172,7 @@ def test_a_planted_fault_is_noticed() -> None:
         "module = 'tumato_symbolic.policy.diagram'; path = Path('tumato_symbolic/policy/diagram.py').resolve()\n"
         "number = next(s.number for s in sites(path, module) if 'root >= base -> root > base' in s.name)\n"
         "tests = ('tests/policy/test_numbers.py',)\n"
-        "assert not run_tests(tests, None, '', 0, 60).killed\n"
-        "assert run_tests(tests, path, module, number, 60).killed\n"
+        "assert run_tests(tests, None, '', 0, 60).how == 'survived'\n"
+        "assert run_tests(tests, path, module, number, 60).how == 'noticed'\n"
     )
     subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=True)

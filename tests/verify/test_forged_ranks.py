@@ -18,15 +18,18 @@ from tumato_symbolic.verify.by_z3 import rank_terms
 
 Table = dict[literal.State, int]
 Policy = dict[literal.State, literal.Actions]
-JUDGES = ("at once", "by parts", "walk")
+Name = Literal["z3", "walk", "explicit"]
+JUDGES: dict[str, Name] = {"at once": "z3", "by parts": "z3", "walk": "walk"}
+needing_no_rival = pytest.mark.parametrize("prover", [*JUDGES, "explicit"], indirect=True)
+"""Explicit-state checking takes the ranks of a certificate for goals only."""
 
 
 @pytest.fixture(params=JUDGES)
-def prover(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Literal["z3", "walk"]:
-    """Z3 with all ranks at once, Z3 with each rank apart, and the walk."""
+def prover(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Name:
+    """Z3 with all ranks at once, Z3 with each rank apart, the walk, and explicit-state checking."""
     if request.param == "by parts":
         monkeypatch.setattr(rank_terms, "AT_ONCE", -1.0)
-    return "walk" if request.param == "walk" else "z3"
+    return JUDGES.get(request.param, "explicit")
 
 
 def along(length: int, bound: int | None = None) -> tuple[Spec, Policy]:
@@ -99,14 +102,15 @@ def bound_below(spec: Spec, policy: Policy, table: Table) -> bool:
     return True
 
 
-def _status(spec: Spec, policy: Policy, table: Table, prover: Literal["z3", "walk"], name: str) -> tuple[str, str]:
+def _status(spec: Spec, policy: Policy, table: Table, prover: Name, name: str) -> tuple[str, str]:
     goal = Residual(frozenset((0,)), frozenset())
     answer = verify(certified(spec, policy, {goal: table}), spec, prover=prover, properties=["safe", name])
     return answer.properties[1].verdict, answer.certificate.status
 
 
+@needing_no_rival
 @pytest.mark.parametrize(("length", "bound"), [(1, None), (2, None), (3, None), (3, 3), (3, 4), (4, 4)])
-def test_ranks_of_goals(length: int, bound: int | None, prover: Literal["z3", "walk"]) -> None:
+def test_ranks_of_goals(length: int, bound: int | None, prover: Name) -> None:
     """The policy is right whatever the ranks say; they are *wrong* where they do not go down to the goal or exceed the
     bound, *incomplete* where one is missing that is needed, and *used* otherwise."""
     spec, policy = along(length, bound)
@@ -125,8 +129,9 @@ def test_ranks_of_goals(length: int, bound: int | None, prover: Literal["z3", "w
     assert met >= {"used", "wrong"}
 
 
+@needing_no_rival
 @pytest.mark.parametrize("length", [2, 3, 4, 7])
-def test_a_bound_that_is_near(length: int, prover: Literal["z3", "walk"]) -> None:
+def test_a_bound_that_is_near(length: int, prover: Name) -> None:
     """A policy whose longest run takes as many steps as the bound is right; with one step less it is refuted, with
     right ranks and without."""
     for bound, verdict in ((length + 1, "proved"), (length, "proved"), (length - 1, "refuted")):
@@ -154,7 +159,7 @@ def restoring(length: int, bound: int) -> tuple[Spec, Policy]:
 
 
 @pytest.mark.parametrize("length", [1, 2, 3, 7])
-def test_ranks_of_a_rival(length: int, prover: Literal["z3", "walk"]) -> None:
+def test_ranks_of_a_rival(length: int, prover: Name) -> None:
     """The dear set is minimal where the cheap one comes one step too late, and is not where it comes in time; ranks
     carry the proof exactly where they are nowhere too large, and large enough."""
     met = set()
@@ -171,7 +176,8 @@ def test_ranks_of_a_rival(length: int, prover: Literal["z3", "walk"]) -> None:
     assert met == {"used", "incomplete"}
 
 
-def test_a_rank_leads_out_of_the_safe_states(prover: Literal["z3", "walk"]) -> None:
+@needing_no_rival
+def test_a_rank_leads_out_of_the_safe_states(prover: Name) -> None:
     """Ranks speak of safe states: a step that leaves them has no rank, though the run comes back."""
     build = Build({"x": "abc"})
     out = build.action("x=b", when=[build.atom("x=a")])
