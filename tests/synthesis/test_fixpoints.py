@@ -8,7 +8,7 @@ import pytest
 
 from tests.generate import PROFILES, random_spec
 from tumato_symbolic import parse
-from tumato_symbolic.symbolic import Bdd, available_backend, preferred
+from tumato_symbolic.symbolic import Bdd, Manager, available_backend, preferred
 from tumato_symbolic.synthesis import fixpoints
 from tumato_symbolic.synthesis.fixpoints import course, leading, mixed
 from tumato_symbolic.synthesis.judging import Judge
@@ -38,10 +38,14 @@ def policies(problem: Problem, random: Random) -> tuple[Bdd, Bdd]:
     return first, second | (first & ~problem.steps.states_of(second))
 
 
-@pytest.mark.parametrize("most", [0, fixpoints.MOST_MOVES], ids=["functions", "moves"])
+@pytest.mark.parametrize("taken", ["moves", "functions", "pairs"])
 @pytest.mark.parametrize("profile", sorted(PROFILES))
-def test_a_course_is_the_predecessor_of_its_policy(profile: str, most: int) -> None:
-    """Move by move or as functions, it leads where the pairs of the policy nominally lead."""
+def test_a_course_is_the_predecessor_of_its_policy(profile: str, taken: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Move by move, as functions or as a relation, it leads where the pairs of the policy nominally lead."""
+    most = fixpoints.MOST_MOVES if taken == "moves" else 0
+    if taken == "pairs":
+        monkeypatch.setattr(fixpoints, "MOST_COMPOSED", 0)
+        monkeypatch.setattr(Manager, "compose", None)
     for problem in problems(profile):
         random = Random(1)
         steps, states, target = problem.steps, some_states(problem, random), some_states(problem, random)

@@ -20,6 +20,9 @@ Predecessor: TypeAlias = Callable[[Bdd, Bdd], Bdd]
 MOST_MOVES = 100
 """A relation whose sets do more different things is taken as a whole."""
 
+MOST_COMPOSED = 5_000_000
+"""Nodes of a set times nodes of the functions for its bits; above, a composition costs more than a relational product."""
+
 
 def attractor(problem: Problem, target: Bdd, predecessor: Predecessor, within: Bdd, limit: int | None) -> Layers:
     """Backward layers of `target`: `μ Z. target ∪ (within ∩ pre(Z))`, at most `limit` steps deep.
@@ -69,8 +72,8 @@ class Course:
 
     A policy that does few different things is taken move by move: `moves` has the states by what is written there, and
     the predecessor is a union of cofactors. Otherwise `moves` is None, and `following` has the next value of every bit
-    that some action writes: the predecessor is a composition. `owing` has, for every target, the states whose decision
-    owes it.
+    that some action writes: the predecessor is a composition, or the relational product where that would be large.
+    `owing` has, for every target, the states whose decision owes it.
     """
 
     problem: Problem
@@ -85,12 +88,21 @@ class Course:
         moves = self.moves or {}
         return [(self.problem.encoding.assignment_bits(effect), acting) for effect, acting in moves.items()]
 
+    @cached_property
+    def _size(self) -> int:
+        """Nodes of the functions in `following`."""
+        return sum(map(self.problem.encoding.manager.nodes, self.following.values()))
+
     def predecessor(self, states: Bdd, target: Bdd) -> Bdd:
         """Those of some states that the policy leads into a set in one step."""
         manager = self.problem.encoding.manager
-        if self.moves is None:
-            return states & self.decided & manager.compose(target, self.following)
-        return states & manager.union(acting & manager.cofactor(target, effect) for effect, acting in self._cofactors)
+        if self.moves is not None:
+            return states & manager.union(
+                acting & manager.cofactor(target, effect) for effect, acting in self._cofactors
+            )
+        if self._size * manager.nodes(target) > MOST_COMPOSED:
+            return self.problem.steps.predecessor(self.policy & states, target)
+        return states & self.decided & manager.compose(target, self.following)
 
 
 def course(problem: Problem, policy: Bdd, most: int = MOST_MOVES) -> Course:
