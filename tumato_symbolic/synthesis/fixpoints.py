@@ -21,7 +21,7 @@ MOST_MOVES = 100
 """A relation whose sets do more different things is taken as a whole."""
 
 MOST_COMPOSED = 5_000_000
-"""Nodes of a set times nodes of the functions for its bits; above, a composition costs more than a relational product."""
+"""Nodes of a set times nodes of its bits' functions: above, composing them costs more than the relational product."""
 
 
 def attractor(problem: Problem, target: Bdd, predecessor: Predecessor, within: Bdd, limit: int | None) -> Layers:
