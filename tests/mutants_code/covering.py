@@ -23,7 +23,11 @@ STRANGERS = tuple(
     f"{JUDGED}::test_strangers_are_judged_as_by_the_explicit_meaning[{case}-auto]"
     for case in ("any-restoring", "first-interacting")
 )
+COUNTS = "tests/verify/test_counts.py"
 BY_STATES = (
+    COUNTS,
+    "tests/verify/test_by_states.py",
+    "tests/verify/test_forged_steps.py",
     "tests/verify/test_provers.py",
     "tests/verify/test_verify.py",
     "tests/verify/test_forged_ranks.py",
@@ -33,9 +37,10 @@ BY_STATES = (
         for case in ("any-restoring", "first-interacting", "any-concurrent")
     ),
     "-k",
-    "not walk and not once and not parts",
+    "not walk and not z3 and not once and not parts",
 )
 WALK = (
+    COUNTS,
     "tests/verify/test_forged_steps.py",
     "tests/verify/test_forged_ranks.py",
     "tests/verify/test_walk.py",
@@ -45,16 +50,20 @@ WALK = (
 )
 PROCESSES = ("tests/verify/test_jobs.py", "-k", "not depend and not time")
 Z3 = (
+    "tests/verify/test_terms.py",
+    COUNTS,
     "tests/verify/test_steps.py",
     "tests/verify/test_verify.py",
     "tests/verify/test_forged_steps.py",
     *STRANGERS,
+    f"{JUDGED}::test_a_certificate_changes_no_verdict[at-once]",
     "tests/verify/test_forged_ranks.py",
     "-k",
     "not walk and not limit and not -explicit and not -7]",
 )
 NO_POLICY = ("tests/verify/test_unrealizable_by_hand.py", "tests/verify/test_forged_refusals.py")
 VERIFY = (
+    COUNTS,
     "tests/verify/test_provers.py",
     "tests/verify/test_verify.py",
     *STRANGERS,

@@ -51,7 +51,7 @@ COLLECTING = {"conjunction", "disjunction", "all_of", "any_of", "intersection", 
 """Functions of several terms, given as one tuple or list: one of them may be forgotten."""
 EITHER_WAY = {"min", "max", "gcd", "same", "isinstance"}
 """Functions whose arguments are not exchanged: it would change nothing, or fail wherever it is met."""
-ASKING = {"add", "ask", "define", "some_state", "some_step"}
+ASKING = {"add", "ask", "define", "scope", "find", "first_model", "some_state", "some_step"}
 """Functions of several terms, given as arguments."""
 WORDS = {
     "proved": "refuted",

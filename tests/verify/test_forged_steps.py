@@ -16,7 +16,8 @@ from tumato_symbolic.spec import And, Iff, Is, Not, Or, Ordering, Spec
 from tumato_symbolic.verify import verify
 from tumato_symbolic.verify.by_walk.model import Model
 
-PROVERS: tuple[Literal["z3", "walk"], ...] = ("z3", "walk")
+Name = Literal["z3", "walk", "explicit"]
+PROVERS: tuple[Name, ...] = ("z3", "walk", "explicit")
 ORDERINGS: tuple[Ordering, ...] = ("any", "first")
 
 
@@ -48,7 +49,7 @@ def compatible(spec: Spec) -> Iterator[literal.Actions]:
 
 @pytest.mark.parametrize("prover", PROVERS)
 @pytest.mark.parametrize("ordering", ORDERINGS)
-def test_every_outcome_is_found_and_no_other(ordering: Ordering, prover: Literal["z3", "walk"]) -> None:
+def test_every_outcome_is_found_and_no_other(ordering: Ordering, prover: Name) -> None:
     """A decision is refuted exactly where the one forbidden state is an outcome, and the way is a real one."""
     plain = writers().spec()
     start = (0, 0)
@@ -112,7 +113,7 @@ def test_what_the_walk_takes_for_allowed(ordering: Ordering) -> None:
 
 @pytest.mark.parametrize("prover", PROVERS)
 @pytest.mark.parametrize("ordering", ORDERINGS)
-def test_every_decision_is_judged_as_written(ordering: Ordering, prover: Literal["z3", "walk"]) -> None:
+def test_every_decision_is_judged_as_written(ordering: Ordering, prover: Name) -> None:
     """One decision in one state, all of them, with the kind of what is wrong; elsewhere nothing is decided."""
     for spec in SPECS:
         for state, chosen in product(literal.states(spec)[:6], literal.sets(spec)):

@@ -18,7 +18,6 @@ class Packing:
         widths = [max(1, (len(variable.values) - 1).bit_length()) for variable in spec.variables]
         self._shifts = [sum(widths[:number]) for number in range(len(widths))]
         self._masks = [((1 << width) - 1) << shift for width, shift in zip(widths, self._shifts, strict=True)]
-        self.all = sum(self._masks)
 
     def pack(self, state: State) -> Code:
         """The number of a state."""
@@ -38,7 +37,7 @@ class Packing:
     def writes(self, assignment: Assignment) -> tuple[int, int]:
         """`(keep, put)`: the number of the state after an assignment is `code & keep | put`."""
         put = sum(value << self._shifts[variable] for variable, value in assignment)
-        return self.all & ~self.mask(variable for variable, _ in assignment), put
+        return ~self.mask(variable for variable, _ in assignment), put
 
 
 class Remembered:

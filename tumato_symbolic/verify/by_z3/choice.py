@@ -19,7 +19,7 @@ from tumato_symbolic.verify.by_z3.encoding import (
     successor_place,
 )
 from tumato_symbolic.verify.by_z3.solver import Solver
-from tumato_symbolic.verify.by_z3.terms import Number, Term, at_most_one, conjunction, disjunction, implies
+from tumato_symbolic.verify.by_z3.terms import Number, Term, at_most_one, conjunction, implies
 
 
 class Choice:
@@ -35,14 +35,13 @@ class Choice:
         bits = successor_place(spec, here, self.executed).bits
         self.after = Place([[_named(solver, bit) for bit in code] for code in bits])
 
-    def conditions(self, may_idle: Term = False) -> list[Term]:
-        """Conditions 1 to 4 and 6, condition 5 for one effect alone, and that `A` is not empty except where `may_idle`.
+    def conditions(self) -> list[Term]:
+        """Conditions 1 to 4 and 6, and condition 5 for one effect alone: all of section 3 but outcomes of several.
 
-        Where `may_idle` is `s ∈ S`, or false in an unsafe state, they are necessary for a set that is allowed, and
-        sufficient but for condition 5.
+        By condition 6, nothing is done in safe states only.
         """
         spec, here, executed = self._spec, self._here, self.executed
-        required: list[Term] = [disjunction((may_idle, *executed))]
+        required: list[Term] = []
         for number, action in enumerate(spec.actions):
             holds = conjunction(formula_term(rule.formula, here) for rule in action.preconditions)
             safe = conjunction(safe_term(spec, here.after(effect)) for effect in action.effects)

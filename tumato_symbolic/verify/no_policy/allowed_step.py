@@ -56,7 +56,7 @@ class AllowedStep:
         self.after = self._choice.after
         self._define(self.state.in_range(spec))
         self.safe = self.name(safe_term(spec, self.state))
-        self._steps.add(*self._choice.conditions(self.safe))
+        self._steps.add(*self._choice.conditions())
         active = GoalTerms.of(spec, self.state).active
         self.goals = GoalTerms(spec, {body: self.name(term) for body, term in active.items()})
 

@@ -1,0 +1,328 @@
+"""What a report counts and says beside its verdicts: obligations, states, what became of the certificate."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from importlib import import_module
+from typing import Literal
+
+import pytest
+
+from tests.semantics.build import Build, chosen, constraint, priority, when
+from tests.verify.policies import certified, exact_ranks
+from tests.verify.test_forged_ranks import along, exact, restoring
+from tumato_symbolic.diagnostics import UserError
+from tumato_symbolic.limits import Budget
+from tumato_symbolic.policy import Certificate, DiagramBuilder, Policy, RankedGoal, as_diagram, policy_from_rows
+from tumato_symbolic.semantics import ActionSet, Residual, State
+from tumato_symbolic.spec import FALSE, And, Executing, Not, Or, Ordering, Spec, canonical_text, digest
+from tumato_symbolic.verify import ProverName, Verification, verify
+from tumato_symbolic.verify.by_z3 import rank_terms
+from tumato_symbolic.verify.by_z3.frame import Frame
+from tumato_symbolic.verify.by_z3.rank_source import RankSource
+from tumato_symbolic.verify.decisions import Decisions
+
+prove = import_module("tumato_symbolic.verify.prove")
+Name = Literal["z3", "walk", "explicit"]
+PROVERS: tuple[Name, ...] = ("z3", "walk", "explicit")
+GOAL = Residual(frozenset((0,)), frozenset())
+
+
+@pytest.fixture(params=["at once", "by parts", "walk", "explicit"])
+def prover(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Name:
+    """Every prover; Z3 in both of its ways."""
+    if request.param == "by parts":
+        monkeypatch.setattr(rank_terms, "AT_ONCE", -1.0)
+    return request.param if request.param in PROVERS else "z3"
+
+
+def _obligations(answer: Verification) -> list[int]:
+    return [result.obligations for result in answer.properties]
+
+
+COUNTED = {
+    # preconditions, agreement (`x` alone is written), what is done in unsafe states, outcomes; goals: that there are no
+    # others, and two for each; minimal: one and one for each rank function
+    "z3": [1, 4 + 1 + 1 + 1, 1 + 2, 1],
+    # preconditions, conflicts, outcomes; goals: one, one for each rank function, and one for each goal
+    "walk": [1, 4 + 1 + 1, 1 + 1 + 1, 1],
+    # decided states
+    "explicit": [5, 5, 5, 0],
+}
+
+
+@pytest.mark.parametrize("ordering", ["any", "first"])
+@pytest.mark.parametrize("name", PROVERS)
+def test_obligations_are_counted(name: Name, ordering: Ordering) -> None:
+    """As many as there were to prove; `first` has one more for Z3 and the walk, that all effects together are safe."""
+    spec, policy = along(4)
+    spec = replace(spec, variables=(replace(spec.variables[0], values=tuple("abcde")),))
+    answer = verify(certified(spec, policy, {GOAL: exact(spec, policy)}), spec, ordering=ordering, prover=name)
+    total, safe, goals, minimal = COUNTED[name]
+    assert answer.verdict == "proved"
+    assert _obligations(answer) == [total, safe + (ordering == "first" and name != "explicit"), goals, minimal]
+    without = verify(policy_from_rows(spec, policy), spec, prover=name, properties=["goals"])
+    assert _obligations(without) == [goals - (name == "walk")]
+
+
+@pytest.mark.parametrize(("name", "count"), [("z3", 2), ("walk", 2), ("explicit", 1)])
+def test_obligations_of_minimal(name: Name, count: int) -> None:
+    """For the provers, one and one for each goal that a rival owes; for explicit-state checking, the unsafe states."""
+    spec, policy = restoring(2, 2)
+    for each in (policy_from_rows(spec, policy), certified(spec, policy, {GOAL: exact(spec, policy)})):
+        answer = verify(each, spec, prover=name, properties=["minimal"])
+        assert (answer.verdict, _obligations(answer)) == ("proved", [count])
+
+
+def test_what_is_refuted_counts_nothing() -> None:
+    """A refutation has its witness, and no obligations."""
+    spec, policy = along(2)
+    for name in PROVERS:
+        answer = verify(policy_from_rows(spec, {(0,): policy[(0,)]}), spec, prover=name, properties=["total", "goals"])
+        assert [(each.verdict, each.obligations) for each in answer.properties] == [("refuted", 0)] * 2
+
+
+def _partly(rows: Mapping[State, ActionSet], spec: Spec, diagram: bool) -> Policy:
+    policy = policy_from_rows(spec, rows)
+    return replace(policy, decisions=as_diagram(policy)) if diagram else policy
+
+
+@pytest.mark.parametrize("diagram", [False, True])
+@pytest.mark.parametrize("name", [*PROVERS, "auto", "both"])
+def test_states_are_counted(name: ProverName, diagram: bool) -> None:
+    """Valid states, and those of them that are decided, whatever is said of states that are not valid."""
+    build = Build({"x": "abc", "y": "ab"})
+    spec = build.spec(assumptions=[Not(build.atom("x=c"))])
+    inside = [(0, 0), (0, 1), (1, 0), (1, 1)]
+    for decided in (inside, inside[:3]):
+        for outside in ([], [(2, 0)], [(2, 0), (2, 1)]):
+            rows = {state: frozenset[int]() for state in (*decided, *outside)}
+            answer = verify(_partly(rows, spec, diagram), spec, prover=name)
+            whole = decided == inside
+            assert answer.verdict == ("proved" if whole else "refuted")
+            assert answer.decides_all == whole
+            if name in ("z3", "both") and diagram and outside and whole:
+                assert answer.valid_states is None, "Z3 does not count what it cannot tell apart"
+            else:
+                assert (answer.valid_states, answer.decided_states) == (4, len(decided))
+
+
+@pytest.mark.parametrize("name", [*PROVERS, "auto", "both"])
+def test_no_valid_state_is_an_error_for_every_prover(name: ProverName) -> None:
+    """An empty `V` is never a proof; a single valid state that is not decided is no error."""
+    build = Build({"x": "ab"})
+    with pytest.raises(UserError, match="TUM312"):
+        verify(policy_from_rows(build.spec(assumptions=[FALSE]), {}), build.spec(assumptions=[FALSE]), prover=name)
+    spec = build.spec(assumptions=[build.atom("x=b")])
+    assert verify(policy_from_rows(spec, {}), spec, prover=name).verdict == "refuted"
+
+
+def turning() -> tuple[Spec, dict[State, ActionSet], list[Residual]]:
+    """Three places in a round; in each the next one is the goal, and so is the last one where its action started."""
+    build = Build({"x": "abc"})
+    steps = [build.action(f"x={there}", when=[build.atom(f"x={here}")]) for here, there in ("ab", "bc", "ca")]
+    places = [build.atom(f"x={letter}") for letter in "abc"]
+    last = Or((places[0], And((Executing(0), places[1]))))
+    goals = [when(places[0], build.goal(last)), when(places[1], build.goal(places[2])), build.goal(last)]
+    spec = build.spec(priority(*goals))
+    rows = {(number,): chosen(step) for number, step in enumerate(steps)}
+    residuals = [
+        Residual(frozenset((0,)), frozenset((0,))),
+        Residual(frozenset((1,)), frozenset()),
+        Residual(frozenset((0,)), frozenset()),
+    ]
+    return spec, rows, residuals
+
+
+def test_every_goal_needs_its_ranks(prover: Name) -> None:
+    """Where ranks of one of several goals are missing, the certificate is incomplete and says of which."""
+    spec, rows, residuals = turning()
+    ranks = exact_ranks(spec, rows, "any")
+    assert list(ranks) == residuals
+    for left_out in range(-1, 3):
+        kept = {goal: table for number, (goal, table) in enumerate(ranks.items()) if number != left_out}
+        for given in (kept, dict(reversed(kept.items()))):
+            answer = verify(certified(spec, rows, given), spec, prover=prover)
+            assert answer.verdict == "proved"
+            if left_out < 0:
+                assert answer.certificate.status == "used"
+            else:
+                assert answer.certificate.status == "incomplete"
+                body = spec.bodies[1 if left_out == 1 else 0].text
+                told = "it has no ranks of (" + body + ")" + (" while executing act0" if left_out == 0 else "")
+                assert answer.certificate.reason == told
+
+
+def test_every_goal_is_proved_by_its_ranks(prover: Name) -> None:
+    """A run that misses its goal is found beside right ranks of all others, whichever goal it misses."""
+    spec, rows, residuals = turning()
+    ranks = exact_ranks(spec, rows, "any")
+    for bound in (2, 1):
+        bounded = replace(spec, max_plan_length=bound)
+        expected = [state for state in rows if bound < 1 + ranks[residuals[state[0]]][(state[0] + 1) % 3,]]
+        answer = verify(certified(bounded, rows, ranks), bounded, prover=prover, properties=["safe", "goals"])
+        refutation = answer.properties[1].refutation
+        assert (refutation and refutation.state) == (expected[0] if expected else None)
+    waiting = {**rows, (1,): frozenset[int]()}
+    answer = verify(certified(spec, waiting, ranks), spec, prover=prover, properties=["safe", "goals"])
+    refutation = answer.properties[1].refutation
+    assert refutation is not None and refutation.state == (1,)
+
+
+def test_a_rank_after_a_state_is_missing(prover: Name) -> None:
+    """The reason names the state after which there is no rank."""
+    spec, policy = along(3)
+    table = exact(spec, policy)
+    del table[(0,)], table[(1,)]
+    answer = verify(certified(spec, policy, {GOAL: table}), spec, prover=prover, properties=["safe", "goals"])
+    assert answer.certificate.status == "incomplete"
+    assert answer.certificate.reason == f"it has no rank of ({spec.bodies[0].text}) after x is a"
+
+
+@pytest.mark.parametrize("name", ["z3", "walk"])
+def test_ranks_that_a_rival_needs(name: Name) -> None:
+    """Minimal takes ranks of the goal that a cheaper set owes; where the certificate has others only, it says so."""
+    spec, policy = restoring(2, 2)
+    other = Residual(frozenset(), frozenset())
+    right = exact(spec, policy)
+    for given, status in (({GOAL: right}, "used"), ({other: {(2,): 0}}, "incomplete"), ({}, "unneeded")):
+        answer = verify(certified(spec, policy, given), spec, prover=name, properties=["safe", "minimal"])
+        assert (answer.verdict, answer.certificate.status) == ("proved", status)
+        if status == "incomplete":
+            assert answer.certificate.reason == f"it has no ranks of ({spec.bodies[0].text})"
+
+
+@pytest.mark.parametrize("parts", [False, True])
+def test_a_decision_without_a_successor_owes_no_rank(parts: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where nominal effects disagree there is no next state, so its rank is no lower bound of anything."""
+    if parts:
+        monkeypatch.setattr(rank_terms, "AT_ONCE", -1.0)
+    build = Build({"x": "abcdu"})
+    bad = build.atom("x=u")
+    one, two = build.action("x=b"), build.action("x=c")
+    cheap, dear = (build.action(f"x={there}", when=[bad], duration=time) for time, there in ((1, "a"), (2, "d")))
+    spec = build.spec(priority(build.goal(build.atom("x=d"))), state_rules=[Not(bad)])
+    rows = {(0,): chosen(one, two), (1,): frozenset[int](), (2,): frozenset[int](), (3,): frozenset[int]()}
+    rows[(4,)] = chosen(dear)
+    assert chosen(cheap) != chosen(dear)
+    for name in ("z3", "walk"):
+        policy = certified(spec, rows, {GOAL: {(3,): 0}})
+        answer = verify(policy, spec, prover=name, properties=["minimal"])
+        assert (answer.verdict, answer.certificate.status) == ("proved", "used")
+
+
+UNSPOKEN = "`Executed` has act0, of which its goal does not speak"
+
+
+def test_a_goal_that_is_named_wrongly(prover: Name) -> None:
+    """An action of which the goal does not speak, a goal that comes twice, a negative rank: wrong, and told so."""
+    spec, rows, residuals = turning()
+    ranks = exact_ranks(spec, rows, "any")
+    right = certified(spec, rows, ranks)
+    assert right.certificate is not None
+    first, second, third = right.certificate.goals
+    spoken = canonical_text(spec, spec.bodies[0].formula)
+    unspoken = Residual(residuals[1].bodies, frozenset((0,)))
+    cases: list[tuple[tuple[RankedGoal, ...], str]] = [
+        ((first, replace(second, executed=("act0",)), third), UNSPOKEN),
+        ((replace(first, executed=("act0", "act1")), second), UNSPOKEN.replace("act0", "act1")),
+        ((first, second, third, first), f"it ranks ({spec.bodies[0].text}) while executing act0 twice"),
+        ((replace(first, bodies=(spoken, "x is d")),), "it ranks 'x is d', which is no goal of the specification"),
+    ]
+    assert unspoken not in ranks
+    for goals, reason in cases:
+        policy = replace(right, certificate=replace(right.certificate, goals=goals))
+        answer = verify(policy, spec, prover=prover)
+        assert (answer.verdict, answer.certificate.status) == ("proved", "wrong")
+        assert answer.certificate.reason == reason
+    builder = DiagramBuilder[int | None]((0,), (None, -1))
+    negative = Certificate(builder.finish(), (replace(first, root=0),))
+    answer = verify(replace(right, certificate=negative), spec, prover=prover)
+    assert (answer.certificate.status, answer.certificate.reason) == ("wrong", "it has a negative rank")
+
+
+def test_the_reasons_why_a_certificate_is_not_used(prover: Name) -> None:
+    """Each status has its reason, and a policy that is not safe may be at fault itself."""
+    spec, policy = along(3, 3)
+    table = exact(spec, policy)
+    goal = f"({spec.bodies[0].text})"
+    right = certified(spec, policy, {GOAL: table})
+    assert right.certificate is not None
+    (ranked,) = right.certificate.goals
+    nonsense = replace(right, certificate=replace(right.certificate, goals=(replace(ranked, bodies=("x is q",)),)))
+    cases = [
+        (replace(right, digest=None), "stale", "it was made for no specification in particular"),
+        (replace(right, digest="other"), "stale", "it was made for another specification"),
+        (replace(nonsense, digest="other"), "stale", "it was made for another specification"),
+        (replace(right, certificate=None, certificate_problem="torn"), "wrong", "torn"),
+        (replace(right, certificate=None), "absent", None),
+        (certified(spec, policy, {GOAL: {**table, (0,): 1}}), "wrong", f"the ranks of {goal} do not go down to it"),
+        (
+            certified(spec, policy, {GOAL: {state: 5 * rank for state, rank in table.items()}}),
+            "wrong",
+            f"its ranks of {goal} exceed the bound",
+        ),
+    ]
+    for each, status, reason in cases:
+        answer = verify(each, spec, prover=prover, properties=["safe", "goals"])
+        assert (answer.verdict, answer.certificate.status, answer.certificate.reason) == ("proved", status, reason)
+    unsafe = {**policy, (0,): policy[(1,)]}
+    low = certified(spec, unsafe, {GOAL: {**table, (0,): 1}})
+    answer = verify(low, spec, prover=prover, properties=["safe", "goals"])
+    assert (answer.properties[0].verdict, answer.certificate.status) == ("refuted", "set aside")
+    assert answer.certificate.reason == f"the ranks of {goal} do not go down to it"
+
+
+def test_decisions_are_those_for_valid_states() -> None:
+    """A mapping from valid states that are decided, as a table and as a diagram, in the order of the states."""
+    build = Build({"x": "abc", "y": "ab"})
+    action = build.action("x=b")
+    spec = build.spec(assumptions=[Not(build.atom("x=c"))])
+    rows = {(1, 1): chosen(action), (0, 1): chosen(), (2, 0): chosen(action)}
+    for diagram in (False, True):
+        decisions = Decisions(spec, _partly(rows, spec, diagram))
+        assert list(decisions) == [(0, 1), (1, 1)]
+        assert dict(decisions) == {(0, 1): chosen(), (1, 1): chosen(action)}
+        assert len(decisions) == 2
+        assert (0, 1) in decisions and (2, 0) not in decisions and (0, 0) not in decisions
+        assert decisions.get((2, 0)) is None
+        assert decisions.followers == {(0, 1): (0, 1), (1, 1): (1, 1)}
+        assert decisions.origins == {(0, 1): [(0, 1)], (1, 1): [(1, 1)]}
+
+
+def test_who_owes_a_run() -> None:
+    """A decision that is allowed does; one that is not does where the policy is known to be safe, for then it is."""
+    build = Build({"x": "ab", "y": "ab"})
+    fine, wrong = build.action("x=b"), build.action("y=b", when=[build.atom("x=b")])
+    spec = build.spec(constraint(build.goal(build.atom("x=b"))))
+    policy = policy_from_rows(spec, {(0, 0): chosen(fine), (0, 1): chosen(wrong)})
+    frame = Frame(spec, as_diagram(policy), Budget())
+    for known in (False, True):
+        source = RankSource(frame, policy, "any", known)
+        assert [source.owes_a_run(state) for state in ((0, 0), (0, 1))] == [True, known]
+
+
+def test_whether_all_states_are_decided() -> None:
+    """Known from the proof of total, or from both numbers; where they were not counted, nothing is known."""
+    spec, policy = along(2)
+    answer = verify(policy_from_rows(spec, policy), spec, properties=["safe"])
+    assert (answer.valid_states, answer.decided_states, answer.decides_all) == (4, 3, False)
+    assert replace(answer, decided_states=4).decides_all
+    assert not replace(answer, valid_states=None, decided_states=None).decides_all
+    assert not replace(answer, decided_states=None).decides_all
+
+
+def test_states_are_not_counted_where_that_takes_long(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One by one only where there are not more of them than are looked at anyway."""
+    spec, policy = along(2)
+    for most, expected in ((4, 4), (3, None)):
+        monkeypatch.setattr(prove, "LARGEST_TABLE", most)
+        answer = verify(policy_from_rows(spec, policy), spec, prover="explicit")
+        assert (answer.valid_states, answer.decided_states) == (expected, 3)
+
+
+def test_the_digest_is_that_of_the_specification() -> None:
+    """What these certificates are made for."""
+    spec, policy = along(2)
+    assert certified(spec, policy, {}).digest == digest(spec)
