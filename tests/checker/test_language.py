@@ -161,6 +161,7 @@ WRONG = [
     config("max_plan_length: 0"),
     config("max_plan_length: 1 max_plan_length: 1"),
     config("effect_ordering: last"),
+    config("effect_ordering: any effect_ordering: any"),
     config("plan: 1"),
     config("max_plan_length: 4effect_ordering: any"),
     config("max_plan_length: 4é"),

@@ -25,6 +25,7 @@ STRANGERS = tuple(
 )
 COUNTS = "tests/verify/test_counts.py"
 BY_STATES = (
+    "tests/verify/test_model.py",
     COUNTS,
     "tests/verify/test_by_states.py",
     "tests/verify/test_forged_steps.py",
@@ -40,7 +41,9 @@ BY_STATES = (
     "not walk and not z3 and not once and not parts",
 )
 WALK = (
+    "tests/verify/test_model.py",
     COUNTS,
+    "tests/verify/test_provers.py",
     "tests/verify/test_forged_steps.py",
     "tests/verify/test_forged_ranks.py",
     "tests/verify/test_walk.py",
@@ -48,7 +51,8 @@ WALK = (
     "not z3 and not once and not parts and not -explicit and not agree_also and not concurrent and not mixed"
     " and not interacting-by-case",
 )
-PROCESSES = ("tests/verify/test_jobs.py", "-k", "not depend and not time")
+WALK_PROVER = ("tests/verify/test_jobs.py", *WALK[:-1], f"{WALK[-1]} and not depend")
+PROCESSES = ("tests/verify/test_model.py", "tests/verify/test_jobs.py", "-k", "not depend")
 Z3 = (
     "tests/verify/test_terms.py",
     COUNTS,
@@ -61,7 +65,11 @@ Z3 = (
     "-k",
     "not walk and not limit and not -explicit and not -7]",
 )
-NO_POLICY = ("tests/verify/test_unrealizable_by_hand.py", "tests/verify/test_forged_refusals.py")
+NO_POLICY = (
+    "tests/verify/test_refusal_parts.py",
+    "tests/verify/test_unrealizable_by_hand.py",
+    "tests/verify/test_forged_refusals.py",
+)
 VERIFY = (
     COUNTS,
     "tests/verify/test_provers.py",
@@ -72,6 +80,8 @@ VERIFY = (
     "not -7]",
 )
 CHECKER = (
+    "tests/checker/test_limits.py",
+    "tests/checker/test_world.py",
     "tests/checker/test_files.py",
     "tests/checker/test_language.py",
     "tests/checker/test_cubes.py",
@@ -79,6 +89,8 @@ CHECKER = (
     "tests/checker/test_conflicts.py",
     "tests/checker/test_refusals.py",
     "tests/checker/test_forged.py",
+    "tests/readers/test_readers.py",
+    "tests/readers/test_files.py",
 )
 TESTS: dict[str, tuple[str, ...]] = {
     "tumato_symbolic/semantics": SEMANTICS,
@@ -87,6 +99,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "tumato_symbolic/policy/diagram.py": NUMBERS,
     "tumato_symbolic/verify/by_states": BY_STATES,
     "tumato_symbolic/verify/by_walk/ahead.py": PROCESSES,
+    "tumato_symbolic/verify/by_walk/prover.py": WALK_PROVER,
     "tumato_symbolic/verify/by_walk": WALK,
     "tumato_symbolic/verify/by_z3": Z3,
     "tumato_symbolic/verify/no_policy": NO_POLICY,

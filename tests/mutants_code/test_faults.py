@@ -11,6 +11,7 @@ import pytest
 
 from tests.mutants_code.__main__ import drawn, is_within
 from tests.mutants_code.covering import covered
+from tests.mutants_code.harmless import harmless
 from tests.mutants_code.sites import planted, sites
 
 ROOT = Path(__file__).parents[2]
@@ -76,6 +77,13 @@ def test_every_module_of_the_trusted_base_has_its_share() -> None:
     everything = {each.module: sites(ROOT / each.path, each.module) for each in modules[:4]}
     assert {module for module, _ in drawn(everything, 40, 1)} == set(everything)
     assert drawn(everything, 40, 1) == drawn(everything, 40, 1) != drawn(everything, 40, 2)
+
+
+def test_harmless_faults_are_faults() -> None:
+    """Every name in the list is that of a fault of today, and has a reason."""
+    names = {site.name for each in covered(ROOT) for site in sites(ROOT / each.path, each.module)}
+    assert [name for name in harmless() if name not in names] == []
+    assert all(harmless().values())
 
 
 def test_the_tests_that_are_named_exist() -> None:

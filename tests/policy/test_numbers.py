@@ -161,3 +161,13 @@ def test_only_what_is_needed_is_rebuilt() -> None:
     assert [diagram.evaluate(root, (1, 0)) for root in roots] == [True, True, True, True]
     assert [diagram.evaluate(root, (0, 1)) for root in roots] == [True, False, False, True]
     assert [diagram.evaluate(root, (1, 1)) for root in roots] == [True, False, True, True]
+
+
+def test_a_variable_with_one_value_is_never_tested() -> None:
+    """A node with one child is that child."""
+    builder = DiagramBuilder((0, 1), (False, True))
+    low = builder.node(1, (0, 1))
+    assert builder.node(0, (low,)) == low
+    table = {(0, 1): True}
+    assert builder.from_table((1, 2), table, False) == low
+    assert count_true(builder.finish(), low, (1, 2)) == 1

@@ -7,6 +7,7 @@ from itertools import chain, combinations
 import pytest
 
 from tests.generate import PROFILES, random_spec
+from tests.semantics.build import Build
 from tumato_symbolic.semantics import (
     ActionSet,
     State,
@@ -16,11 +17,13 @@ from tumato_symbolic.semantics import (
     is_safe,
     is_valid,
     nominal_agrees,
+    objections,
+    outcomes,
     reached,
     residual_goal,
     successor,
 )
-from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.spec import And, Not, Ordering, Spec
 from tumato_symbolic.symbolic import (
     Backend,
     Encoding,
@@ -33,6 +36,7 @@ from tumato_symbolic.symbolic import (
     regions,
     targets,
 )
+from tumato_symbolic.symbolic.manager import Bdd
 
 BACKENDS: list[Backend] = sorted({"autoref", available_backend()})
 SEEDS = range(12)
@@ -130,3 +134,79 @@ def test_the_preferred_set_is_the_smallest_then_the_one_declared_first(seed: int
             total = sum(spec.actions[action].duration for action in some)
             assert (encoding.choices_cube(some) & lasting(encoding, total)) != encoding.manager.false
             assert (encoding.choices_cube(some) & lasting(encoding, total + 1)) == encoding.manager.false
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_next_state_of_a_policy_and_its_moves(seed: int) -> None:
+    """`next_state` is `δ(s, π(s))` bit by bit; `moves` splits a relation by all that its sets nominally write."""
+    spec = random_spec(seed, PROFILES["restoring" if seed % 2 else "mixed"])
+    steps = build_steps(encode(spec, available_backend()), "any")
+    encoding, manager = steps.encoding, steps.encoding.manager
+    states = list(all_states(spec))
+    valid = [state for state in states if is_valid(spec, state)]
+    assert list(encoding.states_in(steps.unsafe)) == [state for state in valid if not is_safe(spec, state)]
+    chosen = preferred(encoding, steps.allowed)
+    following = steps.next_state(chosen)
+    decided = {
+        state: next(each for each in every_set(spec) if encodes(encoding, each) and _is(encoding, chosen, state, each))
+        for state in encoding.states_in(steps.states_of(chosen))
+    }
+    for state in states[:40]:
+        end = successor(spec, state, decided.get(state, frozenset()))
+        for bit, where in following.items():
+            after = (encoding.state_cube(end) & manager.cube({bit: True})) != manager.false
+            assert encoding.contains(where, state) == after
+    moves = steps.moves(chosen, len(states) ** 2, keep_sets=True)
+    assert moves is not None
+    for state, each in decided.items():
+        pair = encoding.state_cube(state) & encoding.choices_cube(each)
+        written = tuple(sorted({item for action in each for item in spec.actions[action].nominal}))
+        assert [effect for effect, pairs in moves.items() if (pairs & pair) != manager.false] == [written]
+    plain = steps.moves(chosen, len(moves))
+    assert plain == {effect: steps.states_of(pairs) for effect, pairs in moves.items()}
+    assert steps.moves(chosen, len(moves) - 1) is None
+    goal = encoding.state_cube(valid[-1])
+    leading = {s for s, each in decided.items() if successor(spec, s, each) == valid[-1]}
+    assert set(encoding.states_in(steps.predecessor(chosen, goal))) == leading
+
+
+def _is(encoding: Encoding, relation: Bdd, state: State, each: ActionSet) -> bool:
+    return (relation & encoding.state_cube(state) & encoding.choices_cube(each)) != encoding.manager.false
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_an_order_in_which_one_action_hurts(turned: bool) -> None:
+    """One of two actions is harmless wherever it comes, the other one after it: whichever is declared first."""
+    build = Build({"x": "abc", "y": "ab"})
+    parts: list[tuple[str, list[str]]] = [("x=a y=b", []), ("", ["x=c"])]
+    for nominal, alternatives in reversed(parts) if turned else parts:
+        build.action(nominal, alternatives)
+    spec = build.spec(state_rules=[Not(And((build.atom("x=c"), build.atom("y=b"))))])
+    for ordering in ("any", "first"):
+        steps = build_steps(encode(spec, available_backend()), ordering)
+        expected = {(state, each) for state in all_states(spec) for each in allowed_sets(spec, state, ordering)}
+        assert relation(steps) == expected
+
+
+@pytest.mark.parametrize("ordering", ["any", "first"])
+def test_one_more_assumption(ordering: Ordering) -> None:
+    """Steps within a set of states: what is outside is neither valid nor safe, so nothing may lead there."""
+    spec = random_spec(3, PROFILES["restoring"])
+    encoding = encode(spec, available_backend())
+    whole = build_steps(encoding, ordering)
+    valid = list(encoding.states_in(whole.valid))
+    inside = valid[::2]
+    within = encoding.manager.union([encoding.state_cube(state) for state in inside])
+    steps = build_steps(encoding, ordering, within)
+    assert list(encoding.states_in(steps.valid)) == inside
+    assert list(encoding.states_in(steps.safe)) == [state for state in inside if is_safe(spec, state)]
+    safe = {state for state in inside if is_safe(spec, state)}
+    expected = {
+        (state, each)
+        for state in inside
+        for each in every_set(spec)
+        if encodes(encoding, each)
+        and not {kind.kind for kind in objections(spec, state, each, ordering)} - {"unsafe", "nominal-unsafe"}
+        and set(outcomes(spec, state, each, ordering)) | {successor(spec, state, each)} <= safe
+    }
+    assert relation(steps) == expected

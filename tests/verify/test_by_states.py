@@ -209,3 +209,14 @@ def test_the_best_of_several_sets() -> None:
         cheaper = None if result.refutation is None else result.refutation.cheaper
         assert cheaper == (None if best is None else chosen(actions[best]))
     assert not [None for one, other in product(lengths, lengths) if one + other < 2]
+
+
+def test_a_set_is_not_grown_beyond_the_limit() -> None:
+    """Three actions that may be together: only those sets that are shorter than the decision."""
+    build = Build({"x": "ab"})
+    for _ in range(3):
+        build.action("x=a", duration=2)
+    spec = build.spec(state_rules=[Not(build.atom("x=b"))])
+    packing, taken = _steps(spec, "any")
+    for limit, count in ((2, 0), (3, 3), (4, 3), (5, 6), (7, 7)):
+        assert len(list(taken.cheaper_sets(packing.pack((1,)), limit))) == count

@@ -15,11 +15,14 @@ from tests.verify.test_forged_ranks import along, exact, restoring
 from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.limits import Budget
 from tumato_symbolic.policy import Certificate, DiagramBuilder, Policy, RankedGoal, as_diagram, policy_from_rows
-from tumato_symbolic.semantics import ActionSet, Residual, State
+from tumato_symbolic.semantics import ActionSet, Residual, State, all_states
 from tumato_symbolic.spec import FALSE, And, Executing, Not, Or, Ordering, Spec, canonical_text, digest
-from tumato_symbolic.verify import ProverName, Verification, verify
+from tumato_symbolic.verify import PropertyResult, ProverName, Verification, verify
+from tumato_symbolic.verify.by_states.prover import StateProver
+from tumato_symbolic.verify.by_walk.prover import WalkProver
 from tumato_symbolic.verify.by_z3 import rank_terms
 from tumato_symbolic.verify.by_z3.frame import Frame
+from tumato_symbolic.verify.by_z3.prover import Z3Prover
 from tumato_symbolic.verify.by_z3.rank_source import RankSource
 from tumato_symbolic.verify.decisions import Decisions
 
@@ -64,6 +67,21 @@ def test_obligations_are_counted(name: Name, ordering: Ordering) -> None:
     assert _obligations(answer) == [total, safe + (ordering == "first" and name != "explicit"), goals, minimal]
     without = verify(policy_from_rows(spec, policy), spec, prover=name, properties=["goals"])
     assert _obligations(without) == [goals - (name == "walk")]
+
+
+def test_only_what_may_fail_is_an_obligation() -> None:
+    """A variable that nobody writes, or that one action writes, cannot be given two values; one user shares nothing."""
+    build = Build({"x": "ab", "y": "ab", "z": "ab"}, ["arm", "leg"])
+    build.action("x=b y=b", needs=["arm"])
+    build.action("x=a", needs=["arm", "leg"])
+    spec = build.spec()
+    everything = {state: frozenset((0, 1)) for state in all_states(spec)}
+    for rows, safe in ((dict.fromkeys(everything, frozenset[int]()), 1 + 2), (everything, 0)):
+        answer = verify(policy_from_rows(spec, rows), spec, prover="z3", properties=["safe"])
+        assert _obligations(answer) == [safe]
+    rows = {state: frozenset((state[0],)) for state in everything}
+    answer = verify(policy_from_rows(spec, rows), spec, prover="z3", properties=["safe"])
+    assert _obligations(answer) == [1 + 1 + 2]
 
 
 @pytest.mark.parametrize(("name", "count"), [("z3", 2), ("walk", 2), ("explicit", 1)])
@@ -301,6 +319,20 @@ def test_who_owes_a_run() -> None:
     for known in (False, True):
         source = RankSource(frame, policy, "any", known)
         assert [source.owes_a_run(state) for state in ((0, 0), (0, 1))] == [True, known]
+
+
+def test_whoever_is_asked_last_does_not_make_it_a_proof(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where nobody reaches a verdict, there is none, and the last reason of each is told."""
+    spec, policy = along(2)
+    for number, owner in enumerate((WalkProver, Z3Prover, StateProver)):
+        reason = f"tired {number}"
+        monkeypatch.setattr(
+            owner, "prove", lambda _, name, *__, reason=reason, **___: PropertyResult(name, "undecided", reason=reason)
+        )
+    answer = verify(policy_from_rows(spec, policy), spec)
+    assert [each.verdict for each in answer.properties] == ["undecided"] * 4
+    assert {each.reason for each in answer.properties} == {"tired 0; tired 1; tired 2"}
+    assert answer.certificate.status == "unneeded"
 
 
 def test_whether_all_states_are_decided() -> None:

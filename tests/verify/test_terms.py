@@ -28,14 +28,14 @@ from tumato_symbolic.semantics import (
     residual_goal,
     successor,
 )
-from tumato_symbolic.spec import Not, Ordering, Spec
+from tumato_symbolic.spec import And, Not, Ordering, Spec
 from tumato_symbolic.verify.by_z3 import outcomes
 from tumato_symbolic.verify.by_z3.choice import Choice
 from tumato_symbolic.verify.by_z3.encoding import Place, formula_term, safe_term, successor_place, valid_term
 from tumato_symbolic.verify.by_z3.frame import Frame
 from tumato_symbolic.verify.by_z3.goal_terms import GoalTerms, reached_term
 from tumato_symbolic.verify.by_z3.outcomes import UnsafeOutcome, objections_to
-from tumato_symbolic.verify.by_z3.solver import Solver
+from tumato_symbolic.verify.by_z3.solver import Solver, UndecidedError
 from tumato_symbolic.verify.by_z3.step_counts import StepCounts
 from tumato_symbolic.verify.by_z3.terms import (
     Term,
@@ -297,6 +297,20 @@ def test_not_too_many_objections_at_once() -> None:
         assert len(objections_to(twice, (0,) * 8, chosen, ordering)) == outcomes.OBJECTIONS_AT_ONCE
 
 
+def test_an_outcome_that_is_not_found_in_time_is_open() -> None:
+    """Many actions have outcomes that are sought, not listed: no answer is no proof that all are safe."""
+    build = Build({f"x{number}": "ab" for number in range(8)})
+    for number in range(8):
+        build.action(f"x{number}=b")
+    everything = frozenset(range(8))
+    fine = build.spec()
+    wrong = build.spec(state_rules=[Not(And((build.atom("x0=b"), build.atom("x7=b"))))])
+    assert objections_to(fine, (0,) * 8, everything, "any") == []
+    assert len(objections_to(wrong, (0,) * 8, everything, "any")) == 1
+    with pytest.raises(UndecidedError, match="every outcome of a set is safe"):
+        objections_to(wrong, (0,) * 8, everything, "any", deadline=0.0)
+
+
 def test_what_is_assumed_for_a_while() -> None:
     """Terms of a scope end with it, definitions stay, however deep they are made; a time that is over is no answer."""
     solver = Solver()
@@ -316,6 +330,10 @@ def test_what_is_assumed_for_a_while() -> None:
     assert solver.ask(one, negation(one)) == "unsat"
     solver.add(False)
     assert solver.ask() == "unsat"
+    fresh = Solver(solver.context)
+    with fresh.scope():
+        fresh.define(one)
+    assert fresh.ask(negation(one)) == "unsat"
 
 
 def test_the_bits_of_a_state() -> None:

@@ -138,11 +138,7 @@ class Frame:
             solver.add(self.acting)
             while (answer := solver.ask(deadline=deadline)) == "sat":
                 chosen = self.decision(solver.model)
-                literals = [
-                    term if number in chosen else negation(term)
-                    for number, term in enumerate(self.executed)
-                    if not isinstance(term, bool)
-                ]
+                literals = [term if number in chosen else negation(term) for number, term in enumerate(self.executed)]
                 found.append([self.acting, *literals])
                 solver.add(disjunction(negation(literal) for literal in literals))
             if answer == "unknown":

@@ -103,7 +103,7 @@ def _step_out(reason: NoPlan, layers: Layers, step: AllowedStep, leaving: Term) 
     if state is None:
         step.walked += 1
         return None
-    found = step.some_step(_HELD, is_state(step.state, state), step.safe, leaving)
+    found = step.some_step(_HELD, is_state(step.state, state), leaving)
     if found is None:
         raise RuntimeError(f"no step leaves the layers from {state}, against the walk")
     return found

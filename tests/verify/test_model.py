@@ -1,0 +1,313 @@
+"""The walk piece by piece: groups and orders, goals, durations, states, what is remembered, what children are given."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+from itertools import combinations
+from typing import Any
+
+import pytest
+
+from tests.generate import PROFILES, random_spec
+from tests.semantics import literal
+from tests.semantics.build import Build, chosen, constraint, priority, when
+from tests.verify.test_forged_steps import ORDERINGS, SPECS
+from tumato_symbolic.limits import Budget
+from tumato_symbolic.policy import as_diagram, policy_from_rows
+from tumato_symbolic.semantics import Residual, active_goals, duration, residual_goal
+from tumato_symbolic.spec import And, Executing, Not, Ordering, Spec
+from tumato_symbolic.verify.by_states.packed import Packing
+from tumato_symbolic.verify.by_states.runs import Runs
+from tumato_symbolic.verify.by_states.steps import Steps
+from tumato_symbolic.verify.by_walk.ahead import Ahead, Task
+from tumato_symbolic.verify.by_walk.goals import WalkGoals
+from tumato_symbolic.verify.by_walk.model import Model
+from tumato_symbolic.verify.by_walk.order import conflicting, disagreeing, exclusive_groups, walk_order
+from tumato_symbolic.verify.by_walk.walk import FALSE, TRUE, BudgetError, Walk
+from tumato_symbolic.verify.by_walk.witnesses import Witnesses
+from tumato_symbolic.verify.by_z3.encoding import Place
+from tumato_symbolic.verify.by_z3.goal_terms import GoalTerms
+from tumato_symbolic.verify.by_z3.solver import Solver
+from tumato_symbolic.verify.decisions import Decisions
+
+
+def nested() -> Spec:
+    """Goals in conditions in lists in conditions, of both kinds, some of which speak of actions."""
+    build = Build({"x": "abc", "y": "abc"})
+    one, two = build.action("x=b"), build.action("y=b")
+    a, b, c = (build.atom(f"x={letter}") for letter in "abc")
+    p, q, r = (build.atom(f"y={letter}") for letter in "abc")
+    inner = priority(when(p, build.goal(b)), when(q, build.goal(And((c, one)))), build.goal(Not(two)))
+    middle = constraint(when(r, build.goal(p)), when(Not(a), inner), when(a, when_list(build, q, c)))
+    return build.spec(priority(when(Not(c), middle), when(q, build.goal(a)), inner))
+
+
+def when_list(build: Build, condition: Any, body: Any) -> Any:
+    """A list with a conditional goal and another."""
+    return priority(when(condition, build.goal(body)), constraint(build.goal(condition), build.goal(Executing(0))))
+
+
+GENERATED = [random_spec(seed, PROFILES[profile]) for profile in PROFILES for seed in (3000, 3001)]
+ALL = [*SPECS, nested(), *GENERATED]
+
+
+def _model(spec: Spec, ordering: Ordering = "any") -> Model:
+    return Model(spec, as_diagram(policy_from_rows(spec, {})), ordering)
+
+
+def _value(model: Model, function: int, state: literal.State, executed: literal.Actions) -> int:
+    """What a function is for a state and a set of which at most one is in each group."""
+    places = [0] * len(model.groups)
+    for group, actions in enumerate(model.groups):
+        for place, action in enumerate(actions, 1):
+            places[group] = place if action in executed else places[group]
+    values = {number: model.walk.constant(value) for number, value in enumerate((*state, *places))}
+    (found,) = model.walk.values_of(model.walk.substitute(function, values))
+    return found
+
+
+def _choices(model: Model) -> list[literal.Actions]:
+    sets = literal.sets(model.spec)
+    return [each for each in sets if all(len(each & set(group)) <= 1 for group in model.groups)]
+
+
+def test_groups_and_their_order() -> None:
+    """No two actions of a group may be together; each group is tested just above the first variable that it writes."""
+    for spec in ALL:
+        pairs = list(combinations(range(len(spec.actions)), 2))
+        state = literal.states(spec)[0]
+        broken = {pair: set(literal.broken(spec, state, frozenset(pair), "first")) for pair in pairs}
+        assert disagreeing(spec) == [pair for pair in pairs if "nominal-conflict" in broken[pair]]
+        assert conflicting(spec) == [pair for pair in pairs if broken[pair] & {"nominal-conflict", "resource"}]
+        groups = exclusive_groups(spec)
+        assert sorted(action for group in groups for action in group) == list(range(len(spec.actions)))
+        for group in groups:
+            assert set(combinations(sorted(group), 2)) <= set(conflicting(spec))
+        for one, other in combinations(groups, 2):
+            assert not all(tuple(sorted((other[0], action))) in conflicting(spec) for action in one)
+        count = len(spec.variables)
+        for tested in ([], list(reversed(range(count))), [count - 1]):
+            order = walk_order(spec, tested, groups)
+            assert sorted(order) == list(range(count + len(groups)))
+            variables = [each for each in order if each < count]
+            assert variables[: len(tested)] == tested
+            for number, group in enumerate(groups):
+                written = {v for action in group for effect in spec.actions[action].effects for v, _ in effect}
+                place = order.index(count + number)
+                below = [each for each in order[place:] if each < count]
+                assert written <= set(below)
+                assert not written or below[0] in written
+                assert written or not [each for each in order[:place] if each < count]
+
+
+def test_goals_of_every_prover() -> None:
+    """Active and residual goals, of Z3, the walk and explicit-state checking, in every state, for some sets."""
+    for spec in ALL:
+        model, solver, packing = _model(spec), Solver(), Packing(spec)
+        goals = WalkGoals(model)
+        runs = Runs(spec, packing, Steps(spec, packing, "any", lambda _: None), {}, lambda _: None)
+        residuals = goals.residuals(model.valid, model.chosen)
+        assert len({goal for goal, _ in residuals}) == len(residuals)
+        for state in [state for state in literal.states(spec) if literal.valid(spec, state)][:40]:
+            active = active_goals(spec, state)
+            assert {body for body, where in goals.active.items() if _value(model, where, state, frozenset())} == active
+            terms = GoalTerms.of(spec, Place.fresh(spec, "s", solver.context).after(tuple(enumerate(state))))
+            assert {body for body, term in terms.active.items() if term} == active
+            for each in _choices(model)[:6]:
+                owed = residual_goal(spec, state, each)
+                assert [goal for goal, where in residuals if _value(model, where, state, each)] == [owed]
+                assert runs.residual(packing.pack(state), each) == owed
+                executed = [number in each for number in range(len(spec.actions))]
+                assert terms.is_residual(owed, executed) is True
+                assert terms.is_residual(Residual(owed.bodies ^ {0}, owed.executed), executed) is False
+
+
+def test_durations_sizes_and_the_least() -> None:
+    """Sums over the chosen actions; the least of a measure is taken among the sets that are left."""
+    build = Build({"x": "ab"}, ["arm"])
+    for length, needs in ((3, ["arm"]), (1, []), (0, ["arm"]), (2, [])):
+        build.action("x=b", duration=length, needs=needs)
+    model = _model(build.spec())
+    takes, size = model.duration(model.chosen), model.size(model.chosen)
+    choices = _choices(model)
+    for each in choices:
+        assert _value(model, takes, (0,), each) == duration(model.spec, each)
+        assert _value(model, size, (0,), each) == len(each)
+    for required in ((1,), (0,), (0, 3), (2,), ()):
+        where = model.walk.all_of(model.chosen[action] for action in required)
+        left = model.least(where, takes)
+        fitting = [each for each in choices if set(required) <= each]
+        least = min(duration(model.spec, each) for each in fitting)
+        best = [each for each in fitting if duration(model.spec, each) == least]
+        assert [each for each in choices if _value(model, left, (0,), each)] == best
+
+
+@pytest.mark.parametrize("ordering", ORDERINGS)
+def test_what_is_allowed_and_where_it_leads(ordering: Ordering) -> None:
+    """`Ok(s, A)`, `δ(s, A)`, and the first state of a predicate, in the order of declaration."""
+    for spec in ALL[:5]:
+        model = _model(spec, ordering)
+        step = model.successor(model.chosen)
+        states = [state for state in literal.states(spec) if literal.valid(spec, state)]
+        for state in states[:8]:
+            fine = literal.allowed(spec, state, ordering)
+            for each in _choices(model):
+                assert _value(model, model.allowed, state, each) == (each in fine)
+                assert model.holds(model.allowed, state, each) == (each in fine)
+                if each in fine:
+                    end = [_value(model, step.get(v, model.walk.variable(v)), state, each) for v in range(len(state))]
+                    assert tuple(end) == literal.successor(spec, state, each)
+        safe = [state for state in states if literal.safe(spec, state)]
+        assert model.first_state(model.safe) == safe[0]
+        others = model.walk.without(model.valid, model.safe)
+        if others != FALSE:
+            assert model.first_state(others) == next(state for state in states if state not in safe)
+
+
+REMEMBERED: dict[str, Callable[[Walk, int, int], object]] = {
+    "select": lambda walk, one, other: walk.select(one, (TRUE, other)),
+    "combine": lambda walk, one, other: walk.combine(operator.add, one, other),
+    "substitute": lambda walk, one, other: walk.substitute(one, {3: other, 5: TRUE}),
+    "substitute a value": lambda walk, one, _: walk.substitute(one, {5: TRUE}),
+    "assign": lambda walk, one, other: walk.assign(one, {4: 1}, other, one),
+    "parts": lambda walk, one, _: walk.parts(one),
+}
+
+
+@pytest.mark.parametrize("name", REMEMBERED)
+def test_every_operation_counts_what_it_remembers(name: str) -> None:
+    """So a walk that may remember less is given up, and one that may remember just that much is not."""
+
+    def made(most: int) -> tuple[Walk, int, int]:
+        walk = Walk(range(6), [2] * 6, most_steps=10**9)
+        one = walk.any_of(walk.all_of((walk.variable(n), walk.variable(5 - n))) for n in range(3))
+        other = walk.combine(operator.eq, walk.variable(0), walk.variable(4))
+        walk.most = walk.remembered + most
+        return walk, one, other
+
+    walk, one, other = made(10**9)
+    before = walk.remembered
+    REMEMBERED[name](walk, one, other)
+    used = walk.remembered - before
+    assert used >= 4, "one for each node at least"
+    REMEMBERED[name](walk, one, other)
+    if name != "parts":
+        assert walk.remembered - before <= used + (used if name == "assign" else 0), "what is known is not made again"
+    walk, one, other = made(used)
+    REMEMBERED[name](walk, one, other)
+    assert not walk.is_full
+    walk, one, other = made(used - 1)
+    with pytest.raises(BudgetError, match="too large"):
+        REMEMBERED[name](walk, one, other)
+    assert walk.is_full
+
+
+def test_time_and_watchers() -> None:
+    """Heeded now and then while results are remembered."""
+    walk = Walk(range(12), [2] * 12)
+    met = []
+    walk.watch = lambda: met.append(walk.remembered)
+    one = walk.any_of(walk.all_of((walk.variable(n), walk.variable(11 - n))) for n in range(6))
+    walk.combine(operator.add, one, walk.combine(operator.eq, walk.variable(3), walk.variable(9)))
+    for number in range(40):
+        walk.combine(operator.mul, one, walk.combine(operator.add, one, walk.constant(number)))
+    assert met == [1024 * number for number in range(1, walk.remembered // 1024 + 1)]
+    assert met
+    walk.check_time()
+    assert met[-1] == walk.remembered
+    walk.deadline = 0.0
+    with pytest.raises(BudgetError, match="time limit"):
+        walk.check_time()
+
+
+def _witnesses(spec: Spec, rows: dict, ordering: Ordering = "any") -> tuple[Model, Witnesses]:
+    policy = policy_from_rows(spec, rows)
+    model = Model(spec, as_diagram(policy), ordering)
+    return model, Witnesses(model, Decisions(spec, policy), ordering)
+
+
+def test_what_the_walk_gets_wrong_is_a_bug() -> None:
+    """A witness is looked at again by the explicit meaning, which has to find it wrong too."""
+    build = Build({"x": "abc"})
+    bad = build.atom("x=b")
+    dear, same, late = (build.action(f"x={there}", duration=2, when=[bad]) for there in "aac")
+    never = build.action("x=a", duration=1, when=[Not(bad)])
+    short = build.action("x=c", duration=1, when=[bad])
+    spec = build.spec(constraint(build.goal(build.atom("x=a"))), [Not(bad)], assumptions=[])
+    rows = {(0,): chosen(), (1,): chosen(dear)}
+    model, witnesses = _witnesses(spec, rows)
+    walk = model.walk
+
+    def at(state: int, executed: Executing | None = None) -> int:
+        where = [walk.by_value(0, [int(value == state) for value in range(3)])]
+        alone = [model.chosen[a] if executed == Executing(a) else walk.negation(model.chosen[a]) for a in range(5)]
+        return walk.all_of([*where, *([] if executed is None else alone)])
+
+    assert witnesses.missing(at(2)).verdict == "refuted"
+    with pytest.raises(RuntimeError, match="is decided"):
+        witnesses.missing(at(0))
+    assert witnesses.goal_missed((0,)) is None
+    for wrong in (same, late, never, short):
+        with pytest.raises(RuntimeError, match="is not better"):
+            witnesses.not_minimal(at(1, wrong))
+    excluded = replace(spec, assumptions=(replace(spec.state_rules[0], formula=Not(build.atom("x=c"))),))
+    _, witnesses = _witnesses(excluded, rows)
+    with pytest.raises(RuntimeError, match="is decided"):
+        witnesses.missing(at(2))
+
+
+class _Times(Budget):
+    """Notes how much time is said to be used up."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.spent: list[float] = []
+
+    def until(self, spent: float = 0.0) -> float:
+        self.spent.append(spent)
+        return super().until(spent)
+
+
+def test_what_children_are_given() -> None:
+    """The time that is left to each property, what tasks share done before, and no answer that needed too much."""
+    walk, ahead, budget, told = Walk(range(2), [2, 2]), Ahead(), _Times(), list[str]()
+    ahead.seconds["goals"] = 1000.0
+    shared: list[int] = []
+    tasks = [
+        Task("goals", "one", lambda: (len(shared), 1), lambda: shared.append(1)),
+        Task("minimal", "two", lambda: (len(shared), 2)),
+        Task("goals", "three", lambda: (len(shared), 3), lambda: shared.append(2)),
+    ]
+    ahead.ask(walk, tasks, 1, budget, told.append)
+    assert told == ["goals", "minimal", "goals"]
+    assert ahead.answers == {"one": (1, 1), "two": (1, 2), "three": (2, 3)}
+    assert [1000 <= each < 1100 for each in budget.spent] == [True, False, True]
+    assert 0 <= budget.spent[1] < 100
+    assert 1000 <= ahead.seconds["goals"] < 1100
+    assert 0 <= ahead.seconds["minimal"] < 100
+    assert ahead.take("one", lambda: 5) == (1, 1)
+    assert ahead.take("four", lambda: 5) == 5
+
+
+def test_children_share_what_may_be_remembered() -> None:
+    """Where all together remember more than one may, no answer counts; else so much less is left."""
+
+    def work(walk: Walk, count: int) -> int:
+        walk.remembered += count
+        walk.check_time()
+        return count
+
+    for most, counts in ((10, True), (9, False)):
+        walk, ahead = Walk(range(2), [2, 2], most_steps=most), Ahead()
+        taken: list[int] = []
+        tasks = [Task("goals", count, partial(work, walk, count)) for count in (4, 6)]
+        ahead.ask(walk, tasks, 1, Budget(), lambda _: None)
+        assert ahead.answers == ({4: 4, 6: 6} if counts else {})
+        assert walk.most == (0 if counts else most)
+        if counts:
+            assert ahead.take(4, partial(taken.append, 4)) == 4
+            ahead.forget(walk)
+            assert (walk.most, taken, ahead.answers, ahead.seconds) == (most, [4], {}, {})
