@@ -100,6 +100,8 @@ WRONG = [
     "BEGIN STATE VECTOR END STATE VECTOR",
     "begin state vector state A can be x end state vector",
     STATES + STATES,
+    STATES + "BEGIN CONFIG END CONFIG BEGIN CONFIG END CONFIG",
+    STATES + "BEGIN STATE RULES rule: A is x END STATE RULES BEGIN STATE RULES rule: A is x END STATE RULES",
     STATES + "BEGIN RULES END RULES",
     STATES + "BEGIN STATE RULES END RULES",
     STATES + "/* never closed",

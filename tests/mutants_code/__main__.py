@@ -30,7 +30,7 @@ from tests.mutants_code.sites import Site, sites
 ROOT = Path(__file__).parents[2]
 TIMES = 3
 """So many times the processor time that its tests take without a fault, a fault may take."""
-LEAST = 3
+LEAST = 2
 """So many faults of every module at least, where it has as many places."""
 
 

@@ -18,6 +18,7 @@ from tests.generate import random_spec
 from tests.profiles import PROFILES
 from tests.repo.documents import ROOT
 from tests.verify.policies import certified, exact_ranks, near_policies, wrong_ranks
+from tests.verify.test_forged_ranks import exact, restoring
 from tumato_symbolic import Policy
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.limits import Context
@@ -220,6 +221,20 @@ def test_a_refused_certificate_leaves_minimal_to_be_asked_anew(asked: list[int])
     answer = _ask(policy, spec, "any", "walk", 2)
     assert (answer.verdict, answer.certificate.status) == ("proved", "wrong")
     assert answer == _ask(policy, spec, "any", "walk", 1)
+
+
+def test_what_a_child_did_with_the_certificate_is_known(asked: list[int]) -> None:
+    """Where only a child has used ranks, the certificate is used; where it lacked some, the reason is told."""
+    spec, rows = restoring(2, 2)
+    right, other = Residual(frozenset((0,)), frozenset()), Residual(frozenset(), frozenset())
+    for ranks, status in (({right: exact(spec, rows)}, "used"), ({other: {(2,): 0}}, "incomplete")):
+        policy = certified(spec, rows, ranks)
+        one, two = (
+            _timeless(verify(policy, spec, properties=["safe", "minimal"], prover="walk", jobs=jobs)) for jobs in (1, 2)
+        )
+        assert one == two
+        assert (two.verdict, two.certificate.status) == ("proved", status)
+    assert asked == [2, 2]
 
 
 def test_answers_come_in_the_order_of_the_tasks() -> None:
