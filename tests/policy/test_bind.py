@@ -105,6 +105,20 @@ def test_all_differences_are_reported_with_a_way_out():
     assert helps[2] == "did you mean `lode`?"
 
 
+def test_all_known_names_are_told_where_none_is_near():
+    """Of variables, of the values of the same variable, and of actions."""
+    target = Vocabulary((("Q", ("u", "v")), ("S_Load", ("full", "empty"))), ("wave",))
+    source = Vocabulary((("Zebra", ("u", "v")), ("S_Load", ("full", "empty", "xyzzy"))), ("wave", "jump"))
+    with pytest.raises(UserError) as raised:
+        bind(Policy(source, Table({})), spec_of(target))
+    helps = [diagnostic.help for diagnostic in raised.value.diagnostics]
+    assert helps[:2] == [
+        "variables of the specification: `Q` and `S_Load`",
+        "values in the specification: `full` and `empty`",
+    ]
+    assert helps[3] == "actions of the specification: `wave`"
+
+
 def test_a_certificate_of_unknown_actions_is_set_aside():
     """The policy stays usable when its certificate speaks of an action that nobody has."""
     policy = amr_like()

@@ -15,7 +15,7 @@ from tests.verify.test_forged_ranks import along, exact, restoring
 from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.limits import Budget
 from tumato_symbolic.policy import Certificate, DiagramBuilder, Policy, RankedGoal, as_diagram, policy_from_rows
-from tumato_symbolic.semantics import ActionSet, Residual, State, all_states
+from tumato_symbolic.semantics import ActionSet, Residual, State, all_states, residual_goal
 from tumato_symbolic.spec import FALSE, And, Executing, Not, Or, Ordering, Spec, canonical_text, digest
 from tumato_symbolic.verify import PropertyResult, ProverName, Verification, verify
 from tumato_symbolic.verify.by_states.prover import StateProver
@@ -189,13 +189,14 @@ def test_every_goal_is_proved_by_its_ranks(prover: Name) -> None:
 
 
 def test_a_rank_after_a_state_is_missing(prover: Name) -> None:
-    """The reason names the state after which there is no rank."""
-    spec, policy = along(3)
-    table = exact(spec, policy)
-    del table[(0,)], table[(1,)]
-    answer = verify(certified(spec, policy, {GOAL: table}), spec, prover=prover, properties=["safe", "goals"])
-    assert answer.certificate.status == "incomplete"
-    assert answer.certificate.reason == f"it has no rank of ({spec.bodies[0].text}) after x is a"
+    """The reason names the state after which there is no rank; ranks that are there do not exceed the bound."""
+    for bound in (None, 3, 9):
+        spec, policy = along(3, bound)
+        table = exact(spec, policy)
+        del table[(0,)], table[(1,)]
+        answer = verify(certified(spec, policy, {GOAL: table}), spec, prover=prover, properties=["safe", "goals"])
+        assert answer.certificate.status == "incomplete"
+        assert answer.certificate.reason == f"it has no rank of ({spec.bodies[0].text}) after x is a"
 
 
 @pytest.mark.parametrize("name", ["z3", "walk"])
@@ -358,3 +359,42 @@ def test_the_digest_is_that_of_the_specification() -> None:
     """What these certificates are made for."""
     spec, policy = along(2)
     assert certified(spec, policy, {}).digest == digest(spec)
+
+
+def test_a_run_that_fails_is_found_without_the_ranks_of_its_goal(prover: Name) -> None:
+    """A certificate that lacks the ranks of a goal proves nothing of it, though it has right ones of all others."""
+    spec, rows, residuals = turning()
+    ranks = exact_ranks(spec, rows, "any")
+    for place, goal in list(enumerate(residuals))[1:]:
+        wrong = {**rows, (place,): frozenset[int]()}
+        owed = residual_goal(spec, (place,), frozenset())
+        others = {each: table for each, table in ranks.items() if each not in (goal, owed)}
+        answer = verify(certified(spec, wrong, others), spec, prover=prover, properties=["safe", "goals"])
+        refutation = answer.properties[1].refutation
+        assert refutation is not None, place
+        assert refutation.state is not None and refutation.run is not None
+        assert refutation.run.end == "loop"
+
+
+@pytest.mark.parametrize("name", [*PROVERS, "auto"])
+def test_the_first_of_many_states_has_the_best_set(name: ProverName) -> None:
+    """Where cheaper sets serve in several states, it is the first state, as declared, that is named."""
+    letters = "abcdefgh"
+    build = Build({"x": letters, "y": letters})
+    target = build.atom("x=a")
+    wherever = {letter: build.atom(f"x={letter}") for letter in letters}
+    for first in ("ch", "df", "hb"):
+        build._actions.clear()
+        dear = build.action("x=a y=a", duration=9)
+        here = And((wherever[first[0]], build.atom(f"y={first[1]}")))
+        later = And((wherever["h"], build.atom("y=h")))
+        lengths = (6, 4, 4, 4, 5)
+        cheap = [build.action("x=a y=a", when=[Or((here, later))], duration=each) for each in lengths]
+        spec = build.spec(constraint(build.goal(target)), state_rules=[target])
+        rows = {state: chosen() if state[0] == 0 else chosen(dear) for state in all_states(spec)}
+        answer = verify(policy_from_rows(spec, rows), spec, prover=name, properties=["minimal"])
+        refutation = answer.properties[0].refutation
+        assert refutation is not None
+        assert refutation.state == build.state(first)
+        assert refutation.cheaper == chosen(cheap[1])
+        assert refutation.decision == chosen(dear)

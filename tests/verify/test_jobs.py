@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import mmap
 import os
 import signal
 import sys
@@ -235,6 +236,19 @@ def test_what_a_child_did_with_the_certificate_is_known(asked: list[int]) -> Non
         assert one == two
         assert (two.verdict, two.certificate.status) == ("proved", status)
     assert asked == [2, 2]
+
+
+def test_no_child_goes_on_after_a_failure() -> None:
+    """Where one task fails, the others are ended, not waited for."""
+    done = memoryview(mmap.mmap(-1, 1))
+
+    def slow() -> None:
+        time.sleep(1.0)
+        done[0] = 1
+
+    with pytest.raises(children.ChildError):
+        children.in_children([partial(int, "no number"), slow], 2)
+    assert done[0] == 0
 
 
 def test_answers_come_in_the_order_of_the_tasks() -> None:

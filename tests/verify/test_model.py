@@ -6,7 +6,9 @@ import operator
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from itertools import combinations
+from importlib import import_module
+from itertools import combinations, product
+from random import Random
 from typing import Any
 
 import pytest
@@ -26,7 +28,7 @@ from tumato_symbolic.verify.by_walk.ahead import Ahead, Task
 from tumato_symbolic.verify.by_walk.goals import WalkGoals
 from tumato_symbolic.verify.by_walk.model import Model
 from tumato_symbolic.verify.by_walk.order import conflicting, disagreeing, exclusive_groups, walk_order
-from tumato_symbolic.verify.by_walk.walk import FALSE, TRUE, BudgetError, Walk
+from tumato_symbolic.verify.by_walk.walk import FALSE, TRUE, BudgetError, Walk, given_up
 from tumato_symbolic.verify.by_walk.witnesses import Witnesses
 from tumato_symbolic.verify.by_z3.encoding import Place
 from tumato_symbolic.verify.by_z3.goal_terms import GoalTerms
@@ -301,13 +303,68 @@ def test_children_share_what_may_be_remembered() -> None:
         return count
 
     for most, counts in ((10, True), (9, False)):
-        walk, ahead = Walk(range(2), [2, 2], most_steps=most), Ahead()
+        walk, ahead = Walk(range(2), [2, 2], most_steps=most + 5), Ahead()
+        walk.remembered = 5
         taken: list[int] = []
         tasks = [Task("goals", count, partial(work, walk, count)) for count in (4, 6)]
         ahead.ask(walk, tasks, 1, Budget(), lambda _: None)
         assert ahead.answers == ({4: 4, 6: 6} if counts else {})
-        assert walk.most == (0 if counts else most)
+        assert walk.most == (5 if counts else most + 5)
         if counts:
             assert ahead.take(4, partial(taken.append, 4)) == 4
             ahead.forget(walk)
-            assert (walk.most, taken, ahead.answers, ahead.seconds) == (most, [4], {}, {})
+            assert (walk.most, taken, ahead.answers, ahead.seconds) == (most + 5, [4], {}, {})
+
+
+def test_substitution_keeps_the_order() -> None:
+    """Functions for some of the variables, of which each may test variables above and below."""
+    random, sizes = Random(7), (2, 3, 2, 2)
+    points = list(product(*map(range, sizes)))
+    for order in ((0, 1, 2, 3), (2, 3, 1, 0)):
+        walk = Walk(order, sizes)
+
+        def drawn(most: int, walk: Walk = walk) -> tuple[int, dict[literal.State, int]]:
+            table = {point: random.randint(0, most) for point in points}
+
+            def build(point: literal.State) -> int:
+                if len(point) == len(sizes):
+                    return walk.constant(table[point])
+                return walk.by_value(len(point), [build((*point, value)) for value in range(sizes[len(point)])])
+
+            return build(()), table
+
+        for _ in range(12):
+            (function, table), (one, ones), (two, twos) = drawn(3), drawn(1), drawn(2)
+            for given in ({3: one}, {0: one}, {1: two}, {0: one, 1: two}, {2: walk.constant(1), 1: two}):
+                found = walk.substitute(function, given)
+                for point in points:
+                    turned = list(point)
+                    for variable, by in given.items():
+                        turned[variable] = ones[point] if by == one else twos[point] if by == two else 1
+                    values = {number: walk.constant(value) for number, value in enumerate(point)}
+                    assert walk.values_of(walk.substitute(found, values)) == [table[tuple(turned)]]
+
+
+@pytest.mark.parametrize("actions", [1, 2, 3, 4, 5])
+def test_the_next_state_by_cases_and_by_variables(actions: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whatever the number of actions, each of which writes a variable of its own."""
+    build = Build({f"x{number}": "ab" for number in range(actions)})
+    for number in range(actions):
+        build.action(f"x{number}=b")
+    spec = build.spec()
+    states = literal.states(spec)
+    rows = {state: frozenset(n for n in range(actions) if (state[n] + sum(state)) % 2 == 0) for state in states}
+    for most in (0, 128):
+        monkeypatch.setattr(import_module("tumato_symbolic.verify.by_walk.model"), "MOST_CASES", most)
+        model = Model(spec, as_diagram(policy_from_rows(spec, rows)), "any")
+        for variable in range(actions):
+            after = model.next(model.walk.variable(variable))
+            for state in states:
+                end = literal.successor(spec, state, rows[state])
+                assert _value(model, after, state, frozenset()) == end[variable]
+
+
+def test_why_a_walk_is_given_up() -> None:
+    """Its own reason, or that there are too many variables."""
+    assert given_up(BudgetError("tired")) == "tired"
+    assert given_up(RecursionError("maximum")) == "there are too many variables for the walk"

@@ -15,7 +15,7 @@ class Packing:
     """States as numbers and back."""
 
     def __init__(self, spec: Spec) -> None:
-        widths = [max(1, (len(variable.values) - 1).bit_length()) for variable in spec.variables]
+        widths = [(len(variable.values) - 1).bit_length() for variable in spec.variables]
         self._shifts = [sum(widths[:number]) for number in range(len(widths))]
         self._masks = [((1 << width) - 1) << shift for width, shift in zip(widths, self._shifts, strict=True)]
 
