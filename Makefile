@@ -10,7 +10,7 @@ help:
 	@echo "make test        install the development tools too; lint, types, import walls, tests"
 	@echo "make proofs      compile the theorems in proofs/coq, and that of every example's policy (needs Coq)"
 	@echo "make mutants     20,000 changed policies, certificates and specifications through every prover (half an hour)"
-	@echo "make mutants-code  300 faults in the trusted base, one at a time, through the tests meant for them (half an hour)"
+	@echo "make mutants-code  300 faults in the trusted base, each through the tests meant for it (ten minutes)"
 	@echo "make readers     25,000 damaged specifications, policies and certificates through both readers (ten minutes)"
 	@echo "make format      put the sources into shape"
 	@echo "make regenerate  write proofs/ and the generated tables anew"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from importlib import import_module
-from typing import Literal
+from typing import Literal, cast
 
 import pytest
 
@@ -13,7 +13,7 @@ from tests.semantics.build import Build, chosen, constraint, priority, when
 from tests.verify.policies import certified, exact_ranks
 from tests.verify.test_forged_ranks import along, exact, restoring
 from tumato_symbolic.diagnostics import UserError
-from tumato_symbolic.limits import Budget
+from tumato_symbolic.limits import Budget, Context
 from tumato_symbolic.policy import Certificate, DiagramBuilder, Policy, RankedGoal, as_diagram, policy_from_rows
 from tumato_symbolic.semantics import ActionSet, Residual, State, all_states, residual_goal
 from tumato_symbolic.spec import FALSE, And, Executing, Not, Or, Ordering, Spec, canonical_text, digest
@@ -398,3 +398,43 @@ def test_the_first_of_many_states_has_the_best_set(name: ProverName) -> None:
         assert refutation.state == build.state(first)
         assert refutation.cheaper == chosen(cheap[1])
         assert refutation.decision == chosen(dear)
+
+
+def test_what_is_learned_after_every_property() -> None:
+    """Whoever ends the proof from outside is told what was proved by then, and that the rest is open."""
+    spec, policy = along(2)
+    known: list[Verification] = []
+    context = Context()
+    context.learned = lambda found: known.append(cast("Verification", found))
+    answer = verify(policy_from_rows(spec, {**policy, (3,): frozenset()}), spec, prover="walk", context=context)
+    assert [[each.verdict for each in found.properties] for found in known[:5]] == [
+        [each.verdict for each in answer.properties[:done]] + ["undecided"] * (4 - done) for done in range(5)
+    ]
+    assert [found.verdict for found in known[:4]] == ["undecided", "undecided", "undecided", "refuted"]
+    assert [found.certificate.status for found in known[:5]] == ["unneeded"] * 3 + ["absent"] * 2
+
+
+def test_nothing_asked_is_an_error_of_the_caller() -> None:
+    """An answer about no property would be a proof of nothing."""
+    spec, policy = along(2)
+    with pytest.raises(ValueError, match="properties must be some of"):
+        verify(policy_from_rows(spec, policy), spec, properties=[])
+
+
+@pytest.mark.parametrize("cases", [0, 128])
+def test_a_run_ends_where_nominal_effects_disagree(prover: Name, cases: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whatever one of the two would lead to: there is no next state, and a run that comes there misses its goal."""
+    monkeypatch.setattr(import_module("tumato_symbolic.verify.by_walk.model"), "MOST_CASES", cases)
+    build = Build({"x": "abcd"})
+    first = build.action("x=b", when=[build.atom("x=a")])
+    one, two = build.action("x=c"), build.action("x=d")
+    for goal in "cd":
+        build._bodies.clear()
+        spec = build.spec(constraint(build.goal(build.atom(f"x={goal}"))))
+        for pair in (chosen(one, two), None):
+            rows = {(0,): chosen(first), (1,): pair, (2,): chosen(two), (3,): chosen(one)}
+            policy = policy_from_rows(spec, {state: each for state, each in rows.items() if each is not None})
+            answer = verify(policy, spec, prover=prover, properties=["goals"])
+            refutation = answer.properties[0].refutation
+            assert refutation is not None
+            assert (refutation.state, refutation.run and refutation.run.end) == ((0,), "undefined")

@@ -219,7 +219,7 @@ def test_durations_of_a_set_to_be_chosen(unit: int) -> None:
     for chosen in literal.sets(spec):
         with solver.scope(*_only(choice, chosen)):
             takes = duration(spec, chosen)
-            for limit in {-1, 0, takes - 1, takes, takes + 1, 12 * unit, 13 * unit, 100 * unit}:
+            for limit in {-1, 0, takes - 1, takes, takes + 1, 12 * unit, 13 * unit, 20 * unit, 100 * unit}:
                 assert (solver.ask(choice.lasts_at_most(limit)) == "sat") == (takes <= limit), (chosen, limit)
             for other in literal.sets(spec):
                 executed = [number in other for number in range(4)]
