@@ -16,7 +16,7 @@ from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.limits import Budget, Context
 from tumato_symbolic.policy import Certificate, DiagramBuilder, Policy, RankedGoal, as_diagram, policy_from_rows
 from tumato_symbolic.semantics import ActionSet, Residual, State, all_states, residual_goal
-from tumato_symbolic.spec import FALSE, And, Executing, Not, Or, Ordering, Spec, canonical_text, digest
+from tumato_symbolic.spec import FALSE, And, Executing, Iff, Not, Or, Ordering, Spec, canonical_text, digest
 from tumato_symbolic.verify import PropertyResult, ProverName, Verification, verify
 from tumato_symbolic.verify.by_states.prover import StateProver
 from tumato_symbolic.verify.by_walk.prover import WalkProver
@@ -438,3 +438,19 @@ def test_a_run_ends_where_nominal_effects_disagree(prover: Name, cases: int, mon
             refutation = answer.properties[0].refutation
             assert refutation is not None
             assert (refutation.state, refutation.run and refutation.run.end) == ((0,), "undefined")
+
+
+@pytest.mark.parametrize("name", [*PROVERS, "auto"])
+def test_the_best_set_is_that_of_the_state_that_is_named(name: ProverName) -> None:
+    """Where it takes two actions, one action that would do in a later state is not mistaken for it."""
+    build = Build({"x": "abc", "y": "ab"})
+    here, later = build.atom("x=b"), build.atom("x=c")
+    one, two = build.action("x=a", when=[here], duration=1), build.action("x=a y=a", when=[here], duration=1)
+    build.action("x=a", when=[later], duration=2)
+    dear = build.action("x=a", duration=9)
+    spec = build.spec(constraint(), [build.atom("x=a")], [Iff(one, two)])
+    rows = {state: chosen() if state[0] == 0 else chosen(dear) for state in all_states(spec)}
+    answer = verify(policy_from_rows(spec, rows), spec, prover=name, properties=["minimal"])
+    refutation = answer.properties[0].refutation
+    assert refutation is not None
+    assert (refutation.state, refutation.cheaper) == ((1, 0), chosen(one, two))

@@ -273,6 +273,8 @@ def test_every_processor_is_used(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delattr(os, "sched_getaffinity")
     monkeypatch.setattr(os, "cpu_count", lambda: 5)
     assert children.cores() == 5
+    monkeypatch.setattr(os, "cpu_count", lambda: None)
+    assert children.cores() == 1
 
 
 def test_a_policy_without_rows_is_judged_by_many_as_by_one(asked: list[int]) -> None:

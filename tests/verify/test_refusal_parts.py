@@ -122,6 +122,15 @@ def test_the_first_state_that_leaves_is_named_by_the_walk(monkeypatch: pytest.Mo
         assert found.state == (None if first is None else (first,))
 
 
+def test_a_state_that_the_walk_names_falsely_is_a_bug(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Z3 has to find the step that leads out of the layers; otherwise it is no refutation, and no proof either."""
+    spec = line(2)
+    monkeypatch.setattr(no_plan, "MANY_NODES", -1)
+    monkeypatch.setattr(no_plan, "first_left", lambda *_: (0,))
+    with pytest.raises(RuntimeError, match="against the walk"):
+        verify_unrealizable(certificate_of(spec), spec)
+
+
 def test_cubes_come_in_any_order() -> None:
     """A proof backwards is the same proof."""
     spec = stuck()[1]

@@ -109,6 +109,34 @@ def test_terms_of_nothing_and_of_constants_are_constants() -> None:
     assert at_most_one((True, True, unknown)) is False and at_most_one((unknown, False)) is True
 
 
+def test_cases_are_of_the_kind_of_their_parts() -> None:
+    """Booleans or numbers, which Z3's operators tell apart."""
+    context = z3.Context()
+    unknown, other = z3.Bool("u", context), z3.Bool("v", context)
+    one, two = (z3.BitVecVal(number, 3, context) for number in (1, 2))
+    assert isinstance(either(unknown, other, unknown), z3.BoolRef)
+    number = either(unknown, one, two)
+    assert isinstance(number, z3.BitVecRef)
+    assert z3.simplify(z3.substitute(number, (unknown, z3.BoolVal(False, context)))).as_long() == 2
+
+
+@pytest.mark.parametrize(("reason", "raised"), [("timeout", False), ("interrupted from keyboard", True)])
+def test_no_answer_is_unknown_unless_ctrl_c_was_pressed(reason: str, raised: bool) -> None:
+    """Z3 takes the signal for itself, and says so."""
+
+    class Silent:
+        def __getattr__(self, name: str) -> Any:
+            return lambda *_: {"check": "unknown", "reason_unknown": reason}.get(name)
+
+    solver = Solver()
+    solver._solver = Silent()
+    if raised:
+        with pytest.raises(KeyboardInterrupt):
+            solver.ask()
+    else:
+        assert solver.ask() == "unknown"
+
+
 @pytest.mark.parametrize("largest", [0, 1, 2, 3, 5, 6, 7, 14])
 def test_counts_and_never(largest: int) -> None:
     """Numbers up to the largest and never are told apart; `one > other + 1`, with never as infinity."""
