@@ -123,6 +123,10 @@ WRONG = {
         ),
         "the two share no resource",
     ),
+    "a resource of one of the two": (
+        proof(hop=[cube("hop sing", "bc", "resource", Actions=["hop", "sing"]), unsafe("hop", "bc sing", "hop=b")]),
+        "the two share no resource",
+    ),
     "an empty outcome": (proof(bc=unsafe("bc", "")), "not those of different actions"),
     "an action that strikes twice": (
         proof(hop=unsafe("hop", "bc", "hop=a", "hop=b")),

@@ -113,6 +113,13 @@ def _first_node(node: object) -> Change:
     return lambda document: document["Diagram"]["Nodes"].__setitem__(0, node)
 
 
+def _repeat_last(document: Document) -> None:
+    """A node that leads to another one that tests the same variable."""
+    nodes = document["Diagram"]["Nodes"]
+    level, below = nodes[-1]
+    nodes.append([level, [len(document["Diagram"]["Leaves"]) + len(nodes) - 1, *below[1:]]])
+
+
 BROKEN_DIAGRAMS: dict[str, Change] = {
     "a table": lambda document: document.update(Type="policy"),
     "diagram and table": lambda document: document.update(Policy=[]),
@@ -134,6 +141,7 @@ BROKEN_DIAGRAMS: dict[str, Change] = {
     "a root below 0": lambda document: document["Diagram"]["Roots"].update(charge=-1),
     "no word on what is decided": lambda document: document["Diagram"].pop("Defined"),
     "a node that leads to itself": _first_node([3, [0, 2]]),
+    "a node above one of its own variable": _repeat_last,
     "a node of no level": _first_node([9, [0, 1]]),
     "a node with a child too many": _first_node([3, [0, 1, 1, 1, 1, 1, 1]]),
     "a node that is no pair": _first_node([3, [0, 1], 0]),
