@@ -193,3 +193,10 @@ def test_the_search_for_a_choice_is_right() -> None:
     assert found == {True, False}
     assert not checker.Choosing([2, 0], []).succeeds()
     assert not checker.Choosing([1], [[]]).succeeds()
+
+
+@pytest.mark.parametrize("starts", [[0, 5], [-1], [True], ["0"], [0.0]])
+def test_starts_are_numbers_of_choices(starts: list[Any], tmp_path: Path) -> None:
+    """Anything else is unreadable, not refuted."""
+    answer = judged(tmp_path, crossing(None), conflict([cut(0, "l")], Starts=starts))
+    assert (answer.code, "`Starts` is a list of numbers below 5" in answer.err) == (2, True)
