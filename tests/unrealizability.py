@@ -9,7 +9,8 @@ from random import Random
 
 from tests.generate import PROFILES, random_spec
 from tests.oracle import Together, World
-from tumato_symbolic.policy import Vocabulary, rebuild
+from tumato_symbolic.diagrams import rebuild
+from tumato_symbolic.policy import Vocabulary
 from tumato_symbolic.policy.unrealizable import (
     Choice,
     Conflict,

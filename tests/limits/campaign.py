@@ -14,7 +14,8 @@ from pathlib import Path
 from tests.limits.large import specification
 from tumato_symbolic import parse
 from tumato_symbolic.diagnostics import UserError
-from tumato_symbolic.policy import DecisionDiagram, DiagramBuilder, Policy, Vocabulary, dumps
+from tumato_symbolic.diagrams import DiagramBuilder
+from tumato_symbolic.policy import DecisionDiagram, Policy, Vocabulary, dumps
 from tumato_symbolic.spec import digest
 
 LATE = 2.0

@@ -96,7 +96,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "tumato_symbolic/semantics": SEMANTICS,
     "tumato_symbolic/symbolic/steps.py": STEPS,
     "tumato_symbolic/policy/bind.py": BINDING,
-    "tumato_symbolic/policy/diagram.py": NUMBERS,
+    "tumato_symbolic/diagrams/diagram.py": NUMBERS,
     "tumato_symbolic/verify/by_states": BY_STATES,
     "tumato_symbolic/verify/by_walk/ahead.py": PROCESSES,
     "tumato_symbolic/verify/by_walk/prover.py": WALK_PROVER,

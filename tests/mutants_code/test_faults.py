@@ -177,7 +177,7 @@ def test_a_planted_fault_is_noticed() -> None:
     code = (
         "from pathlib import Path; from tests.mutants_code.run import run_tests\n"
         "from tests.mutants_code.sites import sites\n"
-        "module = 'tumato_symbolic.policy.diagram'; path = Path('tumato_symbolic/policy/diagram.py').resolve()\n"
+        "module = 'tumato_symbolic.diagrams.diagram'; path = Path('tumato_symbolic/diagrams/diagram.py').resolve()\n"
         "number = next(s.number for s in sites(path, module) if 'root >= base -> root > base' in s.name)\n"
         "tests = ('tests/policy/test_numbers.py',)\n"
         "assert run_tests(tests, None, '', 0, 60).how == 'survived'\n"

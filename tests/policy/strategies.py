@@ -4,17 +4,8 @@ from hypothesis import settings
 from hypothesis import strategies as st
 
 from tumato_symbolic.diagnostics import Span
-from tumato_symbolic.policy import (
-    Certificate,
-    DecisionDiagram,
-    DiagramBuilder,
-    Policy,
-    RankedGoal,
-    Table,
-    Vocabulary,
-    as_diagram,
-    rebuild,
-)
+from tumato_symbolic.diagrams import DiagramBuilder, rebuild
+from tumato_symbolic.policy import Certificate, DecisionDiagram, Policy, RankedGoal, Table, Vocabulary, as_diagram
 from tumato_symbolic.spec import Action, Spec, Variable
 
 NAMES = st.text('ab_Z9é "\\\n\x00\u2028🤖', max_size=4)

@@ -6,10 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.policy.strategies import QUICK, policies, spec_of, tables, vocabularies
+from tumato_symbolic.diagrams import Diagram, DiagramBuilder, rebuild
 from tumato_symbolic.policy import (
     DecisionDiagram,
-    Diagram,
-    DiagramBuilder,
     Policy,
     Table,
     Vocabulary,
@@ -17,7 +16,6 @@ from tumato_symbolic.policy import (
     as_table,
     count_defined,
     policy_from_rows,
-    rebuild,
 )
 
 

@@ -7,7 +7,7 @@ from hypothesis import given
 
 from tests.policy.strategies import QUICK, amr_like, policies
 from tumato_symbolic.diagnostics import UserError
-from tumato_symbolic.policy import Policy, UndecidedState, as_table, decide, dumps, parse_assignments, parse_state
+from tumato_symbolic.policy import Policy, UndecidedState, as_table, dumps, parse_assignments, parse_state
 
 
 @QUICK
@@ -26,7 +26,7 @@ def test_what_is_forgotten_is_found_again(policy):
     """Answers are the same when almost nothing is remembered, in whatever order states are asked."""
     variables, actions = policy.vocabulary.variables, policy.vocabulary.actions
     rows = list(as_table(policy, 1000).rows.items())
-    with patch.object(decide, "_MOST_REMEMBERED", 2):
+    with patch("tumato_symbolic.policy.lookup._MOST_REMEMBERED", 2):
         for state, chosen in rows + rows[::-1]:
             named = {name: values[value] for (name, values), value in zip(variables, state, strict=True)}
             assert policy.decide(named) == tuple(name for number, name in enumerate(actions) if number in chosen)
@@ -73,7 +73,7 @@ def test_what_is_no_state_is_a_user_error(state, code, message, diagram):
 def test_words_describe_a_state():
     """`VARIABLE=VALUE` words in any order give a state; the same word twice is harmless."""
     words = ["S_Load=free", "S_Place=hall", "S_Load=free"]
-    assert amr_like().decide(parse_assignments(amr_like(), words)) == ("go", "stop")
+    assert amr_like().decide(parse_assignments(amr_like().vocabulary, words)) == ("go", "stop")
 
 
 @pytest.mark.parametrize(
@@ -90,7 +90,7 @@ def test_words_describe_a_state():
 def test_wrong_words_have_a_way_out(words, code, message, way_out):
     """Every mistake on the command line names the word and what could be meant."""
     with pytest.raises(UserError) as raised:
-        parse_assignments(amr_like(), words)
+        parse_assignments(amr_like().vocabulary, words)
     first = raised.value.diagnostics[0]
     assert (first.code.name, first.help) == (code, way_out)
     assert message in first.message
@@ -98,7 +98,10 @@ def test_wrong_words_have_a_way_out(words, code, message, way_out):
 
 def test_a_line_describes_a_state():
     """One JSON object per line gives a state."""
-    assert parse_state(amr_like(), '{"S_Load": "free", "S_Place": "dock"}\n') == {"S_Load": "free", "S_Place": "dock"}
+    assert parse_state(amr_like().vocabulary, '{"S_Load": "free", "S_Place": "dock"}\n') == {
+        "S_Load": "free",
+        "S_Place": "dock",
+    }
 
 
 @pytest.mark.parametrize(
@@ -118,7 +121,7 @@ def test_a_line_describes_a_state():
 def test_a_wrong_line_is_a_user_error(line):
     """What is no JSON object of strings is TUM509, whatever it is."""
     with pytest.raises(UserError) as raised:
-        parse_state(amr_like(), line)
+        parse_state(amr_like().vocabulary, line)
     assert raised.value.diagnostics[0].code.name == "TUM509"
 
 

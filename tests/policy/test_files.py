@@ -89,7 +89,7 @@ def test_what_cannot_be_read_is_said(tmp_path):
 def test_an_endless_file_is_too_large(monkeypatch):
     """Reading stops at the limit, and texts beyond it are neither read nor written."""
     monkeypatch.setattr(shape, "MAX_BYTES", 100)
-    monkeypatch.setattr("tumato_symbolic.policy.files.MAX_BYTES", 100)
+    monkeypatch.setattr("tumato_symbolic.policy.text_input.MAX_BYTES", 100)
     monkeypatch.setattr("tumato_symbolic.policy.write.MAX_BYTES", 100)
     with pytest.raises(UserError, match="TUM508"):
         load("/dev/zero")

@@ -6,8 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.policy.strategies import QUICK, policies
-from tumato_symbolic.policy import Certificate, DecisionDiagram, DiagramBuilder, Policy, RankedGoal, as_table
-from tumato_symbolic.policy.minimize import minimized_decisions, minimized_layers, minimized_ranks
+from tumato_symbolic.diagrams import DiagramBuilder
+from tumato_symbolic.policy import Certificate, DecisionDiagram, Policy, RankedGoal, as_table
+from tumato_symbolic.policy.compact import minimized_decisions, minimized_layers, minimized_ranks
 from tumato_symbolic.policy.unrealizable import Layers, NoPlan
 
 

@@ -10,9 +10,9 @@ import pytest
 
 from tests.policy.strategies import spec_of
 from tumato_symbolic.diagnostics import UserError
-from tumato_symbolic.policy import Certificate, DiagramBuilder, Policy, RankedGoal, Table, Vocabulary, as_diagram, bind
+from tumato_symbolic.diagrams import Diagram, DiagramBuilder, count_true, rebuild
+from tumato_symbolic.policy import Certificate, Policy, RankedGoal, Table, Vocabulary, as_diagram, bind
 from tumato_symbolic.policy.bind import Renumbering
-from tumato_symbolic.policy.diagram import Diagram, count_true, rebuild
 
 THERE = Vocabulary((("x", ("a", "b", "c")), ("y", ("p", "q")), ("z", ("u", "v", "w", "t"))), ("go", "eat", "nap"))
 HERE = Vocabulary((("z", ("w", "u", "t", "v")), ("x", ("c", "a", "b")), ("y", ("q", "p"))), ("eat", "nap", "go"))

@@ -11,18 +11,8 @@ from hypothesis import given
 
 from tests.policy.strategies import QUICK, policies
 from tumato_symbolic.diagnostics import UserError
-from tumato_symbolic.policy import (
-    DecisionDiagram,
-    DiagramBuilder,
-    Policy,
-    Table,
-    Vocabulary,
-    as_table,
-    count_defined,
-    dumps,
-    loads,
-)
-from tumato_symbolic.policy.cover import Coverer
+from tumato_symbolic.diagrams import Coverer, DiagramBuilder
+from tumato_symbolic.policy import DecisionDiagram, Policy, Table, Vocabulary, as_table, count_defined, dumps, loads
 from tumato_symbolic.policy.rules import Rule, minimal_rules
 
 PROOFS = Path(__file__).parents[2] / "proofs"

@@ -14,7 +14,8 @@ from tests.policy.mutations import mutations
 from tests.policy.strategies import NAMES, QUICK, spec_of, vocabularies
 from tests.policy.test_bind import shuffled
 from tumato_symbolic.diagnostics import UserError
-from tumato_symbolic.policy import DiagramBuilder, Policy, RankedGoal, Vocabulary, rebuild
+from tumato_symbolic.diagrams import DiagramBuilder, rebuild
+from tumato_symbolic.policy import Policy, RankedGoal, Vocabulary
 from tumato_symbolic.policy.claim import load_claim
 from tumato_symbolic.policy.files import load as load_policy
 from tumato_symbolic.policy.unrealizable import (

@@ -11,7 +11,8 @@ import pytest
 from tests.ranks import campaign, refusals
 from tests.ranks.campaign import Tally
 from tumato_symbolic import parse
-from tumato_symbolic.policy import Certificate, DiagramBuilder, RankedGoal, policy_from_rows
+from tumato_symbolic.diagrams import DiagramBuilder
+from tumato_symbolic.policy import Certificate, RankedGoal, policy_from_rows
 from tumato_symbolic.spec import digest
 from tumato_symbolic.verify import verify
 from tumato_symbolic.verify.by_z3.step_counts import StepCounts

@@ -7,7 +7,8 @@ from dataclasses import replace
 from random import Random
 
 from tests.oracle import decide
-from tumato_symbolic.policy import Certificate, DiagramBuilder, Policy, RankedGoal, as_diagram, policy_from_rows
+from tumato_symbolic.diagrams import DiagramBuilder
+from tumato_symbolic.policy import Certificate, Policy, RankedGoal, as_diagram, policy_from_rows
 from tumato_symbolic.semantics import (
     ActionSet,
     Residual,

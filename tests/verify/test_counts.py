@@ -13,8 +13,9 @@ from tests.semantics.build import Build, chosen, constraint, priority, when
 from tests.verify.policies import certified, exact_ranks
 from tests.verify.test_forged_ranks import along, exact, restoring
 from tumato_symbolic.diagnostics import UserError
+from tumato_symbolic.diagrams import DiagramBuilder
 from tumato_symbolic.limits import Budget, Context
-from tumato_symbolic.policy import Certificate, DiagramBuilder, Policy, RankedGoal, as_diagram, policy_from_rows
+from tumato_symbolic.policy import Certificate, Policy, RankedGoal, as_diagram, policy_from_rows
 from tumato_symbolic.semantics import ActionSet, Residual, State, all_states, residual_goal
 from tumato_symbolic.spec import FALSE, And, Executing, Iff, Not, Or, Ordering, Spec, canonical_text, digest
 from tumato_symbolic.verify import PropertyResult, ProverName, Verification, verify

@@ -10,7 +10,8 @@ from tests.generate import PROFILES
 from tests.oracle import World
 from tests.semantics.build import Build, constraint, priority
 from tests.unrealizability import assert_never_wrong, certified, changed, unrealizable_specs
-from tumato_symbolic.policy import DiagramBuilder, Vocabulary
+from tumato_symbolic.diagrams import DiagramBuilder
+from tumato_symbolic.policy import Vocabulary
 from tumato_symbolic.policy.unrealizable import Layers, NoPlan, Unrealizability
 from tumato_symbolic.policy.unrealizable_file import dumps, loads
 from tumato_symbolic.semantics import Residual, State

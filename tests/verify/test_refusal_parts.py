@@ -9,8 +9,8 @@ import pytest
 from tests.semantics.build import Build, priority, when
 from tests.unrealizability import certified
 from tests.verify.test_unrealizable_by_hand import conflicting, line, self_conflicting, stuck
+from tumato_symbolic.diagrams import DiagramBuilder
 from tumato_symbolic.limits import Context
-from tumato_symbolic.policy import DiagramBuilder
 from tumato_symbolic.policy.unrealizable import Cube, NoAllowedSet, NoPlan, Unrealizability, Violation
 from tumato_symbolic.semantics import allowed
 from tumato_symbolic.spec import And, Not, Or, Spec

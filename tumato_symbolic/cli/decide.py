@@ -26,7 +26,7 @@ def run(options: Options, _: Context) -> int:
 
 def _answer(policy: Policy, words: tuple[str, ...]) -> int:
     try:
-        actions = policy.decide(parse_assignments(policy, words))
+        actions = policy.decide(parse_assignments(policy.vocabulary, words))
     except UndecidedState as undecided:
         note(f"tumato-sym: {undecided}")
         return NO
@@ -70,7 +70,7 @@ def _reply(policy: Policy, line: bytes) -> tuple[str, str | None]:
     try:
         if len(line) > _LONGEST_LINE:
             return _error(f"the line is longer than {_LONGEST_LINE:,} bytes")
-        return json.dumps(policy.decide(parse_state(policy, line.decode()))), None
+        return json.dumps(policy.decide(parse_state(policy.vocabulary, line.decode()))), None
     except UndecidedState as undecided:
         return "null", str(undecided)
     except UnicodeDecodeError:

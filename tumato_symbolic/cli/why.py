@@ -27,7 +27,7 @@ def run(options: Options, context: Context) -> int:
     with errors_in(source):
         policy = bind(policy, spec)
     ordering = options.effect_ordering or spec.ordering
-    asked = parse_assignments(policy, options.assignments)
+    asked = parse_assignments(policy.vocabulary, options.assignments)
     state = tuple(variable.values.index(asked[variable.name]) for variable in spec.variables)
     context.tell("judging the decision")
     decisions = Decisions(spec, policy)

@@ -7,9 +7,10 @@ from dataclasses import dataclass, replace
 from itertools import islice
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
-from tumato_symbolic.policy.diagram import Diagram, Leaf, Reference, rebuild
-from tumato_symbolic.policy.model import Certificate, DecisionDiagram, Policy, RankedGoal, Table, Vocabulary
+from tumato_symbolic.diagrams import Diagram, Leaf, Reference, rebuild
+from tumato_symbolic.policy.policy import Policy
 from tumato_symbolic.policy.problems import MOST, show, way_out
+from tumato_symbolic.policy.records import Certificate, DecisionDiagram, RankedGoal, Table, Vocabulary
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import Assignment, Spec
 

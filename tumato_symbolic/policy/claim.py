@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from tumato_symbolic.diagnostics import Source, UserError
-from tumato_symbolic.policy.files import read_text
-from tumato_symbolic.policy.model import Policy
-from tumato_symbolic.policy.read import UNREALIZABLE, policy_of
+from tumato_symbolic.policy.policy import Policy
+from tumato_symbolic.policy.read import UNREALIZABLE, fields_of
 from tumato_symbolic.policy.shape import as_object, parse_json
+from tumato_symbolic.policy.text_input import read_text
 
 if TYPE_CHECKING:
     from tumato_symbolic.policy.unrealizable import Unrealizability
@@ -23,7 +23,7 @@ def load_claim(path: str) -> Policy | Unrealizability:
     try:
         document = as_object(parse_json(text, name), "the file")
         if document.get("Type") != UNREALIZABLE:
-            return policy_of(document)
+            return Policy(*fields_of(document))
         from tumato_symbolic.policy.unrealizable_read import unrealizability_of
 
         return unrealizability_of(document)

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
 
-from tumato_symbolic.policy.diagram import Diagram, DiagramBuilder, Reference, count_true
-from tumato_symbolic.policy.model import Certificate, DecisionDiagram, Policy, Table, Vocabulary
+from tumato_symbolic.diagrams import Diagram, DiagramBuilder, Reference, count_true
+from tumato_symbolic.policy.policy import Policy
+from tumato_symbolic.policy.records import Certificate, DecisionDiagram, Table, Vocabulary
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import Ordering, Spec
 

@@ -3,52 +3,25 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import BinaryIO
 
-from tumato_symbolic.diagnostics import Code, Source
-from tumato_symbolic.policy.model import Policy
-from tumato_symbolic.policy.problems import fault
-from tumato_symbolic.policy.read import loads
+from tumato_symbolic.policy.policy import Policy
+from tumato_symbolic.policy.read import policy_fields
 from tumato_symbolic.policy.saving import save_text
-from tumato_symbolic.policy.shape import MAX_BYTES, too_large
 from tumato_symbolic.policy.write import dumps
-from tumato_symbolic.syntax.reading import standard_input
 
 
 def load(path: str) -> Policy:
     """The policy in the file at `path`, UTF-8; `-` is standard input. Raises `UserError` (TUM501 to TUM508)."""
-    return loads(*read_text(path))
+    return Policy.load(path)
 
 
-def read_text(path: str) -> tuple[str, str]:
-    """The text of the file at `path` (`-` is standard input), and what it is called in messages.
+def loads(text: str, name: str = "policy") -> Policy:
+    """The policy that `text` describes; `name` is what it is called in messages.
 
-    Raises `UserError` (TUM501, TUM508).
+    Raises `UserError` (TUM501 to TUM508) for text that is no policy. A certificate that cannot be used is set aside
+    and `Policy.certificate_problem` tells why.
     """
-    name = "<stdin>" if path == "-" else path
-    try:
-        if path == "-":
-            data = _read(standard_input())
-        else:
-            with Path(path).open("rb") as file:
-                data = _read(file)
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise fault(Code.TUM501, f"the policy cannot be read: {reason}", None, Source(name, "")) from None
-    if len(data) > MAX_BYTES:
-        raise too_large(name)
-    try:
-        return data.decode(), name
-    except UnicodeDecodeError as error:
-        message = f"the policy is not UTF-8 text (byte {error.start})"
-        raise fault(Code.TUM501, message, None, Source(name, "")) from None
-
-
-def _read(file: BinaryIO) -> bytes:
-    """At most one byte more than is allowed; space is asked for only where there is so much to read."""
-    start = file.read(min(2**20, MAX_BYTES + 1))
-    rest = MAX_BYTES + 1 - len(start)
-    return start + file.read(rest) if rest and len(start) == 2**20 else start
+    return Policy(*policy_fields(text, name))
 
 
 def save(policy: Policy, path: Path) -> None:

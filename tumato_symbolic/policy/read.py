@@ -1,15 +1,15 @@
-"""JSON text to `Policy`. The format is described in `docs/policy.md`."""
+"""JSON text to the fields of a policy. The format is described in `docs/policy.md`."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 from tumato_symbolic.diagnostics import Code, Source, UserError
 from tumato_symbolic.diagnostics.wording import count, listed
-from tumato_symbolic.policy.diagram import Diagram, Node, Reference, rebuild
-from tumato_symbolic.policy.model import Certificate, DecisionDiagram, Policy, RankedGoal, Table, Vocabulary
+from tumato_symbolic.diagrams import Diagram, Node, Reference, rebuild
 from tumato_symbolic.policy.objects import Row
 from tumato_symbolic.policy.problems import described, fault, show, way_out
+from tumato_symbolic.policy.records import Certificate, DecisionDiagram, RankedGoal, Table, Vocabulary
 from tumato_symbolic.policy.shape import as_list, as_names, as_object, as_text, as_whole, member, parse_json, wrong
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import Ordering
@@ -21,20 +21,30 @@ UNREALIZABLE = "unrealizable"
 """The `Type` of certificates for the answer no."""
 
 
-def loads(text: str, name: str = "policy") -> Policy:
+class PolicyFields(NamedTuple):
+    """The fields of a `Policy`."""
+
+    vocabulary: Vocabulary
+    decisions: Table | DecisionDiagram
+    ordering: Ordering | None
+    digest: str | None
+    certificate: Certificate | None
+    certificate_problem: str | None
+
+
+def policy_fields(text: str, name: str) -> PolicyFields:
     """The policy that `text` describes; `name` is what it is called in messages.
 
-    Raises `UserError` (TUM501 to TUM508) for text that is no policy. A certificate that cannot be used is set aside
-    and `Policy.certificate_problem` tells why.
+    Raises `UserError` (TUM501 to TUM508).
     """
     try:
-        return policy_of(as_object(parse_json(text, name), "the policy"))
+        return fields_of(as_object(parse_json(text, name), "the policy"))
     except UserError as error:
         raise UserError(error.diagnostics, error.source or Source(name, "")) from None
 
 
-def policy_of(document: dict[str, Any]) -> Policy:
-    """The policy that a JSON object describes. Raises `UserError` as `loads` does."""
+def fields_of(document: dict[str, Any]) -> PolicyFields:
+    """The policy that a JSON object describes. Raises `UserError`."""
     form = as_text(member(document, "Type", "the policy"), "`Type`")
     if form == UNREALIZABLE:
         message = "this is a certificate that a specification has no policy; there is nothing to decide by it"
@@ -49,7 +59,7 @@ def policy_of(document: dict[str, Any]) -> Policy:
     section = member(document, body, f"a policy of type {show(form)}")
     decisions = _table(section, vocabulary) if form == "policy" else _decision_diagram(section, vocabulary)
     certificate, problem = _certificate(document, vocabulary)
-    return Policy(vocabulary, decisions, read_ordering(document), read_digest(document), certificate, problem)
+    return PolicyFields(vocabulary, decisions, read_ordering(document), read_digest(document), certificate, problem)
 
 
 def check_version(document: dict[str, Any]) -> None:

@@ -8,13 +8,22 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from tumato_symbolic.diagnostics import Code, UserError
+from tumato_symbolic.diagrams import (
+    EVERYTHING,
+    LEAVES,
+    MOST_CUBES,
+    NOTHING,
+    Coverer,
+    Cube,
+    Sets,
+    TooManyCubes,
+    room_for,
+)
 from tumato_symbolic.limits import Context, LimitReachedError
 from tumato_symbolic.policy.convert import as_diagram
-from tumato_symbolic.policy.cover import MOST_CUBES, Coverer, TooManyCubes
-from tumato_symbolic.policy.deep import room_for
-from tumato_symbolic.policy.model import DecisionDiagram, Policy, Vocabulary
+from tumato_symbolic.policy.policy import Policy
 from tumato_symbolic.policy.problems import fault
-from tumato_symbolic.policy.sets import EVERYTHING, LEAVES, NOTHING, Cube, Sets
+from tumato_symbolic.policy.records import DecisionDiagram, Vocabulary
 from tumato_symbolic.semantics import ActionSet
 
 _Region: TypeAlias = tuple[ActionSet, int]

@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
-from tumato_symbolic.policy.diagram import Diagram, Reference
-from tumato_symbolic.policy.model import RankedGoal, Vocabulary
+from tumato_symbolic.diagrams import Diagram, Reference
+from tumato_symbolic.policy.records import RankedGoal, Vocabulary
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import Assignment, Ordering
 

@@ -7,8 +7,7 @@ from typing import Any, Literal, TypeVar
 
 from tumato_symbolic.diagnostics import Code
 from tumato_symbolic.diagnostics.wording import count
-from tumato_symbolic.policy.diagram import Diagram, Reference, rebuild
-from tumato_symbolic.policy.model import RankedGoal, Vocabulary
+from tumato_symbolic.diagrams import Diagram, Reference, rebuild
 from tumato_symbolic.policy.problems import fault, show, way_out
 from tumato_symbolic.policy.read import (
     UNREALIZABLE,
@@ -18,6 +17,7 @@ from tumato_symbolic.policy.read import (
     read_ordering,
     read_vocabulary,
 )
+from tumato_symbolic.policy.records import RankedGoal, Vocabulary
 from tumato_symbolic.policy.shape import as_list, as_names, as_object, as_text, as_whole, member, wrong
 from tumato_symbolic.policy.unrealizable import (
     Choice,

@@ -6,10 +6,11 @@ from collections.abc import Iterable, Iterator
 from json import dumps as _json
 from typing import Any
 
+from tumato_symbolic.diagrams import Diagram, rebuild
 from tumato_symbolic.policy.convert import as_diagram
-from tumato_symbolic.policy.diagram import Diagram, rebuild
-from tumato_symbolic.policy.model import Certificate, DecisionDiagram, Policy, Table, Vocabulary
+from tumato_symbolic.policy.policy import Policy
 from tumato_symbolic.policy.read import FORMAT_VERSION
+from tumato_symbolic.policy.records import Certificate, DecisionDiagram, Table, Vocabulary
 from tumato_symbolic.policy.shape import MAX_BYTES, too_large
 
 FRAMEWORK_VERSION = "0.0.0"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Sequence
 from typing import Generic, TypeVar
 
-from tumato_symbolic.policy.diagram import DiagramBuilder, Reference
+from tumato_symbolic.diagrams import DiagramBuilder, Reference
 from tumato_symbolic.symbolic.encoding import Encoding, number_bits
 from tumato_symbolic.symbolic.manager import Bdd
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from tumato_symbolic.policy import Certificate, DecisionDiagram, DiagramBuilder, Policy, RankedGoal, Vocabulary
-from tumato_symbolic.policy.minimize import minimized_decisions, minimized_ranks
+from tumato_symbolic.diagrams import DiagramBuilder
+from tumato_symbolic.policy import Certificate, DecisionDiagram, Policy, RankedGoal, Vocabulary
+from tumato_symbolic.policy.compact import minimized_decisions, minimized_ranks
 from tumato_symbolic.semantics import Residual, action_names
 from tumato_symbolic.spec import Spec, canonical_text, digest
 from tumato_symbolic.symbolic import Bdd, Extractor

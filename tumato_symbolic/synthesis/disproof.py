@@ -6,8 +6,9 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations
 from math import prod
 
-from tumato_symbolic.policy import DiagramBuilder, RankedGoal, Vocabulary
-from tumato_symbolic.policy.minimize import minimized_layers
+from tumato_symbolic.diagrams import DiagramBuilder
+from tumato_symbolic.policy import RankedGoal, Vocabulary
+from tumato_symbolic.policy.compact import minimized_layers
 from tumato_symbolic.policy.unrealizable import (
     Choice,
     Conflict,

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from tumato_symbolic.diagnostics import Diagnostic
-from tumato_symbolic.policy.model import Policy
+from tumato_symbolic.policy import Policy
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Ordering
 

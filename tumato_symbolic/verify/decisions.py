@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
 from operator import itemgetter
 
+from tumato_symbolic.diagrams import Diagram, DiagramBuilder, Reference
+from tumato_symbolic.policy import Policy, Table
 from tumato_symbolic.policy.convert import as_table
-from tumato_symbolic.policy.diagram import Diagram, DiagramBuilder, Reference
-from tumato_symbolic.policy.model import Policy, Table
 from tumato_symbolic.semantics import (
     ActionSet,
     Residual,

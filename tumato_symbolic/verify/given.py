@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from tumato_symbolic.policy.diagram import Reference
-from tumato_symbolic.policy.model import Certificate, Policy
+from tumato_symbolic.diagrams import Reference
+from tumato_symbolic.policy import Certificate, Policy
 from tumato_symbolic.semantics import Residual, State, action_names, named
 from tumato_symbolic.spec import Spec, canonical_text, digest, executing_atoms
 from tumato_symbolic.verify.result import CertificateUse

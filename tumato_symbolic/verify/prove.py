@@ -9,8 +9,8 @@ from dataclasses import replace
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.limits import Budget, Context, LimitReachedError
 from tumato_symbolic.limits.processes import can_fork
+from tumato_symbolic.policy import Policy
 from tumato_symbolic.policy.bind import bind, made_for_less
-from tumato_symbolic.policy.model import Policy
 from tumato_symbolic.semantics import all_states, count_states, is_valid
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.decisions import LARGEST_TABLE, Decisions

@@ -7,8 +7,8 @@ from functools import cached_property, partial
 from typing import TYPE_CHECKING, Protocol
 
 from tumato_symbolic.limits import Budget
+from tumato_symbolic.policy import Policy, Table
 from tumato_symbolic.policy.convert import count_defined
-from tumato_symbolic.policy.model import Policy, Table
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.by_states.prover import StateProver
 from tumato_symbolic.verify.by_walk.prover import WalkProver

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from tumato_symbolic.policy.model import Certificate
+from tumato_symbolic.policy import Certificate
 from tumato_symbolic.semantics import ActionSet, Residual
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.verify.by_states.packed import Code, Packing

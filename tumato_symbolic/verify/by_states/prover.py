@@ -7,8 +7,8 @@ from functools import cached_property
 from itertools import islice
 
 from tumato_symbolic.limits import Context
+from tumato_symbolic.policy import Policy, Table
 from tumato_symbolic.policy.convert import as_table
-from tumato_symbolic.policy.model import Policy, Table
 from tumato_symbolic.semantics import ActionSet, State, duration, follow, objections
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.by_states.claims import Claims

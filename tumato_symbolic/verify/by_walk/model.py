@@ -11,7 +11,7 @@ import operator
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 
-from tumato_symbolic.policy.model import DecisionDiagram
+from tumato_symbolic.policy import DecisionDiagram
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import And, Constant, Executing, Formula, Iff, Is, Not, Or, Ordering, Spec
 from tumato_symbolic.verify.by_walk.order import conflicting, disagreeing, exclusive_groups, walk_order

@@ -6,7 +6,7 @@ import operator
 from collections.abc import Callable
 from functools import cached_property
 
-from tumato_symbolic.policy.model import Policy
+from tumato_symbolic.policy import Policy
 from tumato_symbolic.semantics import Residual
 from tumato_symbolic.verify.by_walk.goals import WalkGoals
 from tumato_symbolic.verify.by_walk.model import Model

@@ -13,7 +13,7 @@ from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from math import prod
 from typing import TypeAlias, TypeVar
 
-from tumato_symbolic.policy.diagram import Diagram, Leaf
+from tumato_symbolic.diagrams import Diagram, Leaf
 
 Function: TypeAlias = int
 """A function, by its number."""

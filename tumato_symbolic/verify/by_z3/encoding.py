@@ -7,7 +7,7 @@ from typing import Any
 
 import z3
 
-from tumato_symbolic.policy.diagram import Diagram, Reference
+from tumato_symbolic.diagrams import Diagram, Reference
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import And, Assignment, Constant, Executing, Formula, Iff, Is, Not, Or, Spec
 from tumato_symbolic.verify.by_z3.terms import (

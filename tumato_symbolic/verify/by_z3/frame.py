@@ -10,7 +10,7 @@ from typing import Any
 import z3
 
 from tumato_symbolic.limits import Budget
-from tumato_symbolic.policy.model import DecisionDiagram
+from tumato_symbolic.policy import DecisionDiagram
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.verify.by_z3.encoding import (

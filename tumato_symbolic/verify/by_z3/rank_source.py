@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tumato_symbolic.policy.model import Policy
+from tumato_symbolic.policy import Policy
 from tumato_symbolic.semantics import Residual, State
 from tumato_symbolic.spec import Ordering
 from tumato_symbolic.verify.by_z3.frame import Frame

@@ -10,7 +10,7 @@ from typing import TypeAlias
 
 import z3
 
-from tumato_symbolic.policy.diagram import Diagram, Reference
+from tumato_symbolic.diagrams import Diagram, Reference
 from tumato_symbolic.semantics import Residual, State
 from tumato_symbolic.verify.by_z3.encoding import Place, diagram_terms
 from tumato_symbolic.verify.by_z3.frame import Frame

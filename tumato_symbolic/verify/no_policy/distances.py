@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from tumato_symbolic.policy.diagram import Diagram, Reference
+from tumato_symbolic.diagrams import Diagram, Reference
 from tumato_symbolic.semantics import State
 from tumato_symbolic.verify.by_z3.encoding import Place, diagram_terms
 from tumato_symbolic.verify.by_z3.step_counts import StepCounts

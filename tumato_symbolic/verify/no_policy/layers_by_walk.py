@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from tumato_symbolic.policy.diagram import Diagram, DiagramBuilder, Reference
-from tumato_symbolic.policy.model import DecisionDiagram
+from tumato_symbolic.diagrams import Diagram, DiagramBuilder, Reference
+from tumato_symbolic.policy import DecisionDiagram
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.by_walk.model import Model

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tumato_symbolic.policy.diagram import Diagram
+from tumato_symbolic.diagrams import Diagram
 from tumato_symbolic.policy.unrealizable import Layers, NoPlan
 from tumato_symbolic.semantics import Residual, State, is_valid, residual_goal
 from tumato_symbolic.verify.by_walk.walk import BudgetError

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from tumato_symbolic.diagrams.diagram import Reference
+from tumato_symbolic.diagrams.sets import EVERYTHING, NOTHING, Cube, Sets
 from tumato_symbolic.limits import Context
-from tumato_symbolic.policy.diagram import Reference
-from tumato_symbolic.policy.sets import EVERYTHING, NOTHING, Cube, Sets
 
 MOST_CUBES = 2_000
 """Covers of more cubes are given up, unless another limit is asked for."""

@@ -3,41 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
-from tumato_symbolic.policy.deep import room_for
-from tumato_symbolic.policy.diagram import Diagram, Leaf, Reference, rebuild
-from tumato_symbolic.policy.model import Certificate, DecisionDiagram, RankedGoal
-from tumato_symbolic.policy.sets import EVERYTHING, LEAVES, NOTHING, Sets
-
-if TYPE_CHECKING:
-    from tumato_symbolic.policy.unrealizable import NoPlan
+from tumato_symbolic.diagrams.diagram import Diagram, Leaf, Reference, rebuild
+from tumato_symbolic.diagrams.recursion import room_for
+from tumato_symbolic.diagrams.sets import EVERYTHING, LEAVES, NOTHING, Sets
 
 
-def minimized_decisions(decisions: DecisionDiagram, sizes: Sequence[int]) -> DecisionDiagram:
-    """The same decisions in every state that is defined; elsewhere actions are whatever makes the diagram small."""
-    diagram, (defined, *roots) = _smallest(
-        decisions.diagram, decisions.roots, sizes, (decisions.diagram, decisions.defined), [decisions.defined]
-    )
-    return DecisionDiagram(diagram, tuple(roots), defined)
-
-
-def minimized_ranks(
-    certificate: Certificate, sizes: Sequence[int], states: tuple[Diagram[bool], Reference]
-) -> Certificate:
-    """The same ranks in all `states`, a diagram in the same order and a root of it; elsewhere they mean nothing."""
-    ranks, roots = _smallest(certificate.ranks, [goal.root for goal in certificate.goals], sizes, states)
-    goals = zip(certificate.goals, roots, strict=True)
-    return Certificate(ranks, tuple(RankedGoal(goal.bodies, goal.executed, root) for goal, root in goals))
-
-
-def minimized_layers(reason: NoPlan, sizes: Sequence[int], states: Reference) -> NoPlan:
-    """The same layers in all `states`, a root of the same diagram; elsewhere they mean nothing."""
-    diagram = reason.diagram
-    return reason.drawn(*_smallest(diagram, reason.roots, sizes, (diagram, states)))
-
-
-def _smallest(
+def smallest(
     diagram: Diagram[Leaf],
     roots: Sequence[Reference],
     sizes: Sequence[int],

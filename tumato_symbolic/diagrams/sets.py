@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from math import prod
 from typing import TypeAlias
 
-from tumato_symbolic.policy.diagram import Diagram, Leaf, Node, Reference, rebuild
+from tumato_symbolic.diagrams.diagram import Diagram, Leaf, Node, Reference, rebuild
 
 NOTHING: Reference = 0
 EVERYTHING: Reference = 1

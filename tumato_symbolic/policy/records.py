@@ -1,18 +1,13 @@
-"""Policies and certificates as data, independent of any specification."""
+"""What policies and certificates are made of, independent of any specification."""
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
 
-from tumato_symbolic.policy.diagram import Diagram, Reference
+from tumato_symbolic.diagrams import Diagram, Reference
 from tumato_symbolic.semantics import ActionSet, State
-from tumato_symbolic.spec import Ordering, Spec
-
-if TYPE_CHECKING:
-    from tumato_symbolic.policy.decide import Decider
+from tumato_symbolic.spec import Spec
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,42 +70,3 @@ class Certificate:
 
     ranks: Diagram[int | None]
     goals: tuple[RankedGoal, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Policy:
-    """What to do in every valid state.
-
-    `digest` identifies the meaning of the specification that the policy was made for; it, the effect ordering and
-    the certificate are None in a policy that does not record them (such as one made by Tumato 2.0).
-    `certificate_problem` tells why a certificate that came with the policy was set aside.
-    """
-
-    vocabulary: Vocabulary
-    decisions: Table | DecisionDiagram
-    ordering: Ordering | None = None
-    digest: str | None = None
-    certificate: Certificate | None = None
-    certificate_problem: str | None = None
-    _decider: Decider | None = field(default=None, init=False, repr=False, compare=False)
-
-    @classmethod
-    def load(cls, path: str | os.PathLike[str]) -> Policy:
-        """Read a policy file (`-` is standard input). Raises `UserError` where it cannot be used."""
-        from tumato_symbolic.policy.files import load
-
-        return load(os.fspath(path))
-
-    def decide(self, state: Mapping[str, str]) -> tuple[str, ...]:
-        """The actions to execute in `state` (value by variable), in the order of declaration; `()` is: none.
-
-        Raises `UndecidedState` where the policy says nothing of the state, and `UserError` where `state` does not
-        give every variable of the policy one of its values, and nothing else.
-        """
-        decider = self._decider
-        if decider is None:
-            from tumato_symbolic.policy.decide import make_decider
-
-            decider = make_decider(self)
-            object.__setattr__(self, "_decider", decider)
-        return decider.decide(state)

@@ -1,0 +1,35 @@
+"""Policies and certificates in smaller diagrams, equal wherever they mean something."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from tumato_symbolic.diagrams import Diagram, Reference, smallest
+from tumato_symbolic.policy.records import Certificate, DecisionDiagram, RankedGoal
+
+if TYPE_CHECKING:
+    from tumato_symbolic.policy.unrealizable import NoPlan
+
+
+def minimized_decisions(decisions: DecisionDiagram, sizes: Sequence[int]) -> DecisionDiagram:
+    """The same decisions in every state that is defined; elsewhere actions are whatever makes the diagram small."""
+    diagram, (defined, *roots) = smallest(
+        decisions.diagram, decisions.roots, sizes, (decisions.diagram, decisions.defined), [decisions.defined]
+    )
+    return DecisionDiagram(diagram, tuple(roots), defined)
+
+
+def minimized_ranks(
+    certificate: Certificate, sizes: Sequence[int], states: tuple[Diagram[bool], Reference]
+) -> Certificate:
+    """The same ranks in all `states`, a diagram in the same order and a root of it; elsewhere they mean nothing."""
+    ranks, roots = smallest(certificate.ranks, [goal.root for goal in certificate.goals], sizes, states)
+    goals = zip(certificate.goals, roots, strict=True)
+    return Certificate(ranks, tuple(RankedGoal(goal.bodies, goal.executed, root) for goal, root in goals))
+
+
+def minimized_layers(reason: NoPlan, sizes: Sequence[int], states: Reference) -> NoPlan:
+    """The same layers in all `states`, a root of the same diagram; elsewhere they mean nothing."""
+    diagram = reason.diagram
+    return reason.drawn(*smallest(diagram, reason.roots, sizes, (diagram, states)))
