@@ -202,6 +202,17 @@ def test_missing_row_fails_total(tmp_path: Path) -> None:
     assert "no decision in (S_Location corridor, S_Battery low, S_Load loaded, S_Conveyor on)" in answer.out
 
 
+def test_an_undecided_outcome_is_named_with_its_decision(tmp_path: Path) -> None:
+    """Of the states without a decision, one that a decision leads to is told first, and which decision that is."""
+    document = json.loads(amr_policy())
+    rows = document["Policy"]
+    gone = {"S_Location": "charger", "S_Battery": "ok", "S_Load": "free", "S_Conveyor": "off"}
+    document["Policy"] = [row for row in rows if any(row[name] != value for name, value in gone.items())]
+    answer = ask(tmp_path, json.dumps(document), AMR)
+    assert answer.failing == {"total": 1} or "goals" in answer.failing
+    assert "which is an outcome of a decision: in (S_Location charger, S_Battery low" in answer.out
+
+
 def test_unsafe_decision_names_the_rule(tmp_path: Path) -> None:
     """Where an outcome breaks a state rule, the outcome and the line of the rule are told."""
     answer = ask(tmp_path, decide("workstation_1", "on", "move_to_corridor"), AMR)

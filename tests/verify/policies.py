@@ -19,6 +19,7 @@ from tumato_symbolic.semantics import (
     is_safe,
     is_valid,
     judge,
+    outcomes,
     reached,
     residual_goal,
     successor,
@@ -45,6 +46,17 @@ def near_policies(spec: Spec, ordering: Ordering, random: Random, count: int = 3
         state: random.choice(sets) if sets and random.random() < 0.8 else any_set(spec, random)
         for state, sets in options.items()
         if random.random() < 0.95
+    }
+
+
+def leaving(spec: Spec, rows: Rows, ordering: Ordering) -> set[tuple[State, State]]:
+    """Decided states with an outcome that is valid and undecided, each with that outcome."""
+    decided = {state: chosen for state, chosen in rows.items() if is_valid(spec, state)}
+    return {
+        (state, after)
+        for state, chosen in decided.items()
+        for after in outcomes(spec, state, chosen, ordering)
+        if after not in decided and is_valid(spec, after)
     }
 
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Final
 
 from tumato_symbolic.report.layout import Paint, count, enumeration, every, seconds
-from tumato_symbolic.report.reasons import Place, broken_here, objection_text
-from tumato_symbolic.semantics import Run, action_names, duration, named
+from tumato_symbolic.report.reasons import Place, broken_here, objection_text, story
+from tumato_symbolic.semantics import Outcome, Run, action_names, duration, named
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.result import PropertyName, PropertyResult, Refutation, Verification
 
@@ -84,7 +85,7 @@ def refutation_text(place: Place, refutation: Refutation) -> str:
     if broken := broken_here(place, state):
         lines.append(f"({broken})")
     if refutation.decision is None:
-        return "\n".join((*lines, "the policy decides nothing"))
+        return "\n".join((*lines, "the policy decides nothing", *_way_there(place, refutation)))
     lines.append(f"the policy executes {place.actions(refutation.decision)}")
     spec = place.spec
     match refutation:
@@ -103,6 +104,16 @@ def refutation_text(place: Place, refutation: Refutation) -> str:
             )
             lines += _run_lines(place, refutation.run) if refutation.run else []
     return "\n".join(lines)
+
+
+def _way_there(place: Place, refutation: Refutation) -> Iterator[str]:
+    """How a policy gets to a state that it does not decide, or that it does not."""
+    departure = refutation.departure
+    if departure is not None:
+        yield f"although in {place.state(departure.state)} it executes {place.actions(departure.decision)},"
+        yield f"an outcome of which it is: {story(place, departure.outcome)}"
+    elif refutation.closed:
+        yield "(no outcome of a decision is undecided: from a decided state, no run gets there)"
 
 
 _ENDS: Final = {
@@ -146,6 +157,10 @@ def _property_json(spec: Spec, result: PropertyResult) -> dict[str, object]:
     }
 
 
+def _outcome_json(spec: Spec, outcome: Outcome) -> list[dict[str, object]]:
+    return [{"action": spec.actions[step.action].name, "after": named(spec, step.after)} for step in outcome]
+
+
 def _refutation_json(spec: Spec, refutation: Refutation) -> dict[str, object]:
     state, decision, objection, run = refutation.state, refutation.decision, refutation.objection, refutation.run
     found: dict[str, object] = {
@@ -153,16 +168,23 @@ def _refutation_json(spec: Spec, refutation: Refutation) -> dict[str, object]:
         "state": named(spec, state) if state is not None else None,
         "decision": list(action_names(spec, decision)) if decision is not None else None,
     }
+    if refutation.kind == "missing":
+        departure = refutation.departure
+        found["closed"] = refutation.closed
+        found["departure"] = None
+        if departure is not None:
+            found["departure"] = {
+                "state": named(spec, departure.state),
+                "decision": list(action_names(spec, departure.decision)),
+                "outcome": _outcome_json(spec, departure.outcome),
+            }
     if objection is not None:
         found["objection"] = {
             "kind": objection.kind,
             "actions": [spec.actions[number].name for number in objection.actions],
             "rule": " ".join(objection.rule.text.split()) if objection.rule else None,
             "line": objection.rule.span.line if objection.rule else None,
-            "outcome": [
-                {"action": spec.actions[step.action].name, "after": named(spec, step.after)}
-                for step in objection.outcome
-            ],
+            "outcome": _outcome_json(spec, objection.outcome),
         }
     if run is not None:
         found["run"] = {

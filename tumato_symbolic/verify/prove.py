@@ -13,6 +13,7 @@ from tumato_symbolic.policy import Policy
 from tumato_symbolic.policy.bind import bind, made_for_less
 from tumato_symbolic.semantics import all_states, count_states, is_valid
 from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.verify.closure import with_departure
 from tumato_symbolic.verify.decisions import LARGEST_TABLE, Decisions
 from tumato_symbolic.verify.provers import Prover, make_prover
 from tumato_symbolic.verify.result import (
@@ -74,6 +75,9 @@ def verify(
             results.append(result)
             so_far = replace(so_far, certificate=chosen.use)
             _learn(context, so_far, results, asked)
+            if result.refutation is not None and result.refutation.kind == "missing":
+                refutation = with_departure(result.refutation, spec, Decisions(spec, bound), judged, context)
+                results[-1] = replace(result, refutation=refutation)
         context.tell("counting the valid states")
         return _counted(_with(so_far, results), bound, spec, chosen.valid_states())
     except LimitReachedError as limit:

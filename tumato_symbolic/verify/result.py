@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
-from tumato_symbolic.semantics import ActionSet, Objection, Run, State
+from tumato_symbolic.semantics import ActionSet, Objection, Outcome, Run, State
 from tumato_symbolic.spec import Ordering
 
 Verdict: TypeAlias = Literal["proved", "refuted", "undecided"]
@@ -19,9 +19,20 @@ PROPERTIES: tuple[PropertyName, ...] = ("total", "safe", "goals", "minimal")
 
 
 @dataclass(frozen=True, slots=True)
+class Departure:
+    """A state and what the policy does there, with an outcome that it does not decide."""
+
+    state: State
+    decision: ActionSet
+    outcome: Outcome
+
+
+@dataclass(frozen=True, slots=True)
 class Refutation:
     """A state in which a property fails, what the policy does there, and the witness for it.
 
+    `missing` comes with `departure`, the way from a decided state to this one, or is `closed`: no outcome of a decision
+    is undecided. It has neither where there were too many to look at.
     `not-allowed` comes with `objection`, the first condition that fails; `goal-missed` with `run`, the run that loops,
     ends without a decision or exceeds the bound; `not-minimal` with `cheaper`, the cheapest set that serves as well,
     and its `run`. `ordering` has no state: the policy records `first` where the specification means `any`.
@@ -33,6 +44,8 @@ class Refutation:
     objection: Objection | None = None
     run: Run | None = None
     cheaper: ActionSet | None = None
+    departure: Departure | None = None
+    closed: bool = False
 
 
 @dataclass(frozen=True, slots=True)

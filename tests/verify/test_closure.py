@@ -1,0 +1,98 @@
+"""What a report says of a policy that leaves valid states undecided: whether it gets there, and how."""
+
+from __future__ import annotations
+
+import json
+from random import Random
+
+import pytest
+
+from tests.generate import PROFILES, random_spec
+from tests.verify.policies import leaving, near_policies
+from tumato_symbolic import parse
+from tumato_symbolic.policy import policy_from_rows
+from tumato_symbolic.report.proof import proof_json, refutation_text
+from tumato_symbolic.report.reasons import Place
+from tumato_symbolic.semantics import ActionSet, State, all_states, is_valid
+from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.verify import ProverName, Refutation, closure, verify
+
+PROVERS: tuple[ProverName, ...] = ("z3", "walk", "explicit")
+
+
+def total(spec: Spec, rows: dict[State, ActionSet], ordering: Ordering, prover: ProverName) -> Refutation | None:
+    """The refutation of *total*."""
+    policy = policy_from_rows(spec, rows, ordering)
+    (result,) = verify(policy, spec, ordering=ordering, properties=("total",), prover=prover).properties
+    return result.refutation
+
+
+@pytest.mark.parametrize("ordering", ["any", "first"])
+@pytest.mark.parametrize("profile", sorted(PROFILES))
+def test_an_undecided_outcome_is_the_witness(profile: str, ordering: Ordering) -> None:
+    """Where a decision has one, every prover names it, and the same; where none has, the policy is closed."""
+    for seed in range(4):
+        spec, random = random_spec(seed, PROFILES[profile]), Random(seed)
+        for policy in near_policies(spec, ordering, random, 1):
+            rows = {state: chosen for state, chosen in policy.items() if random.random() < 0.7}
+            if all(state in rows for state in all_states(spec) if is_valid(spec, state)):
+                continue
+            found = [total(spec, rows, ordering, prover) for prover in PROVERS]
+            exits = leaving(spec, rows, ordering)
+            for each in found:
+                assert each is not None
+                assert each.closed == (not exits)
+                if each.departure is None:
+                    assert not exits
+                else:
+                    assert each.departure.state == min(state for state, _ in exits)
+                    assert (each.departure.state, each.state) in exits
+                    assert each.departure.outcome[-1].after == each.state
+            assert len({(each.state, each.departure) for each in found if each and exits}) == bool(exits)
+
+
+ROWS = """
+BEGIN STATE VECTOR
+  state S_Place can be hall, lab, roof
+END STATE VECTOR
+BEGIN ACTIONS
+  action go  preconditions: S_Place is hall  nominal effects: S_Place is lab  alternative effects: S_Place is roof
+END ACTIONS
+"""
+
+
+def test_a_report_tells_the_way() -> None:
+    """A person reads the decision and the effects; a program gets them as data."""
+    spec = parse(ROWS)
+    go, nothing = frozenset((0,)), frozenset[int]()
+    found = total(spec, {(0,): go, (1,): nothing}, "any", "z3")
+    assert found is not None
+    assert refutation_text(Place(spec, "a.tum"), found).splitlines() == [
+        "in the state S_Place=roof",
+        "the policy decides nothing",
+        "although in S_Place=hall it executes {go},",
+        "an outcome of which it is: go takes an alternative effect (S_Place=roof; a.tum:6)",
+    ]
+    policy = policy_from_rows(spec, {(0,): go, (1,): nothing}, "any")
+    told = proof_json(spec, verify(policy, spec))["properties"]["total"]["refutation"]  # type: ignore[index]
+    assert json.loads(json.dumps(told)) == {
+        "kind": "missing",
+        "state": {"S_Place": "roof"},
+        "decision": None,
+        "closed": False,
+        "departure": {
+            "state": {"S_Place": "hall"},
+            "decision": ["go"],
+            "outcome": [{"action": "go", "after": {"S_Place": "roof"}}],
+        },
+    }
+    closed = total(spec, {(1,): nothing}, "any", "walk")
+    assert closed is not None
+    assert refutation_text(Place(spec, "a.tum"), closed).endswith("no run gets there)")
+
+
+def test_too_many_outcomes_are_left_open(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Then the witness is a state without a decision, and nothing is said of the way there."""
+    monkeypatch.setattr(closure, "MOST_OUTCOMES", 0)
+    found = total(parse(ROWS), {(0,): frozenset((0,)), (1,): frozenset()}, "any", "explicit")
+    assert found == Refutation("missing", (2,))

@@ -1,0 +1,37 @@
+"""Whether what a policy decides is closed: no outcome of a decision is a valid state without one."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from tumato_symbolic.limits import Context
+from tumato_symbolic.semantics import is_valid, outcomes_in_turn
+from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.verify.decisions import Decisions
+from tumato_symbolic.verify.result import Departure, Refutation
+
+MOST_OUTCOMES = 200_000
+"""After so many outcomes it is left open."""
+
+
+def with_departure(
+    refutation: Refutation, spec: Spec, decisions: Decisions, ordering: Ordering, context: Context
+) -> Refutation:
+    """The refutation of *total* by the first outcome of a decision that is undecided, where there is one.
+
+    States come in the order of declaration, the outcomes of each with the shortest ways first. Raises
+    `LimitReachedError`.
+    """
+    rows = decisions.rows
+    if rows is None:
+        return refutation
+    looked_at = 0
+    for state, chosen in rows.items():
+        context.check()
+        for reached, way in outcomes_in_turn(spec, state, chosen, ordering):
+            if reached not in rows and is_valid(spec, reached):
+                return replace(refutation, state=reached, departure=Departure(state, chosen, way))
+            looked_at += 1
+            if looked_at > MOST_OUTCOMES:
+                return refutation
+    return replace(refutation, closed=True)
