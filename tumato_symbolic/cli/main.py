@@ -22,8 +22,8 @@ _REPORT_THIS = (
     "Please report it with the traceback above, the command and the input files."
 )
 
-_OWN_SECONDS = {"explain": 60.0, "rules": 60.0}
-"""How long a command takes at most where nothing else is asked for: what it has by then is worth having."""
+_OWN_SECONDS = {"explain": 58.0, "rules": 58.0}
+"""How long a command looks at most where nothing else is asked for, so that its report is there within a minute."""
 
 _SHORT = ("check", "decide")
 """Commands that show no progress."""
