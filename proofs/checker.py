@@ -31,6 +31,7 @@ import re
 import sys
 import traceback
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -1025,15 +1026,16 @@ class Judge:
     def undecided_states(self) -> dict[State, State | None]:
         """The valid states without a decision, each with the first decided state that it is an outcome of.
 
-        The first of those with one comes first.
+        The first of those with one comes first. Decisions with too many outcomes are passed over: these are witnesses.
         """
         origins: dict[State, State | None] = {}
         missing = {state for state in self.world.valid if state not in self.decided}
         if missing:
             for state, chosen in self.decided.items():
-                for after, _ in self.world.outcomes(state, chosen):
-                    if after in missing:
-                        origins.setdefault(after, state)
+                with suppress(TooLarge):
+                    for after, _ in self.world.outcomes(state, chosen):
+                        if after in missing:
+                            origins.setdefault(after, state)
         return origins | {state: None for state in self.world.valid if state in missing and state not in origins}
 
     def verdicts(self) -> dict[str, tuple[list[State], Callable[[State], str]]]:

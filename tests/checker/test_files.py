@@ -213,6 +213,16 @@ def test_an_undecided_outcome_is_named_with_its_decision(tmp_path: Path) -> None
     assert "which is an outcome of a decision: in (S_Location charger, S_Battery low" in answer.out
 
 
+def test_too_many_outcomes_are_no_witness(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A policy that is not total is refuted all the same."""
+    world = checker.World(checker.read_specification(AMR.encode()), "any")
+    start = world.valid[0]
+    monkeypatch.setattr(checker, "LARGEST", 0)
+    monkeypatch.setattr(checker.World, "objection", lambda *_: None)
+    judge = checker.Judge(world, lambda state: None if state == start else frozenset(("move_to_charger",)))
+    assert judge.origins == {start: None}
+
+
 def test_unsafe_decision_names_the_rule(tmp_path: Path) -> None:
     """Where an outcome breaks a state rule, the outcome and the line of the rule are told."""
     answer = ask(tmp_path, decide("workstation_1", "on", "move_to_corridor"), AMR)
