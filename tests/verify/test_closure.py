@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from random import Random
 
 import pytest
@@ -10,7 +11,7 @@ import pytest
 from tests.generate import PROFILES, random_spec
 from tests.verify.policies import leaving, near_policies
 from tumato_symbolic import parse
-from tumato_symbolic.policy import policy_from_rows
+from tumato_symbolic.policy import as_diagram, policy_from_rows
 from tumato_symbolic.report.proof import proof_json, refutation_text
 from tumato_symbolic.report.reasons import Place
 from tumato_symbolic.semantics import ActionSet, State, all_states, is_valid
@@ -20,9 +21,12 @@ from tumato_symbolic.verify import ProverName, Refutation, closure, verify
 PROVERS: tuple[ProverName, ...] = ("z3", "walk", "explicit")
 
 
-def total(spec: Spec, rows: dict[State, ActionSet], ordering: Ordering, prover: ProverName) -> Refutation | None:
-    """The refutation of *total*."""
+def total(
+    spec: Spec, rows: dict[State, ActionSet], ordering: Ordering, prover: ProverName, *, drawn: bool = False
+) -> Refutation | None:
+    """The refutation of *total*; the policy is a table, or drawn as a diagram."""
     policy = policy_from_rows(spec, rows, ordering)
+    policy = replace(policy, decisions=as_diagram(policy)) if drawn else policy
     (result,) = verify(policy, spec, ordering=ordering, properties=("total",), prover=prover).properties
     return result.refutation
 
@@ -37,7 +41,7 @@ def test_an_undecided_outcome_is_the_witness(profile: str, ordering: Ordering) -
             rows = {state: chosen for state, chosen in policy.items() if random.random() < 0.7}
             if all(state in rows for state in all_states(spec) if is_valid(spec, state)):
                 continue
-            found = [total(spec, rows, ordering, prover) for prover in PROVERS]
+            found = [total(spec, rows, ordering, prover, drawn=drawn) for prover in PROVERS for drawn in (False, True)]
             exits = leaving(spec, rows, ordering)
             for each in found:
                 assert each is not None

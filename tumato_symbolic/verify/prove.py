@@ -59,6 +59,7 @@ def verify(
     """
     context, asked = context or Context(), _asked(properties)
     bound = bind(policy, spec)
+    decisions = Decisions(spec, bound)
     judged, source = _ordering(spec, ordering)
     results: list[PropertyResult] = []
     if ordering is None and made_for_less(bound, spec):
@@ -76,10 +77,10 @@ def verify(
             so_far = replace(so_far, certificate=chosen.use)
             _learn(context, so_far, results, asked)
             if result.refutation is not None and result.refutation.kind == "missing":
-                refutation = with_departure(result.refutation, spec, Decisions(spec, bound), judged, context)
+                refutation = with_departure(result.refutation, spec, decisions, judged, context)
                 results[-1] = replace(result, refutation=refutation)
         context.tell("counting the valid states")
-        return _counted(_with(so_far, results), bound, spec, chosen.valid_states())
+        return _counted(_with(so_far, results), decisions, spec, chosen.valid_states())
     except LimitReachedError as limit:
         return stopped(_with(so_far, results, asked), str(limit))
 
@@ -110,13 +111,13 @@ def _with(so_far: Verification, results: Sequence[PropertyResult], asked: Sequen
     return replace(so_far, verdict=_overall([result.verdict for result in every]), properties=every)
 
 
-def _counted(answer: Verification, policy: Policy, spec: Spec, valid: int | None) -> Verification:
+def _counted(answer: Verification, decisions: Decisions, spec: Spec, valid: int | None) -> Verification:
     """The answer with the numbers of valid and of decided states; one by one where that is cheap, else unknown."""
     if answer.decides_all:
         return replace(answer, valid_states=valid, decided_states=valid)
     if valid is None and count_states(spec) <= LARGEST_TABLE:
         valid = sum(is_valid(spec, state) for state in all_states(spec))
-    rows = Decisions(spec, policy).rows
+    rows = decisions.rows
     return replace(answer, valid_states=valid, decided_states=None if rows is None else len(rows))
 
 
