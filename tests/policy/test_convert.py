@@ -103,3 +103,22 @@ def test_rows_become_a_policy():
     policy = policy_from_rows(spec_of(vocabulary), {(1,): frozenset(), (0,): frozenset({0})}, "first", "d", None)
     assert policy == Policy(vocabulary, Table({(0,): frozenset({0}), (1,): frozenset()}), "first", "d")
     assert list(policy.decisions.rows) == [(0,), (1,)]
+
+
+def test_a_table_takes_each_combination_of_nodes_once(monkeypatch):
+    """A diagram that reads the same below many paths is looked at once there: here 2 nodes a variable, 2^12 states."""
+    from tumato_symbolic.policy import convert
+
+    size, looked_at = 12, []
+    rows = {state: frozenset({sum(state) % 2}) for state in product(range(2), repeat=size)}
+    vocabulary = Vocabulary(tuple((f"v{number}", ("a", "b")) for number in range(size)), ("even", "odd"))
+    together = convert._together
+
+    def counted(*arguments):
+        looked_at.append(arguments)
+        return together(*arguments)
+
+    monkeypatch.setattr(convert, "_together", counted)
+    diagram = Policy(vocabulary, as_diagram(Policy(vocabulary, Table(rows))))
+    assert as_table(diagram, 2**size).rows == rows
+    assert len(looked_at) == 2 * size + 1

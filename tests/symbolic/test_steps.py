@@ -34,8 +34,11 @@ from tumato_symbolic.symbolic import (
     lasting,
     preferred,
     regions,
+    staying_in,
     targets,
 )
+from tumato_symbolic.symbolic import steps as module
+from tumato_symbolic.symbolic.encoding import Group
 from tumato_symbolic.symbolic.manager import Bdd
 
 BACKENDS: list[Backend] = sorted({"autoref", available_backend()})
@@ -210,3 +213,38 @@ def test_one_more_assumption(ordering: Ordering) -> None:
         and set(outcomes(spec, state, each, ordering)) | {successor(spec, state, each)} <= safe
     }
     assert relation(steps) == expected
+
+
+@pytest.fixture
+def taken(monkeypatch: pytest.MonkeyPatch) -> list[Group]:
+    """The groups whose effects are looked at, in turn."""
+    found, after_effect_of = list[Group](), module._after_effect_of
+
+    def counted(encoding: Encoding, group: Group, following: Bdd) -> Bdd:
+        found.append(group)
+        return after_effect_of(encoding, group, following)
+
+    monkeypatch.setattr(module, "_after_effect_of", counted)
+    return found
+
+
+@pytest.mark.parametrize("shared", [False, True])
+@pytest.mark.parametrize("all_safe", [False, True])
+def test_groups_that_write_different_variables_are_taken_once(shared: bool, all_safe: bool, taken: list[Group]) -> None:
+    """Their effects commute, so that nothing is looked at again, from the lowest group up; else they are.
+
+    Once more where an unsafe state may be left; what is not asked about may be wrong.
+    """
+    build = Build(dict.fromkeys("wxyz", "abc"))
+    for name in "wxyz":
+        build.action(f"{name}=b", [f"{name}=a x=c" if shared and name != "x" else f"{name}=a"])
+    rules = [Not(And((build.atom("w=a"), build.atom("x=b"))))]
+    spec = build.spec(state_rules=() if all_safe else rules, assumptions=rules if all_safe else ())
+    encoding = encode(spec, available_backend())
+    steps = build_steps(encoding, "any")
+    assert (len(taken) > (4 if all_safe else 8)) is shared
+    assert taken[:4] == sorted(encoding.groups, key=lambda each: encoding.manager.level(each.bits[0]), reverse=True)
+    expected = {(state, each) for state in all_states(spec) for each in allowed_sets(spec, state, "any")}
+    assert relation(steps) == {pair for pair in expected if is_valid(spec, pair[0])}
+    everywhere = staying_in(encoding, "any", steps.safe, encoding.choice_domain())
+    assert steps.candidates & everywhere == steps.allowed

@@ -63,6 +63,24 @@ def test_z3_is_asked_again(monkeypatch: pytest.MonkeyPatch) -> None:
     assert _proved_by("auto") == ["z3"] * 4
 
 
+@pytest.mark.parametrize("little", [True, False])
+def test_where_there_is_little_to_look_at_the_walk_does_not_try_for_long(
+    little: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Large ranks: the walk may remember few results, then more, and explicit-state checking comes between."""
+    asked: list[int | None] = []
+
+    def tired(_: object, name: PropertyName, most: int | None = None) -> PropertyResult:
+        asked.append(most)
+        return _tired(_, name)
+
+    monkeypatch.setattr(provers, "MANY_RANK_NODES", 0)
+    monkeypatch.setattr(provers, "FIRST_TURN", (30, 1_000 if little else 0))
+    monkeypatch.setattr(WalkProver, "prove", tired)
+    assert _proved_by("auto") == ["explicit"] * 4
+    assert asked == ([30] if little else [30, provers.SOON_REMEMBERED]) * 4
+
+
 def test_the_explicit_meaning_has_the_last_word(monkeypatch: pytest.MonkeyPatch) -> None:
     """However much there is to look at, what Z3 and the walk leave open is looked up state by state."""
     from tumato_symbolic.verify.by_z3.prover import Z3Prover

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
+from typing import TypeAlias
 
 from tumato_symbolic.diagrams import Diagram, DiagramBuilder, Reference, count_true
 from tumato_symbolic.policy.policy import Policy
 from tumato_symbolic.policy.records import Certificate, DecisionDiagram, Table, Vocabulary
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import Ordering, Spec
+
+_Roots: TypeAlias = tuple[Reference, ...]
+_Branches: TypeAlias = tuple[int, list[_Roots]]
 
 
 def policy_from_rows(
@@ -83,31 +87,36 @@ def as_table(policy: Policy, limit: int) -> Table | None:
 def _cubes(decisions: DecisionDiagram, sizes: tuple[int, ...]) -> Iterator[tuple[dict[int, int], ActionSet]]:
     """Disjoint sets of decided states, given by the variables that are fixed, and the decision of each."""
     diagram = decisions.diagram
-    pending: list[tuple[tuple[Reference, ...], dict[int, int]]] = [((decisions.defined, *decisions.roots), {})]
+    levels = [len(diagram.order)] * len(diagram.leaves) + [level for level, _ in diagram.nodes]
+    known: dict[_Roots, ActionSet | _Branches | None] = {}
+    pending: list[tuple[_Roots, dict[int, int]]] = [((decisions.defined, *decisions.roots), {})]
     while pending:
         roots, fixed = pending.pop()
-        if _is_leaf(diagram, roots[0]) and not diagram.leaves[roots[0]]:
-            continue
-        level = min((_level(diagram, root) for root in roots), default=len(diagram.order))
-        if level == len(diagram.order):
-            yield fixed, frozenset(action for action, root in enumerate(roots[1:]) if diagram.leaves[root])
-            continue
-        variable = diagram.order[level]
-        for value in range(sizes[variable]):
-            below = tuple(_below(diagram, root, level, value) for root in roots)
-            pending.append((below, {**fixed, variable: value}))
+        if roots not in known:
+            known[roots] = _together(diagram, levels, sizes, roots)
+        found = known[roots]
+        if isinstance(found, frozenset):
+            yield fixed, found
+        elif found is not None:
+            variable, branches = found
+            pending += [(below, {**fixed, variable: value}) for value, below in enumerate(branches)]
 
 
-def _is_leaf(diagram: Diagram[bool], root: Reference) -> bool:
-    return root < len(diagram.leaves)
+def _together(
+    diagram: Diagram[bool], levels: Sequence[int], sizes: Sequence[int], roots: _Roots
+) -> ActionSet | _Branches | None:
+    """What roots say together: the first of where something is decided, each other one of where its action is executed.
 
-
-def _level(diagram: Diagram[bool], root: Reference) -> int:
-    return len(diagram.order) if _is_leaf(diagram, root) else diagram.nodes[root - len(diagram.leaves)][0]
-
-
-def _below(diagram: Diagram[bool], root: Reference, level: int, value: int) -> Reference:
-    """What `root` leads to where the variable of `level` has number `value`."""
-    if _level(diagram, root) != level:
-        return root
-    return diagram.nodes[root - len(diagram.leaves)][1][value]
+    The decision; None where there is none; or the first variable that matters, and the roots for each of its values.
+    `levels` has that of every reference.
+    """
+    leaves, level = diagram.leaves, min([levels[root] for root in roots])
+    if roots[0] < len(leaves) and not leaves[roots[0]]:
+        return None
+    if level == len(diagram.order):
+        return frozenset(action for action, root in enumerate(roots[1:]) if leaves[root])
+    variable = diagram.order[level]
+    below = [
+        diagram.nodes[root - len(leaves)][1] if levels[root] == level else (root,) * sizes[variable] for root in roots
+    ]
+    return variable, list(zip(*below, strict=True))

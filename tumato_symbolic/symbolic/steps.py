@@ -108,19 +108,23 @@ def build_steps(encoding: Encoding, ordering: Ordering, within: Bdd | None = Non
     )
     candidates = valid & compatible & applicable
     allowed = candidates & encoding.all_of(rule.formula for rule in spec.reaction_rules)
-    allowed = allowed & staying_in(encoding, ordering, safe, compatible)
+    allowed = allowed & staying_in(encoding, ordering, safe, compatible, allowed)
     return Steps(encoding, ordering, valid, safe, candidates, allowed)
 
 
-def staying_in(encoding: Encoding, ordering: Ordering, safe: Bdd, among: Bdd) -> Bdd:
+def staying_in(encoding: Encoding, ordering: Ordering, safe: Bdd, among: Bdd, asked: Bdd | None = None) -> Bdd:
     """The sets whose outcomes are all in `safe`: conditions 5 and 6.
 
-    Right for compatible sets only; `among` holds these, and may hold others, if that is smaller.
+    Right for compatible sets only, and for the pairs that are `asked` about (None: all); `among` holds the compatible
+    sets, and may hold others, if that is smaller.
     """
-    stays_safe = safe & among if ordering == "first" else _always_safe(encoding, safe & among)
-    nobody = encoding.manager.intersection(encoding.idle(group) for group in encoding.groups)
-    found = (~nobody | safe) & _after_any_first_effect(encoding, stays_safe)
-    return found & nominal_predecessor(encoding, safe) if ordering == "first" else found
+    somebody = ~encoding.manager.intersection(encoding.idle(group) for group in encoding.groups)
+    asked = somebody if asked is None else asked & somebody
+    if ordering == "first":
+        found = _after_any_first_effect(encoding, safe & among, asked) & nominal_predecessor(encoding, safe)
+        return found | (safe & ~somebody)
+    stays_safe = _always_safe(encoding, safe & among)
+    return stays_safe | _after_any_first_effect(encoding, stays_safe, asked & ~safe)
 
 
 def nominal_predecessor(encoding: Encoding, target: Bdd) -> Bdd:
@@ -145,28 +149,45 @@ def compatible_sets(encoding: Encoding) -> Bdd:
 
 
 def _always_safe(encoding: Encoding, safe: Bdd) -> Bdd:
-    """`{(s, R) : s and all that any further effects of the actions R, each at most once, can lead to are safe}`.
+    r"""`{(s, R) : s and all that any further effects of the actions R, each at most once, can lead to are safe}`.
 
-    The greatest fixpoint `W(s, R) = safe(s) ∧ ∀ a ∈ R, e ∈ effects(a): W(e(s), R \\ {a})`: an action that took effect
-    is idle afterwards. Groups are taken in turn until none changes anything.
+    The greatest fixpoint `W(s, R) = safe(s) ∧ ∀ a ∈ R, e ∈ effects(a): W(e(s), R \ {a})`: an action that took effect
+    is idle afterwards. Groups are taken in turn until none changes anything; the lowest in the order first, which keeps
+    what is found small for longest. A group that has been taken is not taken again because of one that writes nothing
+    of what it writes: their effects commute.
     """
-    result, settled, turn = safe, 0, 0
-    while settled < len(encoding.groups):
-        group = encoding.groups[turn % len(encoding.groups)]
-        stronger = result & _after_effect_of(encoding, group, result)
-        settled = settled + 1 if stronger == result else 1
-        result, turn = stronger, turn + 1
+    written = [_written_by(encoding, group) for group in encoding.groups]
+    places = [encoding.manager.level(group.bits[0]) for group in encoding.groups]
+    result, waiting = safe, dict.fromkeys(sorted(range(len(places)), key=places.__getitem__, reverse=True))
+    while waiting:
+        taken = next(iter(waiting))
+        del waiting[taken]
+        stronger = result & _after_effect_of(encoding, encoding.groups[taken], result)
+        if stronger != result:
+            others = (other for other in range(len(written)) if other != taken)
+            waiting |= dict.fromkeys(other for other in others if written[other] & written[taken])
+        result = stronger
     return result
 
 
-def _after_any_first_effect(encoding: Encoding, stays_safe: Bdd) -> Bdd:
-    """`{(s, A) : (e(s), A \\ {a}) ∈ stays_safe for every a ∈ A and every effect e of a}`."""
-    return encoding.manager.intersection(_after_effect_of(encoding, group, stays_safe) for group in encoding.groups)
+def _written_by(encoding: Encoding, group: Group) -> frozenset[int]:
+    """The variables that some effect of a group's actions writes."""
+    actions = (encoding.spec.actions[action] for action in group.actions)
+    return frozenset(variable for action in actions for effect in action.effects for variable, _ in effect)
+
+
+def _after_any_first_effect(encoding: Encoding, stays_safe: Bdd, asked: Bdd) -> Bdd:
+    r"""`{(s, A) ∈ asked : (e(s), A \ {a}) ∈ stays_safe for every a ∈ A and every effect e of a}`."""
+    for group in encoding.groups:
+        if asked == encoding.manager.false:
+            break
+        asked = asked & _after_effect_of(encoding, group, stays_safe)
+    return asked
 
 
 def _after_effect_of(encoding: Encoding, group: Group, following: Bdd) -> Bdd:
     """`{(s, A) : the group is idle, or every effect of its action leads into following, where the group is idle}`."""
-    rest = encoding.manager.cofactor(following, encoding.idle_bits(group))
-    return encoding.manager.intersection(
-        ~encoding.executing(action) | encoding.after_every_effect(action, rest) for action in group.actions
-    )
+    manager = encoding.manager
+    rest = manager.cofactor(following, encoding.idle_bits(group))
+    parts = [encoding.executing(action) & encoding.after_every_effect(action, rest) for action in group.actions]
+    return manager.union([encoding.idle(group), *parts])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property, partial
+from math import inf
 from typing import TYPE_CHECKING, Protocol
 
 from tumato_symbolic.limits import Budget
@@ -30,6 +31,9 @@ look at.
 
 LITTLE = 20_000_000
 """How many outcomes and steps are listed sooner than Z3 and the walk have used up their time."""
+
+FIRST_TURN = (SOON_REMEMBERED // 10, LITTLE // 50)
+"""Where few states are decided, results of the walk, then outcomes, before the walk may remember so many."""
 
 MANY_RANK_NODES = 500
 """Ranks with more nodes than that tend to count, and then Z3 takes long."""
@@ -184,9 +188,14 @@ class _Auto(_Pair):
     def _attempts(self, name: PropertyName) -> Iterator[Callable[[], PropertyResult]]:
         """Who is asked, one after the other."""
         if self._is_large:
+            if self._may_be_little:
+                remembered, outcomes = FIRST_TURN
+                yield lambda: self._walk.prove(name, remembered)
+                if self._work <= outcomes:
+                    yield lambda: self._explicit.prove(name, LITTLE)
             yield lambda: self._walk.prove(name, SOON_REMEMBERED)
-        if self._is_large and self._is_little:
-            yield lambda: self._explicit.prove(name, LITTLE)
+            if self._is_little:
+                yield lambda: self._explicit.prove(name, LITTLE)
         if name == "safe" or not self._is_large:
             yield lambda: self._z3.prove(name, within=SOON)
         if not self._is_large and self._is_little:
@@ -207,11 +216,16 @@ class _Auto(_Pair):
     def _first(self) -> Z3Prover | WalkProver:
         return self._walk if self._is_large else self._z3
 
-    @cached_property
+    @property
     def _is_little(self) -> bool:
         """Whether all outcomes of all decisions are soon listed."""
+        return self._work <= LITTLE
+
+    @cached_property
+    def _work(self) -> float:
+        """About how many outcomes all decisions have; infinite where more states are decided than are looked at."""
         work = self._explicit.work if self._may_be_little else None
-        return work is not None and work <= LITTLE
+        return inf if work is None else work
 
     @cached_property
     def _may_be_little(self) -> bool:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from tumato_symbolic.semantics import ActionSet, Residual, active_goals
-from tumato_symbolic.spec import ConditionalGoal, Goal, GoalList, Spec, executing_atoms, variables_of
+from tumato_symbolic.semantics import ActionSet, ActiveGoals, Residual, residual_goal
+from tumato_symbolic.spec import ConditionalGoal, Goal, GoalList, Spec, variables_of
 from tumato_symbolic.verify.by_states.packed import Code, Packing, all_hold
 from tumato_symbolic.verify.by_states.steps import Steps
 
@@ -24,18 +24,18 @@ class Runs:
         self._spec, self._packing, self._steps, self._decided, self._spend = spec, packing, steps, decided, spend
         conditions = () if spec.goals is None else tuple(_condition_variables(spec.goals))
         self._mask = packing.mask(set(conditions))
-        self._active: dict[int, frozenset[int]] = {}
-        self._spoken = [executing_atoms(body.formula) for body in spec.bodies]
+        self._active: dict[int, tuple[ActiveGoals, ActionSet]] = {}
         self._known: dict[Residual, tuple[Callable[[Code], bool], dict[Code, int | None]]] = {}
 
     def residual(self, code: Code, chosen: ActionSet) -> Residual:
         """What a set, executed first in a state, leaves to be reached."""
         key = code & self._mask
-        bodies = self._active.get(key)
-        if bodies is None:
-            bodies = self._active[key] = active_goals(self._spec, self._packing.unpack(key))
-        spoken = frozenset[int]().union(*(self._spoken[body] for body in bodies))
-        return Residual(bodies, chosen & spoken)
+        if key not in self._active:
+            everything = frozenset(range(len(self._spec.actions)))
+            goal = residual_goal(self._spec, self._packing.unpack(key), everything)
+            self._active[key] = goal.bodies, goal.executed
+        bodies, spoken_of = self._active[key]
+        return Residual(bodies, chosen & spoken_of)
 
     def serves(self, code: Code, chosen: ActionSet) -> bool:
         """Whether the run that begins with a set and goes on with the policy reaches its residual goal in 1 to `L`."""
