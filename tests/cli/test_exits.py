@@ -86,7 +86,7 @@ def test_what_is_no_policy_is_2(cli: Cli, tmp_path: Path, name: str) -> None:
     """A policy that cannot be read or used: exit 2 with a diagnostic in `verify` and `decide`."""
     text = (tmp_path / "amr.json").read_text()
     (tmp_path / "half.json").write_text(text[: len(text) // 2])
-    (tmp_path / "list.json").write_text("[]")
+    Path("list.json").write_text("[]")
     (tmp_path / "empty.json").write_text("")
     for command in (("verify", name, "amr.tum"), ("decide", name, "S_Location=corridor")):
         ran = cli(*command)
@@ -331,6 +331,29 @@ def test_a_file_of_the_other_kind(cli: Cli, command: str, said: str) -> None:
     ran = cli(*command.split())
     assert (ran.code, ran.out) == (2, "")
     assert said in ran.err
+
+
+@pytest.mark.parametrize("command", ["check", "synth", "explain"])
+@pytest.mark.parametrize(
+    ("name", "said", "way_out"),
+    [
+        ("amr.json", "is a policy, but a specification belongs here", "`tumato-sym verify amr.json SPEC` proves it"),
+        ("holed.unrealizable.json", "is a certificate, but a specification", "`tumato-sym verify holed.unreal"),
+        ("package.json", "is a JSON file, but a specification belongs here", "a specification is a text of blocks"),
+        ("list.json", "is a JSON file, but a specification belongs here", "a specification is a text of blocks"),
+        ("notes.md", "unexpected `#`", "a specification is a text of blocks"),
+    ],
+)
+def test_no_specification(cli: Cli, command: str, name: str, said: str, way_out: str) -> None:
+    """Where a specification belongs, another file is said to be one, with a way out; `check` goes on with the rest."""
+    Path("package.json").write_text('{"name": "robot"}', encoding="utf-8")
+    Path("list.json").write_text("[1, 2]", encoding="utf-8")
+    Path("notes.md").write_text("# Notes\n", encoding="utf-8")
+    ran = cli(command, name, *(["amr.tum"] if command == "check" else []))
+    assert ran.code == 2
+    assert said in ran.out + ran.err
+    assert f"  help: {way_out}" in ran.out + ran.err
+    assert command != "check" or "amr.tum: no findings" in ran.out
 
 
 def test_our_own_refuted_policy_is_a_bug_and_is_not_written(

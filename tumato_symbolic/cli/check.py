@@ -54,5 +54,9 @@ def _check(path: str) -> Checked:
     except UserError as error:
         return Checked(path, error.source, None, error.diagnostics)
     loaded = load(source)
-    found = () if loaded.spec is None else suspicions(loaded.spec)
-    return Checked(path, source, loaded.spec, (*loaded.diagnostics, *found))
+    if loaded.spec is None:
+        from tumato_symbolic.cli.mixups import misplaced
+
+        other = misplaced(path)
+        return Checked(path, source, None, loaded.diagnostics if other is None else (other,))
+    return Checked(path, source, loaded.spec, (*loaded.diagnostics, *suspicions(loaded.spec)))

@@ -12,13 +12,14 @@ from tumato_symbolic.cli.parser import Options
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.diagnostics.wording import quoted
 
-Kind = Literal["specification", "policy", "certificate"]
+Kind = Literal["specification", "policy", "certificate", "JSON file"]
 
 _LOOKED_AT = 100_000
 """Bytes at the beginning of a file that tell its kind."""
 
 _BLOCK = re.compile(rb"\bBEGIN\s+[A-Z]")
 _CERTIFICATE = re.compile(rb'"Type"\s*:\s*"unrealizable"')
+_POLICY = re.compile(rb'"PolicyFrameworkVersion"|"Type"\s*:\s*"policy')
 
 
 def recognized(error: UserError, options: Options, typed: Sequence[str]) -> UserError:
@@ -26,17 +27,31 @@ def recognized(error: UserError, options: Options, typed: Sequence[str]) -> User
     policy, first = options.policy, next(iter(options.specs), "")
     found = [_kind(spec) for spec in options.specs]
     given = _kind(policy) if policy else None
-    if given == "specification" and found and found[0] not in (None, "specification"):
+    if given == "specification" and found and found[0] in ("policy", "certificate"):
         message = f"{quoted(policy)} is a specification and {quoted(first)} a {found[0]}: change their places"
         return _fault(message, _swapped(typed, policy, first))
     if given == "specification":
         help_ = f"`tumato-sym synth {shlex.quote(policy)} -o FILE` makes a policy"
         return _fault(f"{quoted(policy)} is a specification, but a policy belongs here", help_)
     for name, kind in zip(options.specs, found, strict=True):
-        if kind not in (None, "specification"):
-            message = f"{quoted(name)} is a {kind}, but a specification belongs here"
-            return _fault(message, f"`tumato-sym verify {shlex.quote(name)} SPEC` proves it")
+        other = _no_specification(name, kind)
+        if other is not None:
+            return UserError((other,))
     return error
+
+
+def misplaced(name: str) -> Diagnostic | None:
+    """That the file `name` is of another kind, where a specification belongs; None where it may be one."""
+    return _no_specification(name, _kind(name))
+
+
+def _no_specification(name: str, kind: Kind | None) -> Diagnostic | None:
+    if kind in (None, "specification"):
+        return None
+    help_ = f"`tumato-sym verify {shlex.quote(name)} SPEC` proves it"
+    if kind == "JSON file":
+        help_ = "a specification is a text of blocks, such as `BEGIN STATE VECTOR` … `END STATE VECTOR`"
+    return Diagnostic(Code.TUM501, f"{quoted(name)} is a {kind}, but a specification belongs here", help=help_)
 
 
 def _fault(message: str, help_: str) -> UserError:
@@ -59,6 +74,6 @@ def _kind(name: str) -> Kind | None:
             head = file.read(_LOOKED_AT)
     except (OSError, ValueError):
         return None
-    if head.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"{"):
-        return "certificate" if _CERTIFICATE.search(head) else "policy"
+    if head.removeprefix(b"\xef\xbb\xbf").lstrip().startswith((b"{", b"[")):
+        return "certificate" if _CERTIFICATE.search(head) else "policy" if _POLICY.search(head) else "JSON file"
     return "specification" if _BLOCK.search(head) else None

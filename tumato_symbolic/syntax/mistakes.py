@@ -97,7 +97,7 @@ def _character(here: Situation) -> Diagnostic | None:
     meant = _SYMBOLS.get(token.text)
     if here.expected == {":"}:
         meant = ":"
-    way_out = f"write `{meant}`" if meant else None
+    way_out = f"write `{meant}`" if meant else _FIRST if here.index == 0 else None
     if not token.text.isprintable() or token.text.isspace():
         way_out = "remove it, or write a plain space"
     if re.match(r"\w", token.text):
@@ -105,6 +105,7 @@ def _character(here: Situation) -> Diagnostic | None:
     return Diagnostic(Code.TUM104, f"unexpected {quoted(token.text)}", token.span, help=way_out)
 
 
+_FIRST = "a specification is a text of blocks, such as `BEGIN STATE VECTOR` … `END STATE VECTOR`"
 _NAME_HELP = "a name is a letter (A-Z, a-z) or `_`, then letters, digits and `_`"
 
 
