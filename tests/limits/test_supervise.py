@@ -17,6 +17,7 @@ from tumato_symbolic.cli import console, supervise
 from tumato_symbolic.cli.supervise import ChildCrashedError, EndedError, TerminatedError, supervised
 from tumato_symbolic.limits import Context, Limits
 from tumato_symbolic.limits.processes import can_fork, end_with
+from tumato_symbolic.policy.saving import save_text
 from tumato_symbolic.verify.children import in_children
 
 pytestmark = pytest.mark.skipif(not can_fork(), reason="there are no children here")
@@ -127,6 +128,28 @@ def test_signals_end_the_child(number: int, raised: type[BaseException]) -> None
     finally:
         signal.signal(signal.SIGINT, before)
     assert context.known == "something"
+
+
+def test_a_child_that_is_ended_while_it_writes_leaves_no_temporary_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where writing takes longer than anybody waits, the child is told to end before it is ended."""
+    monkeypatch.setattr(supervise, "PATIENCE_WITH_OUTPUT", 0.05)
+    parent = os.getpid()
+
+    def fsync(_: int) -> None:
+        os.kill(parent, signal.SIGTERM)
+        _for_ever()
+
+    def work() -> int:
+        os.fsync = fsync
+        with console.writing():
+            save_text("new", tmp_path / "policy.json", "policy")
+        return 0
+
+    with pytest.raises(TerminatedError):
+        supervised(work, Context(Limits(seconds=1000.0)))
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_child_that_crashes_is_a_bug() -> None:

@@ -2,7 +2,10 @@
 
 import io
 import os
+import signal
+import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -43,6 +46,45 @@ def test_a_failing_write_changes_nothing(tmp_path, monkeypatch, failure, step):
         assert "TUM510: the policy cannot be written: No space left on device" in str(raised.value)
     assert path.read_text() == "old"
     assert names(tmp_path) == ["policy.json"]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="Windows ends processes in another way")
+@pytest.mark.parametrize("number", ["SIGTERM", "SIGHUP", "SIGINT"])
+def test_a_process_that_is_ended_leaves_nothing(tmp_path, number):
+    """A signal that ends the process while it writes ends it, with that signal; the old file is whole and alone."""
+    path = tmp_path / "policy.json"
+    path.write_text("old")
+    code = (
+        "import os, signal, sys, time\nfrom pathlib import Path\nfrom tumato_symbolic.policy.saving import save_text\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
+        "os.fsync = lambda _: (print('writing', flush=True), time.sleep(100))\n"
+        "save_text('new', Path(sys.argv[1]), 'policy')"
+    )
+    with subprocess.Popen([sys.executable, "-c", code, path], stdout=-1, stderr=subprocess.DEVNULL) as process:
+        assert process.stdout.readline() == b"writing\n"
+        assert len(names(tmp_path)) == 2
+        process.send_signal(getattr(signal, number))
+        assert process.wait(timeout=60) == -getattr(signal, number)
+    assert (path.read_text(), names(tmp_path)) == ("old", ["policy.json"])
+
+
+def test_saving_leaves_signals_as_they_were(tmp_path, monkeypatch):
+    """Afterwards all is as before; what somebody else does with a signal is not touched meanwhile."""
+    before = signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    try:
+        found = []
+        monkeypatch.setattr(os, "fsync", lambda _: found.append(signal.getsignal(signal.SIGTERM)))
+        for handler in (signal.SIG_IGN, signal.SIG_DFL):
+            signal.signal(signal.SIGTERM, handler)
+            save(amr_like(), tmp_path / "policy.json")
+            assert signal.getsignal(signal.SIGTERM) == handler
+        assert found[0] == signal.SIG_IGN
+        assert found[1] not in (signal.SIG_IGN, signal.SIG_DFL)
+        with ThreadPoolExecutor() as threads:
+            threads.submit(save, amr_like(), tmp_path / "policy.json").result()
+        assert found[2] == signal.SIG_DFL
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 def test_a_folder_is_not_overwritten(tmp_path):

@@ -161,16 +161,20 @@ class _Watch:
             line.wipe()
 
     def kill(self) -> None:
-        """End the child, and with it its own children."""
-        if self._status is None:
-            with suppress(ProcessLookupError):
+        """End the child, and with it its own children; one that is writing may remove what is not finished."""
+        with suppress(ProcessLookupError):
+            if self._status is None and self._writing:
+                os.kill(self.child, signal.SIGTERM)
+                latest = time.monotonic() + _FAREWELL
+                while not self._reaped(os.WNOHANG) and time.monotonic() < latest:
+                    time.sleep(_TICK)
+            if self._status is None:
                 os.kill(self.child, signal.SIGKILL)
 
     def end(self) -> None:
         """Leave nothing behind."""
         self.kill()
-        if self._status is None:
-            self._status = os.waitpid(self.child, 0)[1]
+        self._reaped(0)
         while self._open and select.select([self.messages], [], [], _FAREWELL)[0]:
             self._open = bool(os.read(self.messages, 2**20))  # whoever could still send has ended when it is closed
         os.close(self.messages)
@@ -178,10 +182,15 @@ class _Watch:
 
     def _ended(self) -> bool:
         """Whether the child has ended, all that it sent having been received."""
+        ended = self._reaped(os.WNOHANG if self._open else 0)
+        return ended and not (self._open and select.select([self.messages], [], [], 0)[0])
+
+    def _reaped(self, options: int) -> bool:
+        """Whether the system says that the child has ended."""
         if self._status is None:
-            found, status = os.waitpid(self.child, os.WNOHANG if self._open else 0)
+            found, status = os.waitpid(self.child, options)
             self._status = status if found else None
-        return self._status is not None and not (self._open and select.select([self.messages], [], [], 0)[0])
+        return self._status is not None
 
     def _let_it_write(self, line: console.ProgressLine) -> None:
         """Wait for the end of an output that was begun, for a while."""

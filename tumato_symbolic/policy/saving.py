@@ -3,15 +3,22 @@
 from __future__ import annotations
 
 import os
+import signal
 import stat
-from contextlib import suppress
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
+from types import FrameType
 
 from tumato_symbolic.diagnostics import Code, Source
 from tumato_symbolic.policy.problems import fault
 
 _MOST_LINKS = 40
 """Symbolic links that are followed one after the other."""
+
+_ENDING = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name))
+"""What ends a process from outside, where nothing else is said; Windows has no SIGHUP."""
 
 
 def save_text(text: str, path: Path, what: str) -> None:
@@ -61,7 +68,7 @@ def _put(path: Path, data: bytes) -> None:
 
 def _replace(target: Path, data: bytes, old: os.stat_result | None) -> None:
     temporary = target.with_name(f".tumato-{os.urandom(8).hex()}.tmp")
-    try:
+    with _removed_if_ended(temporary):
         with temporary.open("xb") as file:
             if old is not None:
                 _resemble(temporary, old)
@@ -69,9 +76,32 @@ def _replace(target: Path, data: bytes, old: os.stat_result | None) -> None:
             file.flush()
             os.fsync(file.fileno())
         temporary.replace(target)
+
+
+@contextmanager
+def _removed_if_ended(temporary: Path) -> Iterator[None]:
+    """Leave no such file behind after an error, Ctrl-C, or a signal that ends the process, which it does all the same.
+
+    Only the main thread may say what signals do, and a signal for which somebody has said it is theirs.
+    """
+
+    def end(number: int, _: FrameType | None) -> None:
+        temporary.unlink(missing_ok=True)
+        signal.signal(number, signal.SIG_DFL)
+        signal.raise_signal(number)
+
+    ours = _ENDING if threading.current_thread() is threading.main_thread() else ()
+    ours = tuple(number for number in ours if signal.getsignal(number) is signal.SIG_DFL)
+    try:
+        for number in ours:
+            signal.signal(number, end)
+        yield
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
+    finally:
+        for number in ours:
+            signal.signal(number, signal.SIG_DFL)
 
 
 def _resemble(new: Path, old: os.stat_result) -> None:
