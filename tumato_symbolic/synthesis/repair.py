@@ -8,7 +8,7 @@ failing runs are ever touched.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from tumato_symbolic.semantics import ActionSet, State, successor
@@ -18,7 +18,9 @@ from tumato_symbolic.synthesis.judging import Judge
 from tumato_symbolic.synthesis.solver import Choices, Pick
 
 NARROW_ROUNDS = 24
-"""So many rounds explain one failing run only: a conflict, which often recurs all over the states, then shows soon."""
+"""So many rounds explain one failing run only: a conflict, which often recurs all over the states, then shows soon.
+Later rounds also cut off, once for each target, the states that lead to no target: there may be more loops than can be
+cut one by one."""
 
 RUNS_PER_ROUND = 64
 """How many failing runs are explained in every later round."""
@@ -43,7 +45,7 @@ class RoundsExhaustedError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class FailingRun:
-    """A run that owes `target` to its first state: into a loop among `states`, or along them to `end`, too far away."""
+    """A run that owes `target` to its first state: along `states` to `end`, too far away, or among them for ever."""
 
     target: int
     states: tuple[State, ...]
@@ -79,6 +81,7 @@ class Repair:
         self._cubes: dict[State, Bdd] = {}
         self._touched = problem.false
         self._rounds = 0
+        self._cut_off_in = [0] * len(distances)
         self._distance: dict[tuple[int, State], int | None] = {}
 
     def run(self) -> Bdd | Impossible:
@@ -163,27 +166,50 @@ class Repair:
 
         The run either closes a loop, or meets a state from which no continuation is short enough. In a loop, some state
         has to leave the loop's states or hit the target; before the point of no return, some state has to turn off.
+        What holds of a loop holds of any set of states that the start is in.
         """
         goal, bound = first.target, self._problem.spec.max_plan_length
         path = [start]
-        end: State | None = None
         decision, steps = first, 1
         while True:
             here = decision.successor
             distance = self._distance_to(goal, here)
             if distance is None or (bound is not None and steps + distance > bound):
-                picks, end = self._turning_off(path, here, goal), here
+                self._cut(start, goal, path, self._turning_off(path, here, goal), here)
                 break
             number = self._touch(here)
             if number in path[1:]:
-                picks = self._leaving(path, goal)
+                self._cut(start, goal, path, self._leaving(path, goal))
+                if self._rounds > NARROW_ROUNDS and self._cut_off_in[goal] < self._rounds:
+                    self._cut_off_in[goal] = self._rounds
+                    cut_off = [start, *(number for number in self._leading_nowhere(goal) if number != start)]
+                    self._cut(start, goal, cut_off, self._leaving(cut_off, goal))
                 break
             path.append(number)
             decision, steps = self._options[number][self._picked[number]], steps + 1
+        return {self._states[number] for number in path}
+
+    def _cut(self, start: int, goal: int, states: list[int], picks: Iterable[Pick], end: State | None = None) -> None:
+        """A clause, with what proves it: where the start owes the target, one of the picks is made."""
         self._choices.require(start, list(dict.fromkeys([*self._owing_else(start, goal), *picks])))
-        states = tuple(self._states[number] for number in path)
-        self._cuts.append((start, FailingRun(goal, states, end)))
-        return set(states)
+        self._cuts.append((start, FailingRun(goal, tuple(self._states[number] for number in states), end)))
+
+    def _leading_nowhere(self, goal: int) -> Iterator[int]:
+        """The touched states from where the current options lead neither to the target nor to an untouched state."""
+        leads: dict[int, bool] = {}
+        for number in range(len(self._states)):
+            way: list[int] = []
+            here: int | None = number
+            while here is not None and here not in leads:
+                leads[here] = False
+                way.append(here)
+                following = self._options[here][self._picked[here]].successor
+                leads[here] = self._distance_to(goal, following) == 0 or following not in self._numbers
+                here = None if leads[here] else self._numbers[following]
+            arrives = here is None or leads[here]
+            leads.update(dict.fromkeys(way, arrives))
+            if not arrives:
+                yield number
 
     def _owing_else(self, start: int, goal: int) -> Iterator[Pick]:
         """The options of the start that owe another target."""
