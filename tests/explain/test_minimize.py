@@ -3,7 +3,10 @@
 from itertools import combinations
 from random import Random
 
+import pytest
+
 from tumato_symbolic.explain.minimize import minimal
+from tumato_symbolic.limits import LimitReachedError
 from tumato_symbolic.synthesis.solver import HittingSets
 
 
@@ -16,6 +19,36 @@ def test_minimal_sets_are_enough_and_minimal() -> None:
         found = minimal(items, lambda some, needs=needs: any(need <= some for need in needs))
         assert any(need <= found for need in needs)
         assert not any(need <= found - {item} for need in needs for item in found)
+
+
+def test_earlier_items_are_preferred() -> None:
+    """An item is in it only where all earlier items, with the later ones that are in it, are not enough."""
+    random = Random(3)
+    for _ in range(300):
+        items = range(random.randint(1, 12))
+        needs = [frozenset(random.sample(items, random.randint(0, len(items)))) for _ in range(4)]
+        expected = frozenset(items)
+        for item in reversed(items):
+            if any(need <= expected - {item} for need in needs):
+                expected -= {item}
+        assert minimal(items, lambda some, needs=needs: any(need <= some for need in needs)) == expected
+
+
+@pytest.mark.parametrize(
+    ("size", "needed", "most"), [(200, 1, 16), (200, 5, 65), (60, 60, 70), (15, 15, 20), (1, 1, 1)]
+)
+def test_few_questions_are_asked(size: int, needed: int, most: int) -> None:
+    """About `k log(n / k)` where few items are needed, and about `n` where nearly all are."""
+    random = Random(size)
+    for _ in range(20):
+        core, asked = frozenset(random.sample(range(size), needed)), []
+
+        def enough(some: frozenset[int], core: frozenset[int] = core, asked: list[int] = asked) -> bool:
+            asked.append(len(some))
+            return core <= some
+
+        assert minimal(range(size), enough) == core
+        assert len(asked) <= most
 
 
 def test_smallest_hitting_sets_come_in_order() -> None:
@@ -44,3 +77,16 @@ def test_nothing_hits_the_empty_set() -> None:
     search = HittingSets([0, 0])
     search.require([])
     assert search.smallest() is None
+
+
+def test_the_search_for_hitting_sets_ends_in_time() -> None:
+    """Pigeons and holes, which take Z3 for ever: the search ends by the time that is left."""
+    holes, pigeons = 12, 13
+    search = HittingSets([0] * holes * pigeons, lambda: 0.2)
+    for pigeon in range(pigeons):
+        search.require([pigeon * holes + hole for hole in range(holes)])
+    for hole in range(holes):
+        for one, other in combinations(range(pigeons), 2):
+            search.exclude([one * holes + hole, other * holes + hole])
+    with pytest.raises(LimitReachedError):
+        search.smallest()

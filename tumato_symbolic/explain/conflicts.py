@@ -14,31 +14,34 @@ from tumato_symbolic.symbolic import Bdd, preferred, regions
 from tumato_symbolic.synthesis.fixpoints import distances
 from tumato_symbolic.synthesis.judging import Judge, served
 from tumato_symbolic.synthesis.problem import Problem
-from tumato_symbolic.synthesis.repair import Impossible, Repair
+from tumato_symbolic.synthesis.repair import Impossible, Repair, RoundsExhaustedError
 from tumato_symbolic.synthesis.routing import shortest_decisions
 
 
 def conflict_core(conditions: Conditions, states: Sequence[State], among: Elements) -> Elements:
-    """A minimal set of elements, out of some that suffice, because of which nothing serves the states together.
+    """A set of elements, out of some that suffice, because of which nothing serves the states together.
 
-    Where dropping assumptions makes more states valid, a run may end in those without an allowed set, but not go on.
-    Raises `RoundsExhaustedError`.
+    It is minimal, but for elements of which it cannot be found out in time whether they are needed. Where dropping
+    assumptions makes more states valid, a run may end in those without an allowed set, but not go on.
     """
     wanted = conditions.manager.union(map(conditions.encoding.state_cube, states))
     items = [each for each in conditions.elements if each in among]
-    return minimal(items, lambda kept: not served_together(conditions, wanted, kept))
+    return minimal(items, lambda kept: conflicting(conditions, wanted, kept))
 
 
-def served_together(conditions: Conditions, wanted: Bdd, kept: Elements) -> bool:
-    """Whether one policy serves these states when only some elements are kept. Raises `RoundsExhaustedError`."""
+def conflicting(conditions: Conditions, wanted: Bdd, kept: Elements) -> bool:
+    """Whether it is shown that no policy serves these states when only some elements are kept."""
     valid = conditions.steps(kept).valid
     problem = pose_kept(conditions, kept, regions(conditions.encoding, valid))
     problem = replace(problem, steps=replace(problem.steps, valid=wanted))
     ranks = distances(problem)
     if (wanted & ~served(problem, ranks, problem.steps.allowed)) != conditions.false:
-        return False
+        return True
     policy = shortest_decisions(problem, ranks, problem.steps.safe, problem.steps.allowed)
-    return not isinstance(Repair(Judge(problem), _completed(problem, policy), ranks).run(), Impossible)
+    try:
+        return isinstance(Repair(Judge(problem), _completed(problem, policy), ranks).run(), Impossible)
+    except RoundsExhaustedError:
+        return False
 
 
 def _completed(problem: Problem, policy: Bdd) -> Bdd:

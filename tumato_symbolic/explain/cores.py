@@ -10,7 +10,7 @@ from tumato_symbolic.explain.conditions import Conditions
 from tumato_symbolic.explain.cubes import disjoint_cubes, set_of
 from tumato_symbolic.explain.elements import Element, Elements
 from tumato_symbolic.explain.minimize import minimal
-from tumato_symbolic.explain.plans import failing
+from tumato_symbolic.explain.plans import Plans, failing
 from tumato_symbolic.semantics import State
 from tumato_symbolic.symbolic import Bdd
 
@@ -41,13 +41,13 @@ def failing_states(conditions: Conditions) -> Failing:
     return Failing(stuck, failing(conditions, conditions.everything, conditions.valid & ~stuck))
 
 
-def causes(conditions: Conditions, states: Failing) -> Iterator[Cause]:
+def causes(plans: Plans, states: Failing) -> Iterator[Cause]:
     """The failing states by kind and core, in no order.
 
     A typical state gives a core, and the core gives all states that have it: as many rounds as there are cores.
     """
-    yield from _no_allowed_set(conditions, states.no_allowed_set)
-    yield from _no_plan(conditions, states.no_plan)
+    yield from _no_allowed_set(plans.conditions, states.no_allowed_set)
+    yield from _no_plan(plans, states.no_plan)
 
 
 def _no_allowed_set(conditions: Conditions, left: Bdd) -> Iterator[Cause]:
@@ -59,19 +59,23 @@ def _no_allowed_set(conditions: Conditions, left: Bdd) -> Iterator[Cause]:
         left = left & ~alike
 
 
-def _no_plan(conditions: Conditions, left: Bdd) -> Iterator[Cause]:
-    hopeless = failing(conditions, frozenset(), left)
+def _no_plan(plans: Plans, left: Bdd) -> Iterator[Cause]:
+    """What fails even with nothing kept, then what does with the assumptions alone, which no repair drops."""
+    conditions = plans.conditions
+    hopeless = plans.failing(frozenset(), left)
     for region in conditions.regions.values():
         here = region & hopeless
         if here != conditions.false:
             yield Cause("no-plan", here, frozenset(), typical_state(conditions, here))
     left = left & ~hopeless
-    while left != conditions.false:
-        example = typical_state(conditions, left)
-        core = core_without_plan(conditions, example, conditions.everything)
-        alike = _having(core, left, lambda kept, states: failing(conditions, kept, states))
-        yield Cause("no-plan", alike, core, example)
-        left = left & ~alike
+    assumptions = frozenset(each for each in conditions.elements if each.kind == "assumption")
+    for blamed in (assumptions, conditions.everything):
+        while (these := plans.failing(blamed, left)) != conditions.false:
+            example = typical_state(conditions, these)
+            core = core_without_plan(plans, example, blamed)
+            alike = _having(core, left, plans.failing)
+            yield Cause("no-plan", alike, core, example)
+            left = left & ~alike
 
 
 def _having(core: Elements, left: Bdd, fail: Callable[[Elements, Bdd], Bdd]) -> Bdd:
@@ -88,11 +92,10 @@ def core_without_set(conditions: Conditions, state: State, among: Elements) -> E
     return minimal(items, lambda kept: conditions.is_stuck(state, kept))
 
 
-def core_without_plan(conditions: Conditions, state: State, among: Elements) -> Elements:
+def core_without_plan(plans: Plans, state: State, among: Elements) -> Elements:
     """A minimal set of elements, out of some that suffice, that lets a state fail."""
-    here = conditions.encoding.state_cube(state)
-    items = [each for each in conditions.elements if each in among]
-    return minimal(items, lambda kept: failing(conditions, kept, here) != conditions.false)
+    items = [each for each in plans.conditions.elements if each in among]
+    return minimal(items, lambda kept: plans.fails(state, kept))
 
 
 def more_cores(
@@ -122,18 +125,14 @@ def more_cores(
     return tuple(found)
 
 
-def core_finder(conditions: Conditions, cause: Cause) -> Callable[[Elements], Elements | None]:
+def core_finder(plans: Plans, cause: Cause) -> Callable[[Elements], Elements | None]:
     """A core of a cause's example among some elements, None where these do not suffice."""
-    here = conditions.encoding.state_cube(cause.example)
+    conditions, example = plans.conditions, cause.example
     if cause.kind == "no-allowed-set":
         return lambda among: (
-            core_without_set(conditions, cause.example, among) if conditions.is_stuck(cause.example, among) else None
+            core_without_set(conditions, example, among) if conditions.is_stuck(example, among) else None
         )
-    return lambda among: (
-        core_without_plan(conditions, cause.example, among)
-        if failing(conditions, among, here) != conditions.false
-        else None
-    )
+    return lambda among: core_without_plan(plans, example, among) if plans.fails(example, among) else None
 
 
 def typical_state(conditions: Conditions, states: Bdd) -> State:

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from tumato_symbolic.explain.conditions import Conditions
 from tumato_symbolic.explain.elements import Element, Elements
+from tumato_symbolic.semantics import ActiveGoals, State
 from tumato_symbolic.symbolic import Bdd, Regions, targets
 from tumato_symbolic.synthesis.fixpoints import distances
 from tumato_symbolic.synthesis.judging import served
@@ -24,6 +25,40 @@ def failing(conditions: Conditions, kept: Elements, states: Bdd) -> Bdd:
     """Those of some valid states that fail, either way, when only these elements are kept."""
     problem = pose_kept(conditions, kept, restricted(conditions.regions, states, conditions.false))
     return states & ~served(problem, distances(problem), problem.steps.allowed)
+
+
+class Plans:
+    """Which states fail when only some elements are kept: asked for a whole region at once, and remembered.
+
+    Whatever fails goes on to fail when more is kept: an answer also answers for all that contains more, or less.
+    """
+
+    def __init__(self, conditions: Conditions) -> None:
+        self.conditions = conditions
+        self._known: dict[ActiveGoals, list[tuple[Elements, Bdd]]] = {}
+
+    def fails(self, state: State, kept: Elements) -> bool:
+        """Whether one valid state fails."""
+        return self.failing(kept, self.conditions.encoding.state_cube(state)) != self.conditions.false
+
+    def failing(self, kept: Elements, states: Bdd) -> Bdd:
+        """Those of some valid states that fail."""
+        parts = restricted(self.conditions.regions, states, self.conditions.false)
+        return self.conditions.manager.union(self._failing(active, kept, part) for active, part in parts.items())
+
+    def _failing(self, active: ActiveGoals, kept: Elements, states: Bdd) -> Bdd:
+        known = self._known.setdefault(active, [])
+        surely, left = self.conditions.false, states
+        for asked, found in reversed(known):
+            if asked <= kept:
+                surely, left = surely | (left & found), left & ~found
+            if asked >= kept:
+                left = left & found
+            if left == self.conditions.false:
+                return surely
+        found = failing(self.conditions, kept, self.conditions.regions[active])
+        known.append((kept, found))
+        return states & found
 
 
 def restricted(regions: Regions, states: Bdd, false: Bdd) -> Regions:

@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from tumato_symbolic.explain.conflicts import conflict_core, served_together
+from tumato_symbolic.explain.conflicts import conflict_core, conflicting
 from tumato_symbolic.explain.cores import Cause, causes, core_finder, element_list, more_cores
 from tumato_symbolic.explain.elements import Element, Elements
 from tumato_symbolic.explain.explanation import Explanation, Reason
 from tumato_symbolic.explain.plans import shortest_plan
 from tumato_symbolic.explain.unmet import own_goals
 from tumato_symbolic.explain.work import Work
-from tumato_symbolic.synthesis.repair import RoundsExhaustedError
 
 MAX_CAUSES = 1_000
 """So many different reasons are looked for at most."""
@@ -26,7 +25,7 @@ def reasons_found(work: Work, found: Explanation) -> Iterator[Explanation]:
         return
     found, left = replace(found, omitted=found.failing_states), work.max_cubes
     _tell(work, found)
-    for cause in causes(work.conditions, work.failing):
+    for cause in causes(work.plans, work.failing):
         reason = _reason(work, cause, left)
         left -= len(reason.cubes)
         found = replace(found, reasons=(*found.reasons, reason), omitted=found.omitted - reason.count)
@@ -43,7 +42,7 @@ def _tell(work: Work, found: Explanation) -> None:
 
 def _reason(work: Work, cause: Cause, limit: int) -> Reason:
     conditions, example = work.conditions, cause.example
-    shown = more_cores(conditions, cause.core, work.cores, core_finder(conditions, cause))
+    shown = more_cores(conditions, cause.core, work.cores, core_finder(work.plans, cause))
     bounded = Element("plan-bound") in cause.core
     cover = work.cubes(cause.states, limit)
     return Reason(
@@ -65,15 +64,11 @@ def _conflict(work: Work, found: Explanation) -> Reason:
 
 
 def _conflict_cores(work: Work) -> tuple[Elements, ...]:
-    """Cores of a conflict; where the question is too hard, everything is to blame."""
     conditions, states = work.conditions, work.states_of("conflict")
     together = work.outcome.failures[0].states
-    try:
-        first = conflict_core(conditions, together, conditions.everything)
-    except RoundsExhaustedError:
-        return (conditions.everything,)
 
     def find(among: Elements) -> Elements | None:
-        return None if served_together(conditions, states, among) else conflict_core(conditions, together, among)
+        return conflict_core(conditions, together, among) if conflicting(conditions, states, among) else None
 
+    first = conflict_core(conditions, together, conditions.everything)
     return more_cores(conditions, first, work.cores, find)

@@ -11,12 +11,11 @@ from tumato_symbolic.explain.conflicts import conflict_core
 from tumato_symbolic.explain.cores import core_without_plan, core_without_set, element_list, typical_state
 from tumato_symbolic.explain.elements import Element, ElementKind, Elements, without
 from tumato_symbolic.explain.explanation import Change, Explanation, Repair
-from tumato_symbolic.explain.plans import failing
+from tumato_symbolic.explain.plans import Plans, failing
 from tumato_symbolic.explain.trial import trial
 from tumato_symbolic.explain.weaken import weakening
 from tumato_symbolic.explain.work import Work
 from tumato_symbolic.synthesis import Realizable, Unrealizable
-from tumato_symbolic.synthesis.repair import RoundsExhaustedError
 from tumato_symbolic.synthesis.solver import HittingSets
 
 ROUNDS = 300
@@ -52,7 +51,7 @@ def repairs_found(work: Work, found: Explanation) -> Iterator[Explanation]:
     if hopeless is not None or wanted < 1:
         yield replace(found, hopeless=hopeless, repairs_complete=hopeless is not None)
         return
-    search = _Search(conditions, (frozenset(reason.core) for reason in found.reasons))
+    search = _Search(work.plans, (frozenset(reason.core) for reason in found.reasons))
     for number in range(wanted):
         work.context.tell(f"repairs: {number + 1} of {wanted}")
         dropped = search.next()
@@ -87,10 +86,12 @@ def _hopeless(conditions: Conditions) -> Hopeless | None:
 class _Search:
     """Implicit hitting sets: candidates, and the cores that they miss."""
 
-    def __init__(self, conditions: Conditions, cores: Iterable[Elements]) -> None:
-        self._conditions = conditions
+    def __init__(self, plans: Plans, cores: Iterable[Elements]) -> None:
+        self._plans = plans
+        self._conditions = conditions = plans.conditions
         self._numbers = {element: number for number, element in enumerate(_droppable(conditions.elements))}
-        self._hitting = HittingSets([_PENALTIES[element.kind] for element in self._numbers])
+        penalties = [_PENALTIES[element.kind] for element in self._numbers]
+        self._hitting = HittingSets(penalties, conditions.manager.context.seconds_left)
         self._rounds = ROUNDS
         self.complete = False
         """Whether there are no other repairs than those that were found."""
@@ -127,13 +128,10 @@ class _Search:
             return core_without_set(conditions, typical_state(conditions, stuck), kept)
         helpless = failing(conditions, kept, conditions.valid)
         if helpless != conditions.false:
-            return core_without_plan(conditions, typical_state(conditions, helpless), kept)
+            return core_without_plan(self._plans, typical_state(conditions, helpless), kept)
         outcome = trial(conditions, without(conditions.spec, dropped))
         if isinstance(outcome, Realizable):
             return None
         if isinstance(outcome, Unrealizable):
-            try:
-                return conflict_core(conditions, outcome.failures[0].states, kept)
-            except RoundsExhaustedError:
-                pass
+            return conflict_core(conditions, outcome.failures[0].states, kept)
         return kept  # whatever is kept is to blame: the next candidate has to drop more

@@ -10,6 +10,7 @@ from functools import cached_property
 from tumato_symbolic.explain.conditions import Conditions
 from tumato_symbolic.explain.cores import Failing, failing_states, typical_state
 from tumato_symbolic.explain.cubes import Cover, StateCube, disjoint_cubes, set_of
+from tumato_symbolic.explain.plans import Plans
 from tumato_symbolic.limits import Context
 from tumato_symbolic.semantics import State
 from tumato_symbolic.symbolic import Bdd
@@ -32,6 +33,11 @@ class Work:
     def failing(self) -> Failing:
         """The valid states that fail."""
         return failing_states(self.conditions)
+
+    @cached_property
+    def plans(self) -> Plans:
+        """What is known by now about which states fail when only some elements are kept."""
+        return Plans(self.conditions)
 
     def states_of(self, kind: FailureKind) -> Bdd:
         """The states that fail in one way; of a conflict, those that no policy serves together."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -141,7 +141,8 @@ class Choices:
             picked = [self._options[pick.choice][pick.option] for pick in self._clauses[number]]
             solver.add(_any([z3.Not(guard), *picked], self._context))
         while True:
-            assert solver.check(*guards.values()) == z3.unsat, "the clauses of a conflict hold together"
+            satisfiable = _satisfiable(solver, *guards.values(), seconds=self._manager.context.seconds_left())
+            assert not satisfiable, "the clauses of a conflict hold together"
             core = {literal.get_id() for literal in solver.unsat_core()}
             kept = {number: guard for number, guard in guards.items() if guard.get_id() in core}
             if len(kept) == len(guards):
@@ -201,10 +202,11 @@ class HittingSets:
     """Smallest sets of numbers that have an element in common with each of some sets.
 
     `penalties` has one for every number, from 0 on: of the smallest sets one with the least sum comes first, and of
-    these the first as a sorted list.
+    these the first as a sorted list. `seconds_left` is asked whenever Z3 is.
     """
 
-    def __init__(self, penalties: Sequence[int]) -> None:
+    def __init__(self, penalties: Sequence[int], seconds_left: Callable[[], float | None] = lambda: None) -> None:
+        self._seconds_left = seconds_left
         self._context = z3.Context()
         self._solver = _finite_domain_solver(self._context)
         self._literals = [z3.Bool(f"h{number}", self._context) for number in range(len(penalties))]
@@ -223,13 +225,13 @@ class HittingSets:
 
     def smallest(self) -> frozenset[int] | None:
         """A set of the smallest size; None where there is none. Sizes never fall from one answer to the next."""
-        if not _satisfiable(self._solver):
+        if not self._possible():
             return None
         while True:
             self._solver.push()
             if self._literals:
                 self._solver.add(z3.AtMost(*self._literals, self._least))
-            found = self._first() if _satisfiable(self._solver) else None
+            found = self._first() if self._possible() else None
             self._solver.pop()
             if found is not None:
                 return found
@@ -238,17 +240,20 @@ class HittingSets:
     def _first(self) -> frozenset[int]:
         """The set to prefer among those that the constraints of now allow, which all have the same size."""
         least = self._penalty_of_model()
-        while least and _satisfiable(self._solver, self._at_most(least - 1)):
+        while least and self._possible(self._at_most(least - 1)):
             least = self._penalty_of_model()
         wanted: list[Term] = [self._at_most(least)]
         chosen: list[int] = []
         for number in sorted(self._useful):
             if len(chosen) == self._least:
                 break
-            if _satisfiable(self._solver, *wanted, self._literals[number]):
+            if self._possible(*wanted, self._literals[number]):
                 wanted.append(self._literals[number])
                 chosen.append(number)
         return frozenset(chosen)
+
+    def _possible(self, *assumptions: Term) -> bool:
+        return _satisfiable(self._solver, *assumptions, seconds=self._seconds_left())
 
     def _penalty_of_model(self) -> int:
         model = self._solver.model()

@@ -1,0 +1,80 @@
+"""Tests of what is remembered about plans."""
+
+from random import Random
+
+import pytest
+
+from tests.generate import PROFILES, random_spec
+from tumato_symbolic import parse
+from tumato_symbolic.explain import plans
+from tumato_symbolic.explain.conditions import Conditions
+from tumato_symbolic.explain.conflicts import conflict_core
+from tumato_symbolic.explain.explain import explain
+from tumato_symbolic.explain.explanation import Explanation
+from tumato_symbolic.explain.plans import Plans, failing
+from tumato_symbolic.synthesis import Unrealizable, repair, synthesize
+
+
+@pytest.mark.parametrize("profile", PROFILES)
+def test_what_is_remembered_is_so(profile: str) -> None:
+    """Asked about one set of elements after another, for all states and for one: the answer is the computed one."""
+    random = Random(profile)
+    for seed in range(12):
+        conditions = Conditions(random_spec(seed, PROFILES[profile]), "any", "autoref")
+        known, encoding = Plans(conditions), conditions.encoding
+        for _ in range(12):
+            share = random.random()
+            kept = frozenset(each for each in conditions.elements if random.random() < share)
+            expected = failing(conditions, kept, conditions.valid)
+            if conditions.valid != conditions.false:
+                state = random.choice(list(encoding.states_in(conditions.valid)))
+                assert known.fails(state, kept) == encoding.contains(expected, state)
+            assert known.failing(kept, conditions.valid) == expected
+
+
+def test_an_answer_answers_for_more_and_for_less(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What fails does when more is kept, and what does not fail does not when less is: nothing is computed again."""
+    conditions = Conditions(random_spec(1, PROFILES["mixed"]), "any", "autoref")
+    known, regions = Plans(conditions), len(conditions.regions)
+    computed = []
+
+    def counted(*asked: object) -> object:
+        computed.append(asked)
+        return failing(*asked)
+
+    monkeypatch.setattr(plans, "failing", counted)
+    most, least = conditions.everything, frozenset()
+    hopeless = known.failing(least, conditions.valid)
+    served = conditions.valid & ~known.failing(most, conditions.valid)
+    assert len(computed) == 2 * regions
+    for element in conditions.elements:
+        assert known.failing(most - {element}, hopeless) == hopeless
+        assert known.failing(frozenset((element,)), served) == conditions.false
+    assert known.failing(most, conditions.valid) == conditions.valid & ~served
+    assert len(computed) == 2 * regions
+
+
+def test_what_no_repair_drops_is_named_first() -> None:
+    """The precondition alone would do as a reason, but dropping it does not help."""
+    text = """
+        BEGIN STATE VECTOR state S_Place can be hall, dock state S_Door can be shut, open END STATE VECTOR
+        BEGIN ACTIONS action go preconditions: S_Door is open nominal effects: S_Place is dock END ACTIONS
+        BEGIN ASSUMPTIONS assume: NOT (S_Place is dock AND S_Door is shut) END ASSUMPTIONS
+        BEGIN GOALS goal type: priority goal: S_Place is dock END GOALS
+        """
+    found = explain(parse(text))
+    assert isinstance(found, Explanation)
+    assert found.hopeless == "failing"
+    assert [[element.kind for element in reason.core] for reason in found.reasons] == [["assumption"]]
+
+
+def test_a_conflict_that_is_too_hard_is_not_made_smaller(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where no question about a conflict is answered, all elements are to blame: they suffice."""
+    spec = random_spec(101314, PROFILES["interacting"])
+    conditions = Conditions(spec, "any", "autoref")
+    outcome = synthesize(spec, "any", certify=False)
+    assert isinstance(outcome, Unrealizable)
+    together = outcome.failures[0].states
+    assert len(conflict_core(conditions, together, conditions.everything)) < len(conditions.everything)
+    monkeypatch.setattr(repair, "ROUNDS", 0)
+    assert conflict_core(conditions, together, conditions.everything) == conditions.everything
