@@ -708,7 +708,8 @@ class World:
             return f"a reaction rule is broken: {self.quote(line)}"
         for after, way in self.outcomes(state, chosen) if not (chosen and self.stays_safe(state, chosen)) else ():
             if not self.is_safe(after):
-                return f"an outcome {self.fault(after)}; the effects lead to " + ", then ".join(map(self.show, way[1:]))
+                there = "; the effects lead to " + ", then ".join(map(self.show, way[1:])) if chosen else ""
+                return f"an outcome {self.fault(after)}{there}"
         after = self.successor(state, chosen)
         if not self.is_safe(after):
             return f"the nominal successor {self.show(after)} {self.fault(after)}"

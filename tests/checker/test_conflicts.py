@@ -176,6 +176,33 @@ def test_goals_with_one_root_are_one(root: int, tmp_path: Path) -> None:
     assert_proved(judged(tmp_path, crossing(None), again))
 
 
+def alone(goal: str, options: dict[str, str], distances: list[int], each: Document) -> Document:
+    """A conflict of the first place with itself: what it owes, the options of some places, and one cut."""
+    choices = [choice(place, after, 0) for place, after in options.items()]
+    goals = named(len(LEAVES), bodies=[f"P is {goal}"])
+    return conflict([each], [distances], Starts=[0], Choices=choices, Goals=goals)
+
+
+@pytest.mark.parametrize(("bound", "is_proof"), [(None, False), (4, False), (3, False), (2, True), (1, True)])
+def test_a_loop_is_left_for_where_the_goal_is_near_enough(bound: int | None, is_proof: bool, tmp_path: Path) -> None:
+    """From `x`, which one step leads to, it takes two more."""
+    text = spec_text("stxyG", "st ts sx xy yG", "BEGIN GOALS goal type: priority goal: P is G END GOALS", bound)
+    loop = alone("G", {"s": "stx", "t": "ts"}, [4, 4, 2, 1, 0], {"Kind": "loop", "Goal": 0, "States": [0, 1]})
+    answer = judged(tmp_path, text, loop)
+    assert_proved(answer) if is_proof else assert_refuted(answer, RESPECTED)
+
+
+@pytest.mark.parametrize(("bound", "is_proof"), [(2, True), (3, False)])
+def test_a_path_may_begin_where_its_goal_holds(bound: int, is_proof: bool, tmp_path: Path) -> None:
+    """A run serves a goal that it reaches after a step or more; where it starts does not count."""
+    goals = "BEGIN GOALS goal type: priority goal: P is a END GOALS "
+    moving = "BEGIN REACTION RULES rule: executing ab OR executing bc OR executing ca END REACTION RULES"
+    text = spec_text("abc", "ab bc ca", goals + moving, bound)
+    path = {"Kind": "path", "Goal": 0, "States": [0, 1], "End": {"P": "c"}}
+    answer = judged(tmp_path, text, alone("a", {"a": "b", "b": "c"}, [0, 2, 1], path))
+    assert_proved(answer) if is_proof else assert_refuted(answer, "from where its goal may be reached")
+
+
 def test_the_search_for_a_choice_is_right() -> None:
     """It finds a choice where there is one, by trying all, and none elsewhere."""
     found = set()

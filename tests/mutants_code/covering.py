@@ -51,10 +51,24 @@ WALK = (
     "not z3 and not once and not parts and not -explicit and not agree_also and not concurrent and not mixed"
     " and not interacting-by-case",
 )
-WALK_PROVER = ("tests/verify/test_jobs.py", *WALK[:-1], f"{WALK[-1]} and not depend")
-PROCESSES = ("tests/verify/test_model.py", "tests/verify/test_jobs.py", "-k", "not depend")
+WALK_PROVER = (
+    "tests/verify/test_effort.py",
+    "tests/verify/test_children.py",
+    "tests/verify/test_jobs.py",
+    *WALK[:-1],
+    f"{WALK[-1]} and not depend",
+)
+PROCESSES = (
+    "tests/verify/test_children.py",
+    "tests/verify/test_model.py",
+    "tests/verify/test_jobs.py",
+    "-k",
+    "not depend",
+)
 Z3 = (
     "tests/verify/test_terms.py",
+    "tests/verify/test_false_answers.py",
+    "tests/verify/test_effort.py",
     COUNTS,
     "tests/verify/test_steps.py",
     "tests/verify/test_verify.py",
@@ -66,22 +80,27 @@ Z3 = (
     "not walk and not limit and not -explicit and not -7]",
 )
 NO_POLICY = (
+    "tests/verify/test_false_answers.py",
     "tests/verify/test_refusal_parts.py",
     "tests/verify/test_unrealizable_by_hand.py",
     "tests/verify/test_forged_refusals.py",
 )
 VERIFY = (
+    "tests/verify/test_effort.py",
+    "tests/verify/test_jobs.py",
+    "tests/verify/test_closure.py",
     COUNTS,
     "tests/verify/test_provers.py",
     "tests/verify/test_verify.py",
     *STRANGERS,
     "tests/verify/test_forged_ranks.py",
     "-k",
-    "not -7]",
+    "not -7] and not depend",
 )
 CHECKER = (
     "tests/checker/test_limits.py",
     "tests/checker/test_world.py",
+    "tests/checker/test_witnesses.py",
     "tests/checker/test_files.py",
     "tests/checker/test_language.py",
     "tests/checker/test_cubes.py",

@@ -49,7 +49,7 @@ OPPOSITE = {one: other for pair in OPPOSITES for one, other in (pair, pair[::-1]
 NEGATIONS = {"negation", "Not"}
 COLLECTING = {"conjunction", "disjunction", "all_of", "any_of", "intersection", "union", "And", "Or"}
 """Functions of several terms, given as one tuple or list: one of them may be forgotten."""
-EITHER_WAY = {"min", "max", "gcd", "same", "isinstance"}
+EITHER_WAY = {"min", "max", "gcd", "same", "isinstance", "suppress"}
 """Functions whose arguments are not exchanged: it would change nothing, or fail wherever it is met."""
 ASKING = {"add", "ask", "define", "scope", "find", "first_model", "some_state", "some_step"}
 """Functions of several terms, given as arguments."""

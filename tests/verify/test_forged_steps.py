@@ -127,3 +127,18 @@ def test_every_decision_is_judged_as_written(ordering: Ordering, prover: Name) -
                 assert result.refutation is not None and result.refutation.objection is not None
                 assert (result.refutation.state, result.refutation.decision) == (state, chosen)
                 assert result.refutation.objection.kind in broken
+
+
+@pytest.mark.parametrize("prover", PROVERS)
+@pytest.mark.parametrize("ordering", ORDERINGS)
+@pytest.mark.parametrize("is_allowed", [True, False])
+def test_a_rival_of_two_actions_that_go_wrong_together(is_allowed: bool, ordering: Ordering, prover: Name) -> None:
+    """Each of its effects alone is safe; where all of them together are not, it is no set that would have served."""
+    build = Build({"x": "au", "y": "ab", "z": "ab"})
+    one, other = build.action("x=a y=b", duration=1), build.action("x=a z=b", duration=1)
+    build.action("x=a", duration=9)
+    both = [] if is_allowed else [Not(And((build.atom("y=b"), build.atom("z=b"))))]
+    spec = build.spec(state_rules=[Not(build.atom("x=u")), *both], reaction_rules=[Iff(one, other)])
+    policy = policy_from_rows(spec, {build.state("uaa"): frozenset((2,))})
+    answer = verify(policy, spec, ordering=ordering, prover=prover, properties=["safe", "minimal"])
+    assert [result.verdict for result in answer.properties] == ["proved", "refuted" if is_allowed else "proved"]

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import mmap
 import os
 import signal
 import sys
-import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
@@ -238,48 +236,32 @@ def test_what_a_child_did_with_the_certificate_is_known(asked: list[int]) -> Non
     assert asked == [2, 2]
 
 
-def test_no_child_goes_on_after_a_failure() -> None:
-    """Where one task fails, the others are ended, not waited for."""
-    done = memoryview(mmap.mmap(-1, 1))
-
-    def slow() -> None:
-        time.sleep(1.0)
-        done[0] = 1
-
-    with pytest.raises(children.ChildError):
-        children.in_children([partial(int, "no number"), slow], 2)
-    assert done[0] == 0
-
-
-def test_answers_come_in_the_order_of_the_tasks() -> None:
-    """Whoever comes first; and no more children than jobs work at a time."""
-    began = time.monotonic()
-
-    def task(number: int) -> tuple[int, float, float]:
-        since = time.monotonic() - began
-        time.sleep(0.2 if number == 0 else 0.05)
-        return number, since, time.monotonic() - began
-
-    found = children.in_children([partial(task, number) for number in range(5)], 2)
-    assert [answer[0] for answer in found if not isinstance(answer, children.Lost)] == list(range(5))
-    spans = [answer[1:] for answer in found if not isinstance(answer, children.Lost)]
-    assert max(sum(one[0] <= other[0] < one[1] for one in spans) for other in spans) == 2
-
-
-def test_every_processor_is_used(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The processors that this process may use are counted, where the system tells; else all."""
-    monkeypatch.setattr(os, "sched_getaffinity", lambda _: {1, 3, 4}, raising=False)
-    assert children.cores() == 3
-    monkeypatch.delattr(os, "sched_getaffinity")
-    monkeypatch.setattr(os, "cpu_count", lambda: 5)
-    assert children.cores() == 5
-    monkeypatch.setattr(os, "cpu_count", lambda: None)
-    assert children.cores() == 1
-
-
 def test_a_policy_without_rows_is_judged_by_many_as_by_one(asked: list[int]) -> None:
     """Without a certificate there is nothing to divide."""
     _, spec = _amr()
     empty = policy_from_rows(spec, {})
     assert _timeless(verify(empty, spec, prover="walk", jobs=2)) == _timeless(verify(empty, spec, prover="walk"))
     assert not asked
+
+
+def test_one_task_is_no_work_for_children(asked: list[int]) -> None:
+    """There is nothing that the others would do meanwhile."""
+    spec, rows = restoring(2, 2)
+    policy = certified(spec, rows, {Residual(frozenset((0,)), frozenset()): exact(spec, rows)})
+    for names, count in ((["minimal"], 0), (["goals"], 0), (["total", "safe"], 0), (["goals", "minimal"], 2)):
+        asked.clear()
+        assert verify(policy, spec, properties=names, prover="walk", jobs=2).verdict == "proved"
+        assert sum(asked) == count, names
+
+
+def test_a_child_that_refutes_safe_proves_nothing(asked: list[int]) -> None:
+    """Where a child finds that a decision is not allowed, its run is not looked at; and it owes no goal."""
+    spec, rows = restoring(2, 3)
+    wrong = {**rows, (3,): frozenset[int]()}
+    policy = certified(spec, wrong, {Residual(frozenset((0,)), frozenset()): exact(spec, rows)})
+    one, two = (
+        [(each.name, each.verdict) for each in verify(policy, spec, prover="walk", jobs=jobs).properties]
+        for jobs in (1, 2)
+    )
+    assert one == two == [("total", "proved"), ("safe", "refuted"), ("goals", "proved"), ("minimal", "proved")]
+    assert asked
