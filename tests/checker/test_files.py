@@ -137,6 +137,7 @@ BROKEN_DIAGRAMS: dict[str, Change] = {
     "a root too large": lambda document: document["Diagram"]["Roots"].update(
         charge=2 + len(document["Diagram"]["Nodes"])
     ),
+    "roots in a list": lambda document: document["Diagram"].update(Roots=document["Actions"]),
     "a root that is true": lambda document: document["Diagram"]["Roots"].update(charge=True),
     "a root below 0": lambda document: document["Diagram"]["Roots"].update(charge=-1),
     "no word on what is decided": lambda document: document["Diagram"].pop("Defined"),

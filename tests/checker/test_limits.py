@@ -37,6 +37,12 @@ def ifs(levels: int) -> str:
     return alias(f"define k0 as A is x {steps}")
 
 
+def consequences(levels: int) -> str:
+    """Aliases of which each is what follows in another rule."""
+    steps = " ".join(f"define k{number + 1} as IF B is x THEN k{number}" for number in range(levels))
+    return alias(f"define k0 as A is x {steps}")
+
+
 def conditions(levels: int) -> str:
     """A goal with a condition, and operators in its body."""
     return goals(f"when A is x then goal: {'NOT ' * levels} A is y")
@@ -58,6 +64,7 @@ LIMITS: dict[str, tuple[Callable[[int], str], int]] = {
     "operators in a reaction rule": (lambda count: reaction("NOT " * count + "executing go"), 99),
     "aliases": (aliases, 99),
     "aliases and IF": (ifs, 49),
+    "aliases and THEN": (consequences, 98),
     "goal lists": (nested_goals, 99),
     "conditions": (conditions, 97),
 }

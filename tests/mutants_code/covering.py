@@ -101,6 +101,8 @@ CHECKER = (
     "tests/checker/test_limits.py",
     "tests/checker/test_world.py",
     "tests/checker/test_witnesses.py",
+    "tests/checker/test_entries.py",
+    "tests/checker/test_broken_parts.py",
     "tests/checker/test_files.py",
     "tests/checker/test_language.py",
     "tests/checker/test_cubes.py",
