@@ -7,27 +7,27 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import islice
+from textwrap import indent
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.policy import Policy, as_table, bind
 from tumato_symbolic.semantics import ActionSet, State, action_names, all_states, count_states, is_valid, named
 from tumato_symbolic.spec import (
     Action,
-    And,
     Assignment,
     ConditionalGoal,
-    Constant,
+    Connectives,
     Executing,
     Formula,
     Goal,
-    Iff,
+    GoalList,
     Is,
-    Not,
-    Or,
     Ordering,
     Rule,
     SimpleGoal,
     Spec,
+    fold,
+    fold_goal,
 )
 
 MOST_STATES = 30_000
@@ -105,7 +105,7 @@ def _specification(spec: Spec) -> Iterator[str]:
         yield "  goals := None;"
     else:
         yield "  goals := Some"
-        yield f"{_goal(spec, spec.goals, 2)};"
+        yield f"{indent(_goal(spec, spec.goals), '    ')};"
     bound = spec.max_plan_length
     yield "  max_plan_length := " + ("None" if bound is None else f"Some {bound}%N")
     yield "|}.\n"
@@ -142,21 +142,20 @@ def _rules(rules: Iterable[Rule]) -> list[tuple[str, str]]:
 
 
 def _formula(formula: Formula) -> str:
-    match formula:
-        case Constant(value):
-            return f"Constant {'true' if value else 'false'}"
-        case Is(variable, value):
-            return f"Is {variable} {value}"
-        case Executing(action):
-            return f"Executing {action}"
-        case Not(operand):
-            return f"Not ({_formula(operand)})"
-        case And(operands):
-            return f"And {_list(map(_formula, operands))}"
-        case Or(operands):
-            return f"Or {_list(map(_formula, operands))}"
-        case Iff(left, right):
-            return f"Iff ({_formula(left)}) ({_formula(right)})"
+    return fold(formula, _atom, _COQ)
+
+
+def _atom(atom: Is | Executing) -> str:
+    return f"Is {atom.variable} {atom.value}" if isinstance(atom, Is) else f"Executing {atom.action}"
+
+
+_COQ: Connectives[str] = Connectives(
+    constant=lambda value: f"Constant {'true' if value else 'false'}",
+    negation=lambda text: f"Not ({text})",
+    conjunction=lambda texts: f"And {_list(texts)}",
+    disjunction=lambda texts: f"Or {_list(texts)}",
+    equivalence=lambda left, right: f"Iff ({left}) ({right})",
+)
 
 
 def _action(action: Action) -> str:
@@ -172,17 +171,20 @@ def _assignment(assignment: Assignment) -> str:
     return _list(f"({variable}, {value})" for variable, value in assignment)
 
 
-def _goal(spec: Spec, goal: Goal, depth: int) -> str:
-    indent = "  " * depth
-    if isinstance(goal, SimpleGoal):
+def _goal(spec: Spec, goal: Goal) -> str:
+    def simple(goal: SimpleGoal) -> str:
         body = spec.bodies[goal.body]
-        return f"{indent}{_comment('goal: ' + body.text)}\n{indent}(Simple ({_formula(body.formula)}))"
-    if isinstance(goal, ConditionalGoal):
+        return f"{_comment('goal: ' + body.text)}\n(Simple ({_formula(body.formula)}))"
+
+    def conditional(goal: ConditionalGoal, inner: str) -> str:
         condition = goal.condition
-        head = f"{indent}{_comment('when ' + condition.text)}\n{indent}(When ({_formula(condition.formula)})"
-        return f"{head}\n{_goal(spec, goal.goal, depth + 1)})"
-    members = ";\n".join(_goal(spec, member, depth + 1) for member in goal.members)
-    return f"{indent}(Goals {goal.kind.capitalize()} [\n{members}])"
+        return f"{_comment('when ' + condition.text)}\n(When ({_formula(condition.formula)})\n{indent(inner, '  ')})"
+
+    def several(goal: GoalList, members: list[str]) -> str:
+        inside = indent(";\n".join(members), "  ")
+        return f"(Goals {goal.kind.capitalize()} [\n{inside}])"
+
+    return fold_goal(goal, simple, conditional, several)
 
 
 def _decisions(spec: Spec, rows: dict[State, ActionSet]) -> Iterator[str]:

@@ -10,7 +10,7 @@ from typing import TypeAlias
 from tumato_symbolic.diagnostics import Code, Diagnostic, Note
 from tumato_symbolic.semantics.states import ActionSet, State, all_states, count_states, holds, is_valid
 from tumato_symbolic.semantics.step import allowed, nominal_agrees
-from tumato_symbolic.spec import Action, ConditionalGoal, Formula, Goal, GoalList, Rule, Spec, executing_atoms
+from tumato_symbolic.spec import Action, ConditionalGoal, Formula, Goal, GoalList, Rule, Spec, executing_atoms, subgoals
 from tumato_symbolic.spec.formula import atoms
 
 MAX_STATES = 10_000
@@ -113,8 +113,8 @@ def _goals(spec: Spec, valid: States, work: _Work) -> Iterator[Diagnostic]:
     if spec.goals is None:
         return
     entered: set[int] = set()
-    costs = {id(goal): _cost([goal.condition]) for goal in _parts(spec.goals) if isinstance(goal, ConditionalGoal)}
-    everything = {id(goal) for goal in _parts(spec.goals)}
+    costs = {id(goal): _cost([goal.condition]) for goal in subgoals(spec.goals) if isinstance(goal, ConditionalGoal)}
+    everything = {id(goal) for goal in subgoals(spec.goals)}
     for state in valid:
         if entered == everything:
             return
@@ -125,15 +125,6 @@ def _goals(spec: Spec, valid: States, work: _Work) -> Iterator[Diagnostic]:
             if not any(work.holds(formula, cost, state) for state in all_states(spec)):
                 continue
         yield idle_goal(goal)
-
-
-def _parts(goal: Goal) -> Iterator[Goal]:
-    yield goal
-    if isinstance(goal, ConditionalGoal):
-        yield from _parts(goal.goal)
-    elif isinstance(goal, GoalList):
-        for member in goal.members:
-            yield from _parts(member)
 
 
 def _enter(goal: Goal, state: State, entered: set[int], costs: dict[int, int], work: _Work) -> bool:

@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING
 
 from tumato_symbolic.spec.canonical import canonical_text, digest
+from tumato_symbolic.spec.fold import FORMULAS, THREE_VALUED, Connectives, active_bodies, fold, fold_goal, subgoals
 from tumato_symbolic.spec.formula import (
     FALSE,
     TRUE,
@@ -38,12 +39,15 @@ if TYPE_CHECKING:
 
 __all__ = [
     "FALSE",
+    "FORMULAS",
+    "THREE_VALUED",
     "TRUE",
     "Action",
     "Alternative",
     "And",
     "Assignment",
     "ConditionalGoal",
+    "Connectives",
     "Constant",
     "Executing",
     "Formula",
@@ -59,12 +63,16 @@ __all__ = [
     "SimpleGoal",
     "Spec",
     "Variable",
+    "active_bodies",
     "atoms",
     "canonical_text",
     "children",
     "digest",
     "executing_atoms",
+    "fold",
+    "fold_goal",
     "load",
+    "subgoals",
     "variables_of",
 ]
 

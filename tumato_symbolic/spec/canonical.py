@@ -7,8 +7,9 @@ import json
 from collections.abc import Iterable
 from typing import Any
 
-from tumato_symbolic.spec.formula import And, Constant, Executing, Formula, Iff, Is, Not, Or
-from tumato_symbolic.spec.model import Action, Assignment, ConditionalGoal, Goal, Rule, SimpleGoal, Spec
+from tumato_symbolic.spec.fold import Connectives, fold, fold_goal
+from tumato_symbolic.spec.formula import Executing, Formula, Is
+from tumato_symbolic.spec.model import Action, Assignment, Goal, Rule, Spec
 
 _VERSION = 1
 """Part of every digest; changes when the same meaning would be digested differently."""
@@ -20,21 +21,23 @@ def canonical_text(spec: Spec, formula: Formula) -> str:
     The structure is kept as it is, operands in their order: two formulas over the same names have the same text
     exactly when they are equal. Which position a variable, value or action was declared in plays no part.
     """
-    match formula:
-        case Constant(value):
-            return "true" if value else "false"
-        case Is(variable, value):
-            return f"{spec.variables[variable].name} is {spec.variables[variable].values[value]}"
-        case Executing(action):
-            return f"executing {spec.actions[action].name}"
-        case Not(operand):
-            return f"NOT ({canonical_text(spec, operand)})"
-        case And(operands):
-            return " AND ".join([f"({canonical_text(spec, part)})" for part in operands])
-        case Or(operands):
-            return " OR ".join([f"({canonical_text(spec, part)})" for part in operands])
-        case Iff(left, right):
-            return f"({canonical_text(spec, left)}) IFONLYIF ({canonical_text(spec, right)})"
+
+    def atom(atom: Is | Executing) -> str:
+        if isinstance(atom, Executing):
+            return f"executing {spec.actions[atom.action].name}"
+        variable = spec.variables[atom.variable]
+        return f"{variable.name} is {variable.values[atom.value]}"
+
+    return fold(formula, atom, _TEXTS)
+
+
+_TEXTS: Connectives[str] = Connectives(
+    constant=lambda value: "true" if value else "false",
+    negation=lambda text: f"NOT ({text})",
+    conjunction=lambda texts: " AND ".join(f"({text})" for text in texts),
+    disjunction=lambda texts: " OR ".join(f"({text})" for text in texts),
+    equivalence=lambda left, right: f"({left}) IFONLYIF ({right})",
+)
 
 
 def digest(spec: Spec) -> str:
@@ -79,9 +82,12 @@ def _assignment(spec: Spec, assignment: Assignment) -> dict[str, str]:
 
 def _goal(spec: Spec, goal: Goal) -> list[Any]:
     """The order of goals matters in a priority list only."""
-    if isinstance(goal, SimpleGoal):
-        return ["goal", canonical_text(spec, spec.bodies[goal.body].formula)]
-    if isinstance(goal, ConditionalGoal):
-        return ["when", canonical_text(spec, goal.condition.formula), _goal(spec, goal.goal)]
-    members = [_goal(spec, each) for each in goal.members]
-    return [goal.kind, *(sorted(members, key=json.dumps) if goal.kind == "constraint" else members)]
+    return fold_goal(
+        goal,
+        lambda simple: ["goal", canonical_text(spec, spec.bodies[simple.body].formula)],
+        lambda conditional, inner: ["when", canonical_text(spec, conditional.condition.formula), inner],
+        lambda goals, members: [
+            goals.kind,
+            *(sorted(members, key=json.dumps) if goals.kind == "constraint" else members),
+        ],
+    )

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TypeAlias
 
-from tumato_symbolic.spec.formula import And, Constant, Executing, Formula, Iff, Is, Not, Or, atoms, children
+from tumato_symbolic.spec.fold import THREE_VALUED, fold
+from tumato_symbolic.spec.formula import And, Constant, Executing, Formula, Is, atoms, children
 
 Known: TypeAlias = dict[tuple[str, int], int]
 """Part of a state and of a set of actions: value by ("variable", number), 0 or 1 by ("action", number)."""
@@ -35,11 +36,7 @@ def size(formula: Formula) -> int:
 
 def unknowns(formula: Formula) -> list[tuple[str, int]]:
     """What the truth of a formula depends on, in order of first mention."""
-    return list(
-        dict.fromkeys(
-            ("variable", each.variable) if isinstance(each, Is) else ("action", each.action) for each in atoms(formula)
-        )
-    )
+    return list(dict.fromkeys(map(unknown_of, atoms(formula))))
 
 
 def models(formula: Formula, sizes: Mapping[int, int], budget: Budget) -> Iterator[Known]:
@@ -91,29 +88,15 @@ def _search(
 
 def truth(formula: Formula, known: Mapping[tuple[str, int], int]) -> bool | None:
     """The truth value of a formula as far as it is settled by `known`."""
-    match formula:
-        case Constant(value):
-            return value
-        case Is(variable, wanted):
-            found = known.get(("variable", variable))
-            return None if found is None else found == wanted
-        case Executing(action):
-            found = known.get(("action", action))
-            return None if found is None else found == 1
-        case Not(operand):
-            inner = truth(operand, known)
-            return None if inner is None else not inner
-        case And(operands):
-            return _all([truth(part, known) for part in operands])
-        case Or(operands):
-            none = _all([None if (inner := truth(part, known)) is None else not inner for part in operands])
-            return None if none is None else not none
-        case Iff(left, right):
-            sides = truth(left, known), truth(right, known)
-            return None if None in sides else sides[0] == sides[1]
+
+    def atom(atom: Is | Executing) -> bool | None:
+        wanted = atom.value if isinstance(atom, Is) else 1
+        found = known.get(unknown_of(atom))
+        return None if found is None else found == wanted
+
+    return fold(formula, atom, THREE_VALUED)
 
 
-def _all(values: list[bool | None]) -> bool | None:
-    if False in values:
-        return False
-    return None if None in values else True
+def unknown_of(atom: Is | Executing) -> tuple[str, int]:
+    """What the truth of an atom depends on."""
+    return ("variable", atom.variable) if isinstance(atom, Is) else ("action", atom.action)

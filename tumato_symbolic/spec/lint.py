@@ -8,8 +8,9 @@ from math import prod
 from tumato_symbolic.diagnostics import Code, Diagnostic, Span
 from tumato_symbolic.diagnostics.wording import quoted
 from tumato_symbolic.spec.decision import Budget, OutOfBudgetError, models, unknowns
+from tumato_symbolic.spec.fold import subgoals
 from tumato_symbolic.spec.formula import And, Constant, Formula, Not
-from tumato_symbolic.spec.model import ConditionalGoal, Goal, GoalList, Rule, Spec
+from tumato_symbolic.spec.model import ConditionalGoal, Rule, Spec
 from tumato_symbolic.spec.resolve import Resolution, heading
 from tumato_symbolic.syntax import ast
 
@@ -71,19 +72,11 @@ def _decided(spec: Spec) -> Iterator[Diagnostic]:
         yield from judge.of(rule, "rule")
     for rule in spec.assumptions:
         yield from judge.of(rule, "assumption")
-    for rule in _conditions(spec.goals):
-        yield from judge.of(rule, "condition")
+    for goal in subgoals(spec.goals):
+        if isinstance(goal, ConditionalGoal):
+            yield from judge.of(goal.condition, "condition")
     for rule in spec.bodies:
         yield from judge.of(rule, "goal")
-
-
-def _conditions(goal: Goal | None) -> Iterator[Rule]:
-    if isinstance(goal, ConditionalGoal):
-        yield goal.condition
-        yield from _conditions(goal.goal)
-    elif isinstance(goal, GoalList):
-        for member in goal.members:
-            yield from _conditions(member)
 
 
 class _Judge:

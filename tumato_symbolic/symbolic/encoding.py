@@ -13,7 +13,7 @@ from functools import cached_property
 
 from tumato_symbolic.limits import Context
 from tumato_symbolic.semantics import ActionSet, State, nominal_agrees
-from tumato_symbolic.spec import And, Assignment, Constant, Executing, Formula, Iff, Is, Not, Or, Spec
+from tumato_symbolic.spec import Assignment, Connectives, Executing, Formula, Is, Spec, fold
 from tumato_symbolic.symbolic.effect_tree import EffectTree, after_every, effect_tree
 from tumato_symbolic.symbolic.manager import Backend, Bdd, Manager
 from tumato_symbolic.symbolic.order import variable_order
@@ -122,22 +122,23 @@ class Encoding:
 
     def formula(self, formula: Formula) -> Bdd:
         """The pairs of state and choice in which a formula holds."""
-        match formula:
-            case Constant(value):
-                return self.manager.true if value else self.manager.false
-            case Is(variable, number):
-                return self.value(variable, number)
-            case Executing(action):
-                return self.executing(action)
-            case Not(operand):
-                return ~self.formula(operand)
-            case And(operands):
-                return self.manager.intersection(self.formula(part) for part in operands)
-            case Or(operands):
-                return self.manager.union(self.formula(part) for part in operands)
-            case Iff(left, right):
-                p, q = self.formula(left), self.formula(right)
-                return (p & q) | ~(p | q)
+
+        def atom(atom: Is | Executing) -> Bdd:
+            return self.value(atom.variable, atom.value) if isinstance(atom, Is) else self.executing(atom.action)
+
+        return fold(formula, atom, self.connectives)
+
+    @cached_property
+    def connectives(self) -> Connectives[Bdd]:
+        """What the connectives of formulas are among sets."""
+        manager = self.manager
+        return Connectives(
+            constant=lambda value: manager.true if value else manager.false,
+            negation=lambda p: ~p,
+            conjunction=manager.intersection,
+            disjunction=manager.union,
+            equivalence=lambda p, q: (p & q) | ~(p | q),
+        )
 
     def all_of(self, formulas: Iterable[Formula]) -> Bdd:
         """The pairs in which every formula holds."""

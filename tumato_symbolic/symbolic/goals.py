@@ -6,19 +6,16 @@ from dataclasses import dataclass
 
 from tumato_symbolic.semantics import ActionSet, ActiveGoals, Residual
 from tumato_symbolic.spec import (
-    FALSE,
-    TRUE,
-    And,
+    FORMULAS,
     ConditionalGoal,
+    Constant,
     Executing,
     Formula,
     Goal,
-    Iff,
-    Not,
-    Or,
+    Is,
     SimpleGoal,
-    children,
     executing_atoms,
+    fold,
 )
 from tumato_symbolic.symbolic.encoding import Encoding
 from tumato_symbolic.symbolic.manager import Bdd
@@ -130,16 +127,8 @@ def _split(encoding: Encoding, atoms: list[int], pairs: Bdd) -> list[tuple[Actio
 
 def settle(formula: Formula, executed: ActionSet) -> Formula:
     """A goal body with its `executing` atoms replaced by their truth values for the first set."""
-    match formula:
-        case Executing(action):
-            return TRUE if action in executed else FALSE
-        case Not(operand):
-            return Not(settle(operand, executed))
-        case And():
-            return And(tuple(settle(part, executed) for part in children(formula)))
-        case Or():
-            return Or(tuple(settle(part, executed) for part in children(formula)))
-        case Iff(left, right):
-            return Iff(settle(left, executed), settle(right, executed))
-        case _:
-            return formula
+
+    def atom(atom: Is | Executing) -> Formula:
+        return atom if isinstance(atom, Is) else Constant(atom.action in executed)
+
+    return fold(formula, atom, FORMULAS)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from tumato_symbolic.semantics import ActionSet, ActiveGoals, Residual, residual_goal
-from tumato_symbolic.spec import ConditionalGoal, Goal, GoalList, Spec, variables_of
+from tumato_symbolic.spec import ConditionalGoal, Spec, subgoals, variables_of
 from tumato_symbolic.verify.by_states.packed import Code, Packing, all_hold
 from tumato_symbolic.verify.by_states.steps import Steps
 
@@ -22,8 +22,8 @@ class Runs:
         spend: Callable[[int], None],
     ) -> None:
         self._spec, self._packing, self._steps, self._decided, self._spend = spec, packing, steps, decided, spend
-        conditions = () if spec.goals is None else tuple(_condition_variables(spec.goals))
-        self._mask = packing.mask(set(conditions))
+        conditions = [goal.condition for goal in subgoals(spec.goals) if isinstance(goal, ConditionalGoal)]
+        self._mask = packing.mask({variable for rule in conditions for variable in variables_of(rule.formula)})
         self._active: dict[int, tuple[ActiveGoals, ActionSet]] = {}
         self._known: dict[Residual, tuple[Callable[[Code], bool], dict[Code, int | None]]] = {}
 
@@ -76,12 +76,3 @@ class Runs:
             bodies = [self._spec.bodies[body] for body in sorted(goal.bodies)]
             self._known[goal] = all_hold(self._packing, bodies, goal.executed), {}
         return self._known[goal]
-
-
-def _condition_variables(goal: Goal) -> set[int]:
-    """The variables on which it depends which goals are active."""
-    if isinstance(goal, ConditionalGoal):
-        return set(variables_of(goal.condition.formula)) | _condition_variables(goal.goal)
-    if isinstance(goal, GoalList):
-        return set[int]().union(*map(_condition_variables, goal.members))
-    return set()

@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from functools import cached_property
 
 from tumato_symbolic.semantics import Residual
-from tumato_symbolic.spec import ConditionalGoal, Goal, SimpleGoal, executing_atoms
+from tumato_symbolic.spec import active_bodies, executing_atoms
 from tumato_symbolic.verify.by_walk.model import Model
-from tumato_symbolic.verify.by_walk.walk import FALSE, TRUE, Function
+from tumato_symbolic.verify.by_walk.walk import FALSE, Function
 
 
 class WalkGoals:
@@ -22,25 +22,7 @@ class WalkGoals:
     @cached_property
     def active(self) -> dict[int, Function]:
         """Where every goal body is active; those not listed never are."""
-        return {} if self._spec.goals is None else self._entered(self._spec.goals)[1]
-
-    def _entered(self, goal: Goal) -> tuple[Function, dict[int, Function]]:
-        """Where `goal` is entered, and where it makes which body active."""
-        walk = self._walk
-        if isinstance(goal, SimpleGoal):
-            return TRUE, {goal.body: TRUE}
-        if isinstance(goal, ConditionalGoal):
-            entered = self._model.formula(goal.condition.formula)
-            inner = self._entered(goal.goal)[1]
-            return entered, {body: walk.all_of((entered, where)) for body, where in inner.items()}
-        found, tried = dict[int, Function](), TRUE
-        for member in goal.members:
-            entered, inner = self._entered(member)
-            for body, where in inner.items():
-                found[body] = walk.any_of((found.get(body, FALSE), walk.all_of((tried, where))))
-            if goal.kind == "priority":
-                tried = walk.without(tried, entered)
-        return TRUE, found
+        return active_bodies(self._spec.goals, self._model.formula, self._model.connectives)
 
     def residuals(self, region: Function, executed: Sequence[Function]) -> list[tuple[Residual, Function]]:
         """`region` by the residual goal that its states have when `executed` is the first set."""

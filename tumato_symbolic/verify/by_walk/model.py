@@ -13,7 +13,7 @@ from functools import cached_property
 
 from tumato_symbolic.policy import DecisionDiagram
 from tumato_symbolic.semantics import ActionSet, State
-from tumato_symbolic.spec import And, Constant, Executing, Formula, Iff, Is, Not, Or, Ordering, Spec
+from tumato_symbolic.spec import Connectives, Executing, Formula, Is, Ordering, Spec, fold
 from tumato_symbolic.verify.by_walk.order import conflicting, disagreeing, exclusive_groups, walk_order
 from tumato_symbolic.verify.by_walk.walk import FALSE, TRUE, Function, Walk
 
@@ -61,23 +61,23 @@ class Model:
 
     def formula(self, formula: Formula, executed: Sequence[Function] = ()) -> Function:
         """Where a formula holds; `executed[a]` is the truth of `executing a`."""
+
+        def atom(atom: Is | Executing) -> Function:
+            return self._is(atom.variable, atom.value) if isinstance(atom, Is) else executed[atom.action]
+
+        return fold(formula, atom, self.connectives)
+
+    @cached_property
+    def connectives(self) -> Connectives[Function]:
+        """What the connectives of formulas are among functions."""
         walk = self.walk
-        match formula:
-            case Constant(value):
-                return int(value)
-            case Is(variable, number):
-                return self._is(variable, number)
-            case Executing(action):
-                return executed[action]
-            case Not(operand):
-                return walk.negation(self.formula(operand, executed))
-            case And(operands):
-                return walk.all_of(self.formula(part, executed) for part in operands)
-            case Or(operands):
-                return walk.any_of(self.formula(part, executed) for part in operands)
-            case Iff(left, right):
-                one, other = self.formula(left, executed), self.formula(right, executed)
-                return walk.select(one, (walk.negation(other), other))
+        return Connectives(
+            constant=int,
+            negation=walk.negation,
+            conjunction=walk.all_of,
+            disjunction=walk.any_of,
+            equivalence=lambda one, other: walk.select(one, (walk.negation(other), other)),
+        )
 
     # Conditions 1 to 4
 

@@ -9,7 +9,7 @@ import z3
 
 from tumato_symbolic.diagrams import Diagram, Reference
 from tumato_symbolic.semantics import State
-from tumato_symbolic.spec import And, Assignment, Constant, Executing, Formula, Iff, Is, Not, Or, Spec
+from tumato_symbolic.spec import Assignment, Connectives, Executing, Formula, Is, Spec, fold
 from tumato_symbolic.verify.by_z3.terms import (
     Context,
     Number,
@@ -73,21 +73,21 @@ def is_true(model: Any, term: Term) -> bool:  # noqa: ANN401 - z3 has no types
 
 def formula_term(formula: Formula, place: Place, executed: Sequence[Term] = ()) -> Term:
     """`formula` in the state `place`, while the actions run for which `executed` holds."""
-    match formula:
-        case Constant(value):
-            return value
-        case Is(variable, value):
-            return place.has(variable, value)
-        case Executing(action):
-            return executed[action]
-        case Not(operand):
-            return negation(formula_term(operand, place, executed))
-        case And(operands):
-            return conjunction(formula_term(part, place, executed) for part in operands)
-        case Or(operands):
-            return disjunction(formula_term(part, place, executed) for part in operands)
-        case Iff(left, right):
-            return same(formula_term(left, place, executed), formula_term(right, place, executed))
+
+    def atom(atom: Is | Executing) -> Term:
+        return place.has(atom.variable, atom.value) if isinstance(atom, Is) else executed[atom.action]
+
+    return fold(formula, atom, TERMS)
+
+
+TERMS: Connectives[Term] = Connectives(
+    constant=lambda value: value,
+    negation=negation,
+    conjunction=conjunction,
+    disjunction=disjunction,
+    equivalence=same,
+)
+"""What the connectives of formulas are among terms."""
 
 
 def valid_term(spec: Spec, place: Place) -> Term:

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from tumato_symbolic.semantics import Residual
-from tumato_symbolic.spec import ConditionalGoal, Goal, SimpleGoal, Spec, executing_atoms
-from tumato_symbolic.verify.by_z3.encoding import Place, formula_term
+from tumato_symbolic.spec import Spec, active_bodies, executing_atoms
+from tumato_symbolic.verify.by_z3.encoding import TERMS, Place, formula_term
 from tumato_symbolic.verify.by_z3.terms import Term, conjunction, disjunction, negation
 
 
@@ -21,7 +21,7 @@ class GoalTerms:
     @classmethod
     def of(cls, spec: Spec, place: Place) -> GoalTerms:
         """`Γ` of the state `place`."""
-        return cls(spec, {} if spec.goals is None else _walk(spec.goals, place)[1])
+        return cls(spec, active_bodies(spec.goals, lambda condition: formula_term(condition, place), TERMS))
 
     def spoken_of(self) -> dict[int, Term]:
         """For every action that goal bodies speak of: one of these bodies is active."""
@@ -42,24 +42,6 @@ class GoalTerms:
                 *(executed[a] if a in goal.executed else negation(executed[a]) for a in sorted(spoken)),
             ]
         )
-
-
-def _walk(goal: Goal, place: Place) -> tuple[Term, dict[int, Term]]:
-    """When `goal` is entered, and when it makes which body active."""
-    if isinstance(goal, SimpleGoal):
-        return True, {goal.body: True}
-    if isinstance(goal, ConditionalGoal):
-        entered = formula_term(goal.condition.formula, place)
-        return entered, {body: conjunction((entered, term)) for body, term in _walk(goal.goal, place)[1].items()}
-    found: dict[int, list[Term]] = {}
-    tried: Term = True
-    for member in goal.members:
-        entered, active = _walk(member, place)
-        for body, term in active.items():
-            found.setdefault(body, []).append(conjunction((tried, term)))
-        if goal.kind == "priority":
-            tried = conjunction((tried, negation(entered)))
-    return True, {body: disjunction(terms) for body, terms in found.items()}
 
 
 def reached_term(spec: Spec, goal: Residual, place: Place) -> Term:
