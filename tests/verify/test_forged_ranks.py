@@ -109,11 +109,19 @@ def _status(spec: Spec, policy: Policy, table: Table, prover: Name, name: str) -
 
 
 @needing_no_rival
-@pytest.mark.parametrize(("length", "bound"), [(1, None), (2, None), (3, None), (3, 3), (3, 4), (4, 4)])
-def test_ranks_of_goals(length: int, bound: int | None, prover: Name) -> None:
-    """The policy is right whatever the ranks say; they are *wrong* where they do not go down to the goal or exceed the
-    bound, *incomplete* where one is missing that is needed, and *used* otherwise."""
+@pytest.mark.parametrize("right", [True, False])
+@pytest.mark.parametrize(("length", "bound"), [(1, None), (2, None), (3, None), (3, 3), (3, 4), (4, 4), (3, 2), (4, 3)])
+def test_ranks_of_goals(length: int, bound: int | None, right: bool, prover: Name) -> None:
+    """The policy is right or wrong whatever the ranks say; they are *wrong* where they do not go down to the goal or
+    exceed the bound, *incomplete* where one is missing that is needed, and *used* otherwise.
+
+    A wrong policy goes round at the beginning, or takes longer than is allowed.
+    """
     spec, policy = along(length, bound)
+    if not right:
+        policy = {**policy, (0,): policy[length,]}
+    too_long = bound is not None and length > bound
+    expected, usual = ("proved", "used") if right and not too_long else ("refuted", "incomplete")
     met = set()
     for table in forged(spec, exact(spec, policy)):
         needed = [literal.successor(spec, state, policy[state]) for state in policy]
@@ -124,9 +132,9 @@ def test_ranks_of_goals(length: int, bound: int | None, prover: Name) -> None:
         else:
             wanted = "used" if all(state in table for state in needed) else "incomplete"
         verdict, status = _status(spec, policy, table, prover, "goals")
-        assert (verdict, status) == ("proved", wanted), table
+        assert (verdict, status) == (expected, wanted), table
         met.add(wanted)
-    assert met >= {"used", "wrong"}
+    assert met >= ({"wrong"} if too_long else {"wrong", usual})
 
 
 @needing_no_rival
@@ -137,7 +145,8 @@ def test_a_bound_that_is_near(length: int, prover: Name) -> None:
     for bound, verdict in ((length + 1, "proved"), (length, "proved"), (length - 1, "refuted")):
         spec, policy = along(length, bound)
         right = exact(spec, policy)
-        assert _status(spec, policy, right, prover, "goals") == (verdict, "used")
+        status = "used" if verdict == "proved" else "wrong"
+        assert _status(spec, policy, right, prover, "goals") == (verdict, status), "a rank may exceed the bound"
         assert _status(spec, policy, {}, prover, "goals")[0] == verdict
         lowered = {state: max(0, rank - 1) for state, rank in right.items()}
         assert _status(spec, policy, lowered, prover, "goals")[0] == verdict

@@ -12,6 +12,9 @@ from tumato_symbolic.verify.result import CertificateUse
 
 UNNEEDED = CertificateUse("unneeded")
 
+NOT_ALL = "not all of its ranks could be looked at"
+"""What is said of a certificate where a run fails, and it takes too much to look at the rest of the ranks."""
+
 
 class GivenRanks:
     """The ranks that came with a policy, by residual goal; `use` tells what became of them.

@@ -38,8 +38,8 @@ class Claims:
         whole, bound = True, self._spec.max_plan_length
         for code, chosen in owing.items():
             goal, after = self._runs.residual(code, chosen), self._runs.follower(code)
-            if not goal.bodies or after is None or not self._runs.serves(code, chosen):
-                continue  # nothing is owed, or there is no number to give
+            if not goal.bodies or after is None:
+                continue  # nothing is owed
             number = numbers.get(goal, {}).get(after)
             if number is None:
                 if whole:

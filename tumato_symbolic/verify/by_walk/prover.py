@@ -20,6 +20,7 @@ from tumato_symbolic.verify.by_walk.ranks import WalkRanks
 from tumato_symbolic.verify.by_walk.walk import FALSE, BudgetError, Function, given_up
 from tumato_symbolic.verify.by_walk.witnesses import Witnesses
 from tumato_symbolic.verify.decisions import Decisions
+from tumato_symbolic.verify.given import NOT_ALL
 from tumato_symbolic.verify.result import CertificateUse, PropertyName, PropertyResult
 
 FEWEST_NODES = 2_000
@@ -202,26 +203,33 @@ class WalkProver:
         return self._ahead.take(("decreases", goal), partial(self._ranks.decreases, goal))
 
     def _by_certificate(self, owed: list[tuple[Residual, Function]]) -> PropertyResult | None:
-        """The proof with the ranks that came with the policy, or a failing run; None where they do not serve."""
+        """The proof with the ranks that came with the policy, or a failing run; None where they do not serve.
+
+        After a failing run the other ranks are looked at all the same: they may be wrong as well.
+        """
         model, walk, ranks = self._model, self._model.walk, self._ranks
-        whole = True
-        for goal, where in owed:
-            missed = self._missing(where, ranks.given_near(goal)) if goal in ranks.roots else where
-            if missed == FALSE:
-                continue
-            whole, state = False, model.first_state(missed)
-            if goal not in ranks.roots:
-                ranks.lacks(goal)
-            elif (refuted := self._witnesses.goal_missed(state)) is not None:
-                ranks.serve()
-                return refuted
-            elif walk.all_of((where, model.next(ranks.given_far(goal)))) != FALSE:
-                ranks.reject(f"its ranks of {ranks.described(goal)} exceed the bound")
-                return None
-            else:
+        failed, whole = None, True
+        try:
+            for goal, where in owed:
+                if goal not in ranks.roots:
+                    ranks.lacks(goal)
+                    whole = False
+                    continue
+                missed = self._missing(where, ranks.given_near(goal))
+                if missed == FALSE:
+                    continue
+                state = model.first_state(missed)
+                failed, whole = failed or self._witnesses.goal_missed(state), False
+                if walk.all_of((where, model.next(ranks.given_far(goal)))) != FALSE:
+                    ranks.reject(f"its ranks of {ranks.described(goal)} exceed the bound")
+                    return failed
                 ranks.lacks(goal, state)
+        except (BudgetError, RecursionError):
+            if failed is None:
+                raise
+            ranks.fall_short(NOT_ALL)
         if not whole:
-            return None
+            return failed
         ranks.serve()
         return PropertyResult("goals", "proved", 1 + len(ranks.roots) + len(owed), "walk")
 

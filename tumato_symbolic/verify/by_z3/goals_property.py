@@ -10,6 +10,7 @@ from tumato_symbolic.verify.by_z3.rank_terms import RankProof
 from tumato_symbolic.verify.by_z3.solver import UndecidedError
 from tumato_symbolic.verify.by_z3.terms import conjunction, negation, same
 from tumato_symbolic.verify.decisions import LARGEST_TABLE
+from tumato_symbolic.verify.given import NOT_ALL
 from tumato_symbolic.verify.result import PropertyResult, Refutation
 
 
@@ -47,31 +48,35 @@ def _residuals(frame: Frame) -> list[Residual]:
 
 
 def _by_certificate(frame: Frame, source: RankSource, goals: list[Residual]) -> PropertyResult | None:
-    """The proof with the ranks that came with the policy, or a failing run; None where they do not serve."""
+    """The proof with the ranks that came with the policy, or a failing run; None where they do not serve.
+
+    After a failing run the other ranks are looked at all the same: they may be wrong as well.
+    """
     if not source.check_given():
         return None
-    whole = True
-    for goal in goals:
-        given = source.given(goal)
-        if given is None:
-            source.lacks(goal)
-            whole = False
-            continue
-        proof = RankProof(frame, given)
-        state = proof.first_beyond(source.owes_a_run)
-        if state is None:
-            continue
-        failed = _failing(frame, source, state)
-        if failed is not None:
-            source.serve()
-            return failed
-        if proof.first_too_large(source.owes_a_run) is not None:
-            source.reject(f"its ranks of {source.described(goal)} exceed the bound")
-            return None
-        source.lacks(goal, state)
-        whole = False
+    failed, whole = None, True
+    try:
+        for goal in goals:
+            given = source.given(goal)
+            if given is None:
+                source.lacks(goal)
+                whole = False
+                continue
+            proof = RankProof(frame, given)
+            state = proof.first_beyond(source.owes_a_run)
+            if state is None:
+                continue
+            failed, whole = failed or _failing(frame, source, state), False
+            if proof.first_too_large(source.owes_a_run) is not None:
+                source.reject(f"its ranks of {source.described(goal)} exceed the bound")
+                return failed
+            source.lacks(goal, state)
+    except UndecidedError:
+        if failed is None:
+            raise
+        source.fall_short(NOT_ALL)
     if not whole:
-        return None
+        return failed
     source.serve()
     return _proved(goals)
 
