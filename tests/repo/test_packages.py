@@ -5,11 +5,20 @@ import sys
 import sysconfig
 import tarfile
 import zipfile
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from tests.repo.documents import ROOT
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _no_other_modules() -> Iterator[None]:
+    """What `PYTHONPATH` names would be found before what is installed."""
+    with pytest.MonkeyPatch.context() as patched:
+        patched.delenv("PYTHONPATH", raising=False)
+        yield
 
 
 @pytest.fixture(scope="module")
