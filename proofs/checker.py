@@ -1022,27 +1022,25 @@ class Judge:
         agreeing = {state: chosen for state, chosen in self.decided.items() if world.agree(chosen)}
         self.after = {state: world.successor(state, chosen) for state, chosen in agreeing.items()}
         self.steps: dict[Residual, dict[State, int | None]] = {}
-        self.origins = self.undecided_states()
+        self.missing = [state for state in world.valid if state not in self.decided]
 
-    def undecided_states(self) -> dict[State, State | None]:
-        """The valid states without a decision, each with the first decided state that it is an outcome of.
+    def departure(self) -> tuple[State, State] | None:
+        """The first decided state with an outcome that is valid and undecided, and that outcome.
 
-        The first of those with one comes first. Decisions with too many outcomes are passed over: these are witnesses.
+        Decisions with too many outcomes are passed over: this is a witness only.
         """
-        origins: dict[State, State | None] = {}
-        missing = {state for state in self.world.valid if state not in self.decided}
-        if missing:
-            for state, chosen in self.decided.items():
-                with suppress(TooLarge):
-                    for after, _ in self.world.outcomes(state, chosen):
-                        if after in missing:
-                            origins.setdefault(after, state)
-        return origins | {state: None for state in self.world.valid if state in missing and state not in origins}
+        missing = set(self.missing)
+        for state, chosen in self.decided.items():
+            with suppress(TooLarge):
+                for after, _ in self.world.outcomes(state, chosen):
+                    if after in missing:
+                        return state, after
+        return None
 
     def verdicts(self) -> dict[str, tuple[list[State], Callable[[State], str]]]:
         """For each property the states in which it fails, and the function that tells why in one of them."""
         return {
-            "total": (list(self.origins), self.undecided),
+            "total": (self.missing, self.undecided),
             "safe": (list(self.objections), self.refused),
             "goals": ([state for state in self.allowed if not self.serves(state, self.decided[state])], self.missed),
             "minimal": ([state for state in self.decided if self.cheaper(state) is not None], self.dearer),
@@ -1084,9 +1082,11 @@ class Judge:
         return f"in {self.world.show(state)} the decision is {self.world.show_set(self.decided[state])}"
 
     def undecided(self, state: State) -> str:
-        origin = self.origins[state]
-        told = f"no decision in {self.world.show(state)}"
-        return told if origin is None else f"{told}, which is an outcome of a decision: {self.decision(origin)}"
+        departure = self.departure()
+        if departure is None:
+            return f"no decision in {self.world.show(state)}"
+        origin, after = departure
+        return f"no decision in {self.world.show(after)}, which is an outcome of a decision: {self.decision(origin)}"
 
     def refused(self, state: State) -> str:
         return f"{self.decision(state)}: {self.objections[state]}"

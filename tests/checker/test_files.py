@@ -221,7 +221,24 @@ def test_too_many_outcomes_are_no_witness(monkeypatch: pytest.MonkeyPatch) -> No
     monkeypatch.setattr(checker, "LARGEST", 0)
     monkeypatch.setattr(checker.World, "objection", lambda *_: None)
     judge = checker.Judge(world, lambda state: None if state == start else frozenset(("move_to_charger",)))
-    assert judge.origins == {start: None}
+    assert (judge.missing, judge.departure()) == ([start], None)
+    assert judge.undecided(start) == f"no decision in {world.show(start)}"
+
+
+def test_the_first_undecided_outcome_is_enough(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No other one is looked for: only one is told."""
+    world = checker.World(checker.read_specification(AMR.encode()), "any")
+    *decided, last = world.valid
+    judge = checker.Judge(world, lambda state: frozenset(("charge",)) if state in decided else None)
+    asked = []
+
+    def outcomes(_: object, state: object, __: object) -> list[object]:
+        asked.append(state)
+        return [(last if len(asked) > 1 else state, [])]
+
+    monkeypatch.setattr(checker.World, "outcomes", outcomes)
+    assert judge.departure() == (decided[1], last)
+    assert asked == decided[:2]
 
 
 def test_unsafe_decision_names_the_rule(tmp_path: Path) -> None:
