@@ -26,13 +26,18 @@ def _is_gone(process: int) -> bool:
     return False
 
 
+def _end_by(number: signal.Signals) -> None:
+    signal.signal(number, signal.SIG_DFL)
+    os.kill(os.getpid(), number)
+
+
 @pytest.mark.parametrize(
     ("end", "how"),
     [
         (partial(os._exit, 0), "exit 0"),
         (partial(os._exit, 3), "exit 3"),
-        (lambda: os.kill(os.getpid(), signal.SIGHUP), "signal 1"),
-        (lambda: os.kill(os.getpid(), signal.SIGKILL), "signal 9"),
+        (partial(_end_by, signal.SIGHUP), "signal 1"),
+        (partial(_end_by, signal.SIGTERM), "signal 15"),
     ],
 )
 def test_how_a_child_ended_is_told(end: Callable[[], object], how: str) -> None:

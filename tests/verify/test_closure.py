@@ -11,12 +11,14 @@ import pytest
 from tests.generate import PROFILES, random_spec
 from tests.verify.policies import leaving, near_policies
 from tumato_symbolic import parse
+from tumato_symbolic.limits import Context, LimitReachedError, Limits
 from tumato_symbolic.policy import as_diagram, policy_from_rows
 from tumato_symbolic.report.proof import proof_json, refutation_text
 from tumato_symbolic.report.reasons import Place
 from tumato_symbolic.semantics import ActionSet, State, all_states, is_valid
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify import ProverName, Refutation, closure, verify
+from tumato_symbolic.verify.decisions import Decisions
 
 PROVERS: tuple[ProverName, ...] = ("z3", "walk", "explicit")
 
@@ -102,3 +104,12 @@ def test_too_many_outcomes_are_left_open(monkeypatch: pytest.MonkeyPatch) -> Non
         found = total(parse(ROWS), {(0,): frozenset((0,)), (1,): frozenset()}, "any", "explicit")
         assert found is not None
         assert (found.state, found.closed, found.departure is not None) == ((2,), False, is_found)
+
+
+def test_the_time_limit_holds_for_the_way() -> None:
+    """It is looked for in no more time than there is."""
+    spec = parse(ROWS)
+    policy = policy_from_rows(spec, {(0,): frozenset((0,)), (1,): frozenset()}, "any")
+    decisions = Decisions(spec, policy)
+    with pytest.raises(LimitReachedError):
+        closure.with_departure(Refutation("missing", (2,)), spec, decisions, "any", Context(Limits(0.0)))

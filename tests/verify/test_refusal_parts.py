@@ -11,7 +11,7 @@ from tests.unrealizability import certified
 from tests.verify.test_unrealizable_by_hand import conflicting, line, self_conflicting, stuck
 from tumato_symbolic.diagrams import DiagramBuilder
 from tumato_symbolic.limits import Context
-from tumato_symbolic.policy.unrealizable import Cube, NoAllowedSet, NoPlan, Unrealizability, Violation
+from tumato_symbolic.policy.unrealizable import Conflict, Cube, NoAllowedSet, NoPlan, Unrealizability, Violation
 from tumato_symbolic.semantics import allowed
 from tumato_symbolic.spec import And, Not, Or, Spec
 from tumato_symbolic.verify import UnrealizabilityVerdict, verify_unrealizable
@@ -89,6 +89,37 @@ def test_what_layers_say_of_unsafe_states_means_nothing(monkeypatch: pytest.Monk
             forged = replace(certificate, reason=replace(reason, diagram=builder.finish(), goals=layers))
             found = verify_unrealizable(forged, spec)
             assert (found.verdict, found.reason) == ("proved", None), (many, held)
+
+
+def test_what_distances_say_of_unsafe_states_means_nothing() -> None:
+    """One that meets a goal and leads away from it may be as far from it as it likes."""
+    build = Build({"x": "lmrLRu"})
+    for here, there in ("lm", "rm", "mL", "mR", "ul"):
+        build.action(f"x={there}", when=[build.atom(f"x={here}")])
+    left, right, unsafe = (build.atom(f"x={place}") for place in "LRu")
+    goals = priority(
+        when(build.atom("x=l"), build.goal(Or((right, unsafe)))),
+        when(build.atom("x=r"), build.goal(Or((left, unsafe)))),
+    )
+    spec = build.spec(goals, state_rules=[Not(unsafe)])
+    certificate = certificate_of(spec)
+    reason = certificate.reason
+    assert isinstance(reason, Conflict)
+    builder = DiagramBuilder[int | None]((0,), (0, 1, 2, None))
+    one, two, never = 1, 2, 3
+    roots = {
+        "x is R": builder.node(0, (two, one, two, never, 0, never)),
+        "x is L": builder.node(0, (two, one, two, 0, never, never)),
+    }
+    named = [next((root for text, root in roots.items() if text in "".join(goal.bodies)), 0) for goal in reason.goals]
+    assert len(set(named)) > 2
+    far = replace(
+        reason,
+        distances=builder.finish(),
+        goals=tuple(replace(goal, root=root) for goal, root in zip(reason.goals, named, strict=True)),
+    )
+    found = verify_unrealizable(replace(certificate, reason=far), spec)
+    assert found.verdict == "proved", found
 
 
 def test_layers_are_named_by_their_numbers() -> None:
