@@ -28,9 +28,10 @@ def main() -> int:
         )
         for ran in found:
             total += 1
-            wrong += bool(ran.problems)
+            problems = (*ran.problems, *(["it is late"] if ran.is_late else []))
+            wrong += bool(problems)
             worst = max(worst, ran.seconds)
-            print(f"{ran.seconds:6.2f} s  exit {ran.code}  {ran.command}", *ran.problems, sep="\n    ", flush=True)
+            print(f"{ran.seconds:6.2f} s  exit {ran.code}  {ran.command}", *problems, sep="\n    ", flush=True)
     print(f"{total} commands, {wrong} with problems; the longest took {worst:.2f} s")
     return 1 if wrong else 0
 
