@@ -246,6 +246,23 @@ def test_decide_where_the_policy_is_silent(cli: Cli, tmp_path: Path) -> None:
     assert "does not decide" in ran.err
 
 
+@pytest.mark.parametrize(
+    "command",
+    [
+        "synth typo.tum -o - --output-format json",
+        "synth typo.tum -o - --output-format github",
+        "explain typo.tum --write - --output-format json",
+        "explain typo.tum --write - --output-format github",
+        "explain typo.tum --write - --output-format sarif",
+    ],
+)
+def test_the_standard_output_is_for_what_is_made(cli: Cli, command: str) -> None:
+    """Where a command writes its file to the standard output, what is wrong with its input is reported apart."""
+    ran = cli(*command.split())
+    assert (ran.code, ran.out) == (2, "")
+    assert "TUM201" in ran.err
+
+
 def test_a_bug_is_70_with_its_traceback(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
     """An uncaught exception exits with 70, keeps the traceback and asks for a report."""
     monkeypatch.setattr("tumato_symbolic.cli.check.run", lambda *_: 1 // 0)

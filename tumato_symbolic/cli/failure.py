@@ -31,23 +31,24 @@ def show_undecided(why: str, options: Options) -> None:
 
 def _is_report_apart(options: Options) -> bool:
     """Whether the standard output is for what the command makes, and not for its report."""
-    return options.command in ("synth", "export-proof") and options.output == "-"
+    made = options.output if options.command in ("synth", "export-proof") else options.write
+    return made == "-"
 
 
 def show_user_error(error: UserError, options: Options) -> None:
-    """Text and workflow commands go where messages go; JSON is the one object that the command owes."""
+    """A message, or the report that the command owes in another format."""
     name = error.source.name if error.source else None
+    put = note if _is_report_apart(options) else write
     match options.output_format:
         case "json":
             findings = [finding_json(diagnostic, name) for diagnostic in error.diagnostics]
-            text = dump({"verdict": "error", "diagnostics": findings})
-            (note if _is_report_apart(options) else write)(text)
+            put(dump({"verdict": "error", "diagnostics": findings}))
         case "github":
-            write(github_commands(error.diagnostics, name))
+            put(github_commands(error.diagnostics, name))
         case "sarif":
             from tumato_symbolic import __version__
             from tumato_symbolic.report.sarif import findings_sarif
 
-            write(dump(findings_sarif(error.diagnostics, name or options.specs[0], __version__)))
+            put(dump(findings_sarif(error.diagnostics, name or options.specs[0], __version__)))
         case _:
             note(render(error.diagnostics, error.source, color=wants_colour(sys.stderr)))
