@@ -32,7 +32,7 @@ look at.
 LITTLE = 20_000_000
 """How many outcomes and steps are listed sooner than Z3 and the walk have used up their time."""
 
-FIRST_TURN = (SOON_REMEMBERED // 10, LITTLE // 50)
+FIRST_TURN = (SOON_REMEMBERED // 3, LITTLE // 50)
 """Where few states are decided, results of the walk, then outcomes, before the walk may remember so many."""
 
 MANY_RANK_NODES = 500
