@@ -66,9 +66,9 @@ PROCESSES = (
     "not depend",
 )
 Z3 = (
+    "tests/verify/test_effort.py",
     "tests/verify/test_terms.py",
     "tests/verify/test_false_answers.py",
-    "tests/verify/test_effort.py",
     COUNTS,
     "tests/verify/test_steps.py",
     "tests/verify/test_verify.py",

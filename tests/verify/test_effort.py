@@ -20,7 +20,7 @@ from tumato_symbolic.verify import PROPERTIES, PropertyName, PropertyResult, Ver
 from tumato_symbolic.verify.by_walk import prover as by_walk
 from tumato_symbolic.verify.by_walk.prover import WalkProver
 from tumato_symbolic.verify.by_z3 import rank_terms
-from tumato_symbolic.verify.by_z3.solver import Solver
+from tumato_symbolic.verify.by_z3.solver import LONGEST, NO_TIMEOUT, Solver
 from tumato_symbolic.verify.result import Verdict
 
 prove = import_module("tumato_symbolic.verify.prove")
@@ -107,8 +107,47 @@ def test_a_question_may_take_all_that_is_left(monkeypatch: pytest.MonkeyPatch) -
     """However little that is; where nothing is left, Z3 is not asked."""
     solver = Solver()
     monkeypatch.setattr(time, "monotonic", lambda: 100.0)
-    for deadline, answer in ((100.5, "sat"), (101.0, "sat"), (math.inf, "sat"), (100.0, "unknown"), (99.5, "unknown")):
-        assert solver.ask(deadline=deadline) == answer
+    told: list[tuple[str, int]] = []
+    monkeypatch.setattr(solver._solver, "set", lambda *option: told.append(option))
+    for left, milliseconds in (
+        (0.5, 500),
+        (2.5, 2500),
+        (0.0001, 1),
+        (LONGEST, 1000 * int(LONGEST)),
+        (LONGEST + 1, NO_TIMEOUT),
+        (math.inf, NO_TIMEOUT),
+    ):
+        assert solver.ask(deadline=100.0 + left) == "sat"
+        assert told.pop() == ("timeout", milliseconds)
+    for left in (0.0, -0.5):
+        assert solver.ask(deadline=100.0 + left) == "unknown"
+    assert not told
+
+
+class _Unknown:
+    """What Z3 is where it gives no answer, for some reason."""
+
+    def __init__(self, answer: str, reason: str) -> None:
+        self.check, self.reason_unknown = (lambda: answer), (lambda: reason)
+
+    def push(self, *_: object) -> None:
+        """Nothing is assumed."""
+
+    pop = add = set = push
+
+
+def test_ctrl_c_is_not_lost_in_z3() -> None:
+    """Z3 takes the signal for itself, and tells so as its reason; any other reason is no interruption."""
+    solver = Solver()
+    solver._solver = _Unknown("unknown", "interrupted from keyboard")
+    with pytest.raises(KeyboardInterrupt):
+        solver.ask()
+    for answer, reason in (("unknown", "timeout"), ("unsat", "")):
+        solver._solver = _Unknown(answer, reason)
+        try:
+            assert solver.ask() == answer
+        except KeyboardInterrupt:
+            pytest.fail("nobody has interrupted Z3")
 
 
 @pytest.mark.parametrize(("at_once", "timeout"), [(5.0, None), (5.0, 900.0), (900.0, 5.0)])

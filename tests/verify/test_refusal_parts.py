@@ -15,6 +15,7 @@ from tumato_symbolic.policy.unrealizable import Conflict, Cube, NoAllowedSet, No
 from tumato_symbolic.semantics import allowed
 from tumato_symbolic.spec import And, Not, Or, Spec
 from tumato_symbolic.verify import UnrealizabilityVerdict, verify_unrealizable
+from tumato_symbolic.verify.by_walk.walk import BudgetError
 from tumato_symbolic.verify.no_policy import no_plan
 
 # conflict: states and cuts; for each class of goals, 0 at the goal and no drop; options of each state; no choice
@@ -82,13 +83,22 @@ def test_what_layers_say_of_unsafe_states_means_nothing(monkeypatch: pytest.Monk
     reason = certificate.reason
     assert isinstance(reason, NoPlan) and reason.state == (0,)
     builder = DiagramBuilder((0,), (False, True))
-    for many in (1000, -1):
+    asked = []
+
+    def gives_up(*_: object) -> None:
+        asked.append(True)
+        raise BudgetError("tired")
+
+    for many, walk in ((1000, None), (-1, None), (-1, gives_up)):
         monkeypatch.setattr(no_plan, "MANY_NODES", many)
+        if walk is not None:
+            monkeypatch.setattr(no_plan, "first_left", walk)
         for held in ((1, 0, 0, 0), (1, 0, 1, 0), (1, 0, 0, 1), (1, 0, 1, 1)):
             layers = tuple(replace(each, roots=(builder.node(0, held),)) for each in reason.goals)
             forged = replace(certificate, reason=replace(reason, diagram=builder.finish(), goals=layers))
             found = verify_unrealizable(forged, spec)
             assert (found.verdict, found.reason) == ("proved", None), (many, held)
+    assert len(asked) == 4, "Z3 was asked after all"
 
 
 def test_what_distances_say_of_unsafe_states_means_nothing() -> None:
@@ -136,7 +146,7 @@ def test_layers_are_named_by_their_numbers() -> None:
 
 
 def test_the_first_state_that_leaves_is_named_by_the_walk(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Where steps lead out of the layers from several states."""
+    """Where steps lead out of the layers from several states; it has to be one of them."""
     build = Build({"x": "abcdefgh"})
     for here, there in ("ab", "bc", "dc", "ec", "fc"):
         build.action(f"x={there}", when=[build.atom(f"x={here}")])
@@ -151,6 +161,9 @@ def test_the_first_state_that_leaves_is_named_by_the_walk(monkeypatch: pytest.Mo
         forged = replace(reason, state=(0,), diagram=builder.finish(), goals=(layers,))
         found = verify_unrealizable(replace(certificate, reason=forged), spec)
         assert found.state == (None if first is None else (first,))
+        with monkeypatch.context() as patched, pytest.raises(RuntimeError, match="against the walk"):
+            patched.setattr(no_plan, "first_left", lambda *_: (0,))
+            verify_unrealizable(replace(certificate, reason=forged), spec)
 
 
 def test_a_state_that_the_walk_names_falsely_is_a_bug(monkeypatch: pytest.MonkeyPatch) -> None:

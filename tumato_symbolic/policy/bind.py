@@ -88,7 +88,6 @@ class Renumbering:
     variables: tuple[int, ...]
     values: tuple[tuple[int, ...], ...]
     actions: tuple[int, ...]
-    action_count: int
 
     @classmethod
     def between(cls, source: Vocabulary, target: Vocabulary, what: str) -> Renumbering:
@@ -105,7 +104,6 @@ class Renumbering:
             tuple(places[name] for name, _ in source.variables),
             tuple(tuple(map(values.index, wanted[name])) for name, values in source.variables),
             tuple(target.actions.index(name) for name in source.actions),
-            len(target.actions),
         )
 
     @property
@@ -142,9 +140,8 @@ class Renumbering:
 
     def decisions(self, decisions: DecisionDiagram) -> DecisionDiagram:
         """Roots in the new order of actions; the order of tests stays as it is."""
-        never = decisions.diagram.leaves.index(False)
         by_action = dict(zip(self.actions, decisions.roots, strict=True))
-        wanted = [by_action.get(action, never) for action in range(self.action_count)]
+        wanted = [by_action[action] for action in range(len(self.actions))]
         diagram, roots = self.diagram(decisions.diagram, (*wanted, decisions.defined))
         return DecisionDiagram(diagram, roots[:-1], roots[-1])
 
