@@ -19,7 +19,15 @@ from tests.semantics.build import Build, chosen, constraint, priority, when
 from tests.verify.test_forged_steps import ORDERINGS, SPECS
 from tumato_symbolic.limits import Budget
 from tumato_symbolic.policy import as_diagram, policy_from_rows
-from tumato_symbolic.semantics import Residual, active_goals, duration, residual_goal
+from tumato_symbolic.semantics import (
+    Residual,
+    active_goals,
+    disagreeing_pairs,
+    duration,
+    exclusive_groups,
+    exclusive_pairs,
+    residual_goal,
+)
 from tumato_symbolic.spec import And, Executing, Not, Ordering, Spec
 from tumato_symbolic.verify.by_states.packed import Packing
 from tumato_symbolic.verify.by_states.runs import Runs
@@ -27,7 +35,7 @@ from tumato_symbolic.verify.by_states.steps import Steps
 from tumato_symbolic.verify.by_walk.ahead import Ahead, Task
 from tumato_symbolic.verify.by_walk.goals import WalkGoals
 from tumato_symbolic.verify.by_walk.model import Model
-from tumato_symbolic.verify.by_walk.order import conflicting, disagreeing, exclusive_groups, walk_order
+from tumato_symbolic.verify.by_walk.order import walk_order
 from tumato_symbolic.verify.by_walk.walk import FALSE, TRUE, BudgetError, Walk, given_up
 from tumato_symbolic.verify.by_walk.witnesses import Witnesses
 from tumato_symbolic.verify.by_z3.encoding import Place
@@ -82,14 +90,14 @@ def test_groups_and_their_order() -> None:
         pairs = list(combinations(range(len(spec.actions)), 2))
         state = literal.states(spec)[0]
         broken = {pair: set(literal.broken(spec, state, frozenset(pair), "first")) for pair in pairs}
-        assert disagreeing(spec) == [pair for pair in pairs if "nominal-conflict" in broken[pair]]
-        assert conflicting(spec) == [pair for pair in pairs if broken[pair] & {"nominal-conflict", "resource"}]
+        assert disagreeing_pairs(spec) == [pair for pair in pairs if "nominal-conflict" in broken[pair]]
+        assert exclusive_pairs(spec) == [pair for pair in pairs if broken[pair] & {"nominal-conflict", "resource"}]
         groups = exclusive_groups(spec)
         assert sorted(action for group in groups for action in group) == list(range(len(spec.actions)))
         for group in groups:
-            assert set(combinations(sorted(group), 2)) <= set(conflicting(spec))
+            assert set(combinations(sorted(group), 2)) <= set(exclusive_pairs(spec))
         for one, other in combinations(groups, 2):
-            assert not all(tuple(sorted((other[0], action))) in conflicting(spec) for action in one)
+            assert not all(tuple(sorted((other[0], action))) in exclusive_pairs(spec) for action in one)
         count = len(spec.variables)
         for tested in ([], list(reversed(range(count))), [count - 1]):
             order = walk_order(spec, tested, groups)

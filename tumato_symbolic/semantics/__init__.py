@@ -1,5 +1,6 @@
 """The meaning of specifications: explicit, one state at a time, slow and plain. See `docs/semantics.md`."""
 
+from tumato_symbolic.semantics.exclusion import disagreeing_pairs, exclude_each_other, exclusive_groups, exclusive_pairs
 from tumato_symbolic.semantics.goals import ActiveGoals, Residual, active_goals, reached, residual_goal
 from tumato_symbolic.semantics.judge import Judgement, better_sets, judge
 from tumato_symbolic.semantics.partial import settled_truth
@@ -52,7 +53,11 @@ __all__ = [
     "better_sets",
     "broken_rule",
     "count_states",
+    "disagreeing_pairs",
     "duration",
+    "exclude_each_other",
+    "exclusive_groups",
+    "exclusive_pairs",
     "follow",
     "holds",
     "is_safe",

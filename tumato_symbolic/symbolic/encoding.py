@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from tumato_symbolic.limits import Context
-from tumato_symbolic.semantics import ActionSet, State, nominal_agrees
+from tumato_symbolic.semantics import ActionSet, State, exclusive_groups
 from tumato_symbolic.spec import Assignment, Connectives, Executing, Formula, Is, Spec, fold
 from tumato_symbolic.symbolic.effect_tree import EffectTree, after_every, effect_tree
 from tumato_symbolic.symbolic.manager import Backend, Bdd, Manager
@@ -202,24 +202,6 @@ class Encoding:
 def number_bits(bits: tuple[str, ...], number: int) -> dict[str, bool]:
     """A number in binary, most significant bit first."""
     return {bit: bool(number >> (len(bits) - 1 - position) & 1) for position, bit in enumerate(bits)}
-
-
-def conflicting(spec: Spec, first: int, second: int) -> bool:
-    """Whether two actions can never run together: a shared resource, or nominal effects that disagree."""
-    shared = spec.actions[first].resources & spec.actions[second].resources
-    return bool(shared) or not nominal_agrees(spec, frozenset((first, second)))
-
-
-def exclusive_groups(spec: Spec) -> list[tuple[int, ...]]:
-    """Every action in one group whose members exclude each other: greedily, in the order of declaration."""
-    groups: list[list[int]] = []
-    for action in range(len(spec.actions)):
-        home = next((group for group in groups if all(conflicting(spec, action, other) for other in group)), None)
-        if home is None:
-            groups.append([action])
-        else:
-            home.append(action)
-    return [tuple(group) for group in groups]
 
 
 def encode(spec: Spec, backend: Backend, context: Context | None = None) -> Encoding:

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from tumato_symbolic.semantics import exclude_each_other
 from tumato_symbolic.spec import Assignment, Ordering
-from tumato_symbolic.symbolic.encoding import Encoding, Group, conflicting
+from tumato_symbolic.symbolic.encoding import Encoding, Group
 from tumato_symbolic.symbolic.manager import Bdd
 
 
@@ -143,7 +144,7 @@ def compatible_sets(encoding: Encoding) -> Bdd:
     for first in range(count):
         for second in range(first + 1, count):
             apart = encoding.choice_of[first][0] != encoding.choice_of[second][0]
-            if apart and conflicting(encoding.spec, first, second):
+            if apart and exclude_each_other(encoding.spec, first, second):
                 result = result & ~(encoding.executing(first) & encoding.executing(second))
     return result
 

@@ -12,9 +12,9 @@ from collections.abc import Iterator, Sequence
 from functools import cached_property
 
 from tumato_symbolic.policy import DecisionDiagram
-from tumato_symbolic.semantics import ActionSet, State
+from tumato_symbolic.semantics import ActionSet, State, disagreeing_pairs, exclusive_groups, exclusive_pairs
 from tumato_symbolic.spec import Connectives, Executing, Formula, Is, Ordering, Spec, fold
-from tumato_symbolic.verify.by_walk.order import conflicting, disagreeing, exclusive_groups, walk_order
+from tumato_symbolic.verify.by_walk.order import walk_order
 from tumato_symbolic.verify.by_walk.walk import FALSE, TRUE, Function, Walk
 
 MOST_CASES = 128
@@ -95,7 +95,7 @@ class Model:
     @cached_property
     def acting(self) -> Function:
         """`s` is decided, and the nominal effects of `π(s)` agree."""
-        return self.walk.without(self.decided, self.together(disagreeing(self.spec), self.policy))
+        return self.walk.without(self.decided, self.together(disagreeing_pairs(self.spec), self.policy))
 
     # Conditions 5 and 6
 
@@ -115,7 +115,7 @@ class Model:
         The one solution of `f(s, A) ⇔ s ∈ S and f(e(s), A \\ a)` for every effect `e` of every `a ∈ A`.
         """
         walk, before = self.walk, FALSE
-        exclusive = walk.negation(self.together(conflicting(self.spec), self.chosen))
+        exclusive = walk.negation(self.together(exclusive_pairs(self.spec), self.chosen))
         found = walk.all_of((self.safe, exclusive))
         while found != before:
             before = found
@@ -187,7 +187,7 @@ class Model:
             if action.preconditions:
                 executed = walk.all_of((self.decided, policy[number]))
                 yield f"the preconditions of {action.name} hold", walk.without(executed, self.preconditions(number))
-        conflict = walk.all_of((self.decided, self.together(conflicting(spec), policy)))
+        conflict = walk.all_of((self.decided, self.together(exclusive_pairs(spec), policy)))
         yield "resources are controlled once, and nominal effects agree", conflict
         for rule in spec.reaction_rules:
             yield (
@@ -215,7 +215,7 @@ class Model:
         """`Ok(s, A)`."""
         spec, walk = self.spec, self.walk
         parts = [walk.select(chosen, (TRUE, self.preconditions(action))) for action, chosen in enumerate(self.chosen)]
-        parts.append(walk.negation(self.together(conflicting(spec), self.chosen)))
+        parts.append(walk.negation(self.together(exclusive_pairs(spec), self.chosen)))
         parts += [self.formula(rule.formula, self.chosen) for rule in spec.reaction_rules]
         if self._ordering == "first":
             parts.append(walk.substitute(self.safe, self.successor(self.chosen)))

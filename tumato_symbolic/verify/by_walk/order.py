@@ -1,42 +1,10 @@
-"""Which actions are never together, and in which order the walk tests its variables."""
+"""In which order the walk tests its variables."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import combinations
 
-from tumato_symbolic.semantics import nominal_agrees
 from tumato_symbolic.spec import Spec
-
-
-def conflicting(spec: Spec) -> list[tuple[int, int]]:
-    """Pairs of actions that are never in one allowed set: a common resource, or nominal effects that disagree."""
-    apart = set(disagreeing(spec))
-    return [
-        pair
-        for pair in combinations(range(len(spec.actions)), 2)
-        if pair in apart or spec.actions[pair[0]].resources & spec.actions[pair[1]].resources
-    ]
-
-
-def disagreeing(spec: Spec) -> list[tuple[int, int]]:
-    """Pairs of actions whose nominal effects disagree."""
-    pairs = combinations(range(len(spec.actions)), 2)
-    return [pair for pair in pairs if not nominal_agrees(spec, frozenset(pair))]
-
-
-def exclusive_groups(spec: Spec) -> list[list[int]]:
-    """All actions, in groups of which no two are ever in one allowed set."""
-    apart = {frozenset(pair) for pair in conflicting(spec)}
-    groups: list[list[int]] = []
-    for action in range(len(spec.actions)):
-        fitting = (group for group in groups if all(frozenset((action, other)) in apart for other in group))
-        group = next(fitting, None)
-        if group is None:
-            groups.append([action])
-        else:
-            group.append(action)
-    return groups
 
 
 def walk_order(spec: Spec, tested: Sequence[int], groups: Sequence[Sequence[int]]) -> list[int]:
