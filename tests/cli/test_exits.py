@@ -3,12 +3,14 @@
 import json
 import re
 import shlex
+from dataclasses import fields
 from pathlib import Path
 
 import pytest
 
 from tests.cli.conftest import Cli
 from tests.cli.inputs import state
+from tumato_symbolic.cli.commands import COMMANDS, load
 from tumato_symbolic.verify import prove
 
 
@@ -203,7 +205,7 @@ def test_wrong_usage_is_2(cli: Cli, arguments: list[str]) -> None:
     assert ran.out == ""
 
 
-@pytest.mark.parametrize("command", ["", "synth", "verify", "decide", "check"])
+@pytest.mark.parametrize("command", ["", *COMMANDS])
 def test_help_teaches_with_an_example(cli: Cli, command: str) -> None:
     """`--help` shows a command to copy and the exit codes, everywhere."""
     ran = cli(*command.split(), "--help")
@@ -265,7 +267,7 @@ def test_the_standard_output_is_for_what_is_made(cli: Cli, command: str) -> None
 
 def test_a_bug_is_70_with_its_traceback(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
     """An uncaught exception exits with 70, keeps the traceback and asks for a report."""
-    monkeypatch.setattr("tumato_symbolic.cli.check.run", lambda *_: 1 // 0)
+    monkeypatch.setattr("tumato_symbolic.cli.commands.check.run", lambda *_: 1 // 0)
     ran = cli("check", "amr.tum")
     assert ran.code == 70
     assert "ZeroDivisionError" in ran.err
@@ -278,7 +280,7 @@ def test_out_of_memory_is_undecided(cli: Cli, monkeypatch: pytest.MonkeyPatch) -
     def exhausted(*_: object) -> int:
         raise MemoryError
 
-    monkeypatch.setattr("tumato_symbolic.cli.check.run", exhausted)
+    monkeypatch.setattr("tumato_symbolic.cli.commands.check.run", exhausted)
     assert cli("check", "amr.tum").code == 3
 
 
@@ -322,7 +324,10 @@ def test_a_half_is_no_whole_number(cli: Cli) -> None:
     assert cli("synth", "amr.tum", "--memory", "1.5").code == 2
 
 
-@pytest.mark.parametrize("command", ["verify", "why", "export-proof"])
+@pytest.mark.parametrize(
+    "command",
+    [name for name in COMMANDS if {"policy", "specs"} <= {field.name for field in fields(load(name).Options)}],
+)
 def test_files_the_wrong_way_round(cli: Cli, command: str) -> None:
     """A specification and then a policy: exit 2, and the command that was meant."""
     rest = ["S_Load=free"] if command == "why" else []

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.repo.documents import ROOT
+from tumato_symbolic.cli.commands import COMMANDS
 
 _PROBE = """
 import io, json, sys
@@ -28,10 +29,31 @@ def _loaded(*arguments: str) -> tuple[int, set[str]]:
     return code, set(names)
 
 
-@pytest.mark.parametrize("arguments", [["--help"], ["--version"], ["synth", "--help"], ["verify", "--help"]])
-def test_help_loads_no_solver_and_no_parser(arguments: list[str]) -> None:
-    """`--help` imports neither lark nor z3 nor dd."""
-    assert _loaded(*arguments) == (0, set())
+_OF_HELP = {"cli", "diagnostics", "limits"}
+"""The rooms that help needs."""
+
+_ROOMS = """
+import sys
+from tumato_symbolic.cli.main import main
+try:
+    main(sys.argv[1:])
+finally:
+    print(*sorted({name.split(".")[1] for name in sys.modules if name.startswith("tumato_symbolic.")}))
+    print(*sorted({name.rsplit(".", 1)[1] for name in sys.modules if name.startswith("tumato_symbolic.cli.commands.")}))
+"""
+"""Runs a command; its last lines are the rooms and the commands that it loaded."""
+
+
+@pytest.mark.parametrize("arguments", ["--help", "--version", *(f"{name} --help" for name in COMMANDS)])
+def test_help_loads_no_room_that_works(arguments: str) -> None:
+    """Help loads the command that it is about, and of the rooms only what a command line needs."""
+    assert _loaded(*arguments.split()) == (0, set())
+    done = subprocess.run(
+        [sys.executable, "-c", _ROOMS, *arguments.split()], capture_output=True, text=True, check=True
+    )
+    *_, rooms, commands = done.stdout.split("\n")[:-1]
+    assert set(rooms.split()) == _OF_HELP
+    assert commands.split() == [word.replace("-", "_") for word in arguments.split() if word in COMMANDS]
 
 
 def test_check_loads_neither_solver_nor_lark() -> None:

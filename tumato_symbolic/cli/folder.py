@@ -10,16 +10,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 from tumato_symbolic.cli.exits import NO, UNDECIDED, USAGE, YES
-from tumato_symbolic.cli.inputs import show_warnings
-from tumato_symbolic.cli.judging import exit_code, judge, wanted_jobs
+from tumato_symbolic.cli.judging import Criteria, exit_code, judge
 from tumato_symbolic.cli.matching import Specifications
-from tumato_symbolic.cli.output import show, show_profile
-from tumato_symbolic.cli.parser import Options
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.limits import NO_LIMITS, Context, LimitReachedError
 from tumato_symbolic.limits.processes import can_fork
 from tumato_symbolic.policy.claim import load_claim
-from tumato_symbolic.report import folder as report
 from tumato_symbolic.report.folder import Entry, Folder
 from tumato_symbolic.verify.children import Lost, in_children
 
@@ -35,48 +31,45 @@ FEWEST_BYTES = 100_000
 _WORST_FIRST = (USAGE, NO, UNDECIDED, YES)
 
 
-def run_folder(options: Options, context: Context) -> int:
-    """Verify every file and report them together; the exit code is that of the worst one.
+def judge_folder(
+    name: str, specs: Specifications, criteria: Criteria, context: Context, *, jobs: int, require_all: bool
+) -> Folder:
+    """Every file of a folder; with `require_all`, the specifications as well that have none.
 
     Raises `UserError` (TUM501) where there is nothing to verify: an empty folder proves nothing.
     """
-    folder, started = Path(options.policy), time.perf_counter()
+    folder, started = Path(name), time.perf_counter()
     paths = sorted(path for suffix in SUFFIXES for path in folder.glob(f"*{suffix}"))
     if not paths:
         message = (
             f"there is nothing to verify in the folder {folder}: no file is called NAME{' or NAME'.join(SUFFIXES)}"
         )
         raise UserError((Diagnostic(Code.TUM501, message, help="write one with `tumato-sym synth SPEC -o FILE`"),))
-    specs, missing = Specifications(options), list[Entry]()
+    missing = list[Entry]()
 
     def learn(found: Mapping[Path, Entry]) -> Folder:
         entries = (*(found.get(path, Entry(str(path))) for path in paths), *missing)
-        done = Folder(str(folder), entries, options.strict, time.perf_counter() - started)
+        done = Folder(str(folder), entries, criteria.strict, time.perf_counter() - started)
         context.learn(done)
         return done
 
-    found = _entries(paths, specs, options, context, learn)
-    if options.require_all:
+    found = _entries(paths, specs, criteria, context, learn, jobs=jobs)
+    if require_all:
         missing += [Entry(str(path), missing=True) for path in _without(found.values(), specs)]
-    code = _report(learn(found), options)
-    show_profile(context, options)
-    return code
+    return learn(found)
 
 
-def stopped_folder(known: Folder, why: str, options: Options) -> int:
-    """Report the files that were judged when a limit was met, and that the others were not."""
+def ended_folder(known: Folder, why: str) -> Folder:
+    """The files that were judged when a limit was met, and that the others were not."""
     entries = (
         entry if entry.done is not None or entry.error is not None or entry.missing else replace(entry, limit=why)
         for entry in known.entries
     )
-    return _report(replace(known, entries=tuple(entries)), options)
+    return replace(known, entries=tuple(entries))
 
 
-def _report(done: Folder, options: Options) -> int:
-    for entry in done.entries:
-        if entry.done is not None:
-            show_warnings(entry.done.warnings, entry.done.source, options)
-    show(report, done, options)
+def folder_code(done: Folder) -> int:
+    """The exit code of the worst file."""
     return min(map(_code, done.entries), key=_WORST_FIRST.index)
 
 
@@ -97,17 +90,19 @@ def _code(entry: Entry) -> int:
 def _entries(
     paths: Sequence[Path],
     specs: Specifications,
-    options: Options,
+    criteria: Criteria,
     context: Context,
     learn: Callable[[Mapping[Path, Entry]], object],
+    *,
+    jobs: int,
 ) -> dict[Path, Entry]:
     """All files, by several processes where that pays; `learn` is told the results so far."""
-    jobs, found = wanted_jobs(options), dict[Path, Entry]()
+    found = dict[Path, Entry]()
     parts = _parts(paths, jobs, context.limits != NO_LIMITS) if jobs > 1 and can_fork() else []
     if len(parts) < 2:
         for path in paths:
             part = context.within(learned=partial(_learn_of, path, found, learn))
-            found[path] = _entry(path, specs, options, part, jobs=jobs)
+            found[path] = _entry(path, specs, criteria, part, jobs=jobs)
             learn(found)
         return found
 
@@ -117,7 +112,7 @@ def _entries(
         learn(found)
 
     context.tell(f"verifying {len(paths)} files")
-    in_children([partial(_part, part, specs, options, context) for part in parts], jobs, heard)
+    in_children([partial(_part, part, specs, criteria, context) for part in parts], jobs, heard)
     return found
 
 
@@ -134,8 +129,8 @@ def _kept(answer: list[Entry] | Lost) -> list[Entry]:
     raise MemoryError(answer.reason)
 
 
-def _part(paths: Sequence[Path], specs: Specifications, options: Options, context: Context) -> list[Entry]:
-    return [_entry(path, specs, options, context.within(), jobs=1) for path in paths]
+def _part(paths: Sequence[Path], specs: Specifications, criteria: Criteria, context: Context) -> list[Entry]:
+    return [_entry(path, specs, criteria, context.within(), jobs=1) for path in paths]
 
 
 def _parts(paths: Sequence[Path], jobs: int, limited: bool) -> list[list[Path]]:
@@ -154,10 +149,12 @@ def _parts(paths: Sequence[Path], jobs: int, limited: bool) -> list[list[Path]]:
     return parts
 
 
-def _entry(path: Path, specs: Specifications, options: Options, context: Context, *, jobs: int) -> Entry:
+def _entry(path: Path, specs: Specifications, criteria: Criteria, context: Context, *, jobs: int) -> Entry:
     try:
         claim = load_claim(str(path))
-        return Entry(str(path), judge(claim, str(path), str(specs.of(path, claim.digest)), options, context, jobs=jobs))
+        return Entry(
+            str(path), judge(claim, str(path), str(specs.of(path, claim.digest)), criteria, context, jobs=jobs)
+        )
     except UserError as error:
         return Entry(str(path), error=error)
     except LimitReachedError as limit:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 from tumato_symbolic.cli.console import note, wants_colour
-from tumato_symbolic.cli.parser import Options
+from tumato_symbolic.cli.options import CommandOptions
 from tumato_symbolic.diagnostics import Diagnostic, Source, UserError, render
 from tumato_symbolic.spec import Spec, load
 from tumato_symbolic.syntax import read_source
@@ -33,7 +33,7 @@ def errors_in(source: Source) -> Iterator[None]:
         raise
 
 
-def show_warnings(warnings: Sequence[Diagnostic], source: Source, options: Options) -> None:
+def show_warnings(warnings: Sequence[Diagnostic], source: Source, options: CommandOptions) -> None:
     """Warnings for a person, ahead of the report; the other formats carry them inside."""
     if warnings and options.output_format == "text":
         note(render(tuple(warnings), source, color=wants_colour(sys.stderr)))

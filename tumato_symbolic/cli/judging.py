@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import time
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, TypeAlias, cast
 
 from tumato_symbolic.cli.exits import NO, UNDECIDED, YES
 from tumato_symbolic.cli.inputs import errors_in, read_spec
-from tumato_symbolic.cli.parser import Options
 from tumato_symbolic.limits import Context
 from tumato_symbolic.policy import Policy
 from tumato_symbolic.report.verified import Verified
@@ -19,18 +18,29 @@ from tumato_symbolic.verify.result import stopped
 if TYPE_CHECKING:
     from tumato_symbolic.policy.unrealizable import Unrealizability
     from tumato_symbolic.report.unrealizable import Disproved
-    from tumato_symbolic.verify import UnrealizabilityVerdict, Verification
+    from tumato_symbolic.spec import Ordering
+    from tumato_symbolic.verify import ProverName, UnrealizabilityVerdict, Verification
 
     Judged: TypeAlias = Verified | Disproved
 
 
-def wanted_jobs(options: Options) -> int:
+@dataclass(frozen=True, slots=True)
+class Criteria:
+    """What a claim is held to: the ordering (None: its own), the properties, who proves them, and its certificate."""
+
+    ordering: Ordering | None
+    properties: tuple[str, ...]
+    prover: ProverName
+    strict: bool
+
+
+def wanted_jobs(asked: int | None) -> int:
     """How many processes may work at a time: as many as the user says, else one on every processor."""
-    return options.jobs or cores()
+    return asked or cores()
 
 
 def judge(
-    claim: Policy | Unrealizability, path: str, spec_path: str, options: Options, context: Context, *, jobs: int
+    claim: Policy | Unrealizability, path: str, spec_path: str, criteria: Criteria, context: Context, *, jobs: int
 ) -> Judged:
     """The claim read from `path` against the specification at `spec_path`.
 
@@ -42,16 +52,16 @@ def judge(
 
     def verified(found: object) -> Verified:
         took = time.perf_counter() - started
-        return Verified(source, spec, path, cast("Verification", found), warnings, took, options.strict)
+        return Verified(source, spec, path, cast("Verification", found), warnings, took, criteria.strict)
 
     with errors_in(source):
         if isinstance(claim, Policy):
             verification = verify(
                 claim,
                 spec,
-                ordering=options.effect_ordering,
-                properties=options.properties,
-                prover=options.prover,
+                ordering=criteria.ordering,
+                properties=criteria.properties,
+                prover=criteria.prover,
                 jobs=jobs,
                 context=context.within(learned=lambda found: context.learn(verified(found))),
             )
@@ -62,10 +72,10 @@ def judge(
         def disproved(found: object) -> Disproved:
             took = time.perf_counter() - started
             verdict = cast("UnrealizabilityVerdict", found)
-            return Disproved(source, spec, path, verdict, warnings, took, options.strict)
+            return Disproved(source, spec, path, verdict, warnings, took, criteria.strict)
 
         part = context.within(learned=lambda found: context.learn(disproved(found)))
-        return disproved(verify_unrealizable(claim, spec, ordering=options.effect_ordering, context=part))
+        return disproved(verify_unrealizable(claim, spec, ordering=criteria.ordering, context=part))
 
 
 def ended(known: Judged, why: str) -> Judged:

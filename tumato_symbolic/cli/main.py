@@ -7,12 +7,11 @@ import os
 import sys
 from collections.abc import Callable, Sequence
 from functools import partial
-from importlib import import_module
-from typing import Any
 
 from tumato_symbolic.cli.console import close_quietly, flush, note, prepare_streams
 from tumato_symbolic.cli.exits import BROKEN_PIPE, BUG, INTERRUPTED, TERMINATED, UNDECIDED, USAGE
-from tumato_symbolic.cli.parser import WRITING, Options, parse
+from tumato_symbolic.cli.options import CommandOptions
+from tumato_symbolic.cli.parser import CommandLine, parse
 from tumato_symbolic.diagnostics import UserError, render
 from tumato_symbolic.limits import NO_LIMITS, Context, LimitReachedError, Limits
 from tumato_symbolic.limits.processes import age, can_fork
@@ -21,12 +20,6 @@ _REPORT_THIS = (
     "tumato-sym: this is a bug in tumato-sym, not a verdict on your input. "
     "Please report it with the traceback above, the command and the input files."
 )
-
-_OWN_SECONDS = {"explain": 58.0, "rules": 58.0}
-"""How long a command looks at most where nothing else is asked for, so that its report is there within a minute."""
-
-_SHORT = ("check", "decide")
-"""Commands that show no progress."""
 
 _OBJECTS_BETWEEN_COLLECTIONS = 100_000
 """Python looks for garbage after so many new objects rather than after 700: hardly any of ours is in a cycle."""
@@ -77,91 +70,87 @@ def _guarded(work: Callable[[], int]) -> int:
 
 
 def _run(arguments: Sequence[str] | None, may_fork: bool) -> int:
-    typed = sys.argv[1:] if arguments is None else arguments
     try:
-        options = parse(typed)
+        line = parse(sys.argv[1:] if arguments is None else arguments)
     except SystemExit as done:  # argparse has printed its help, the version or what is wrong with the usage
         return done.code if isinstance(done.code, int) else USAGE
     except UserError as error:
         note(render(error.diagnostics, None))
         return USAGE
     try:
-        if options.command in WRITING:
-            from tumato_symbolic.cli.targets import settled
-
-            options = settled(options)
+        line = _settled(line)
     except UserError as error:
-        return _unusable(error, options, typed)
-    limits = Limits(options.timeout or _OWN_SECONDS.get(options.command), options.memory)
+        return _unusable(error, line)
+    limits = Limits(line.options.timeout or line.options.own_seconds, line.options.memory)
     context = Context(limits, spent=age() if may_fork and limits != NO_LIMITS else 0.0)
-    work = partial(_command, options, context, typed)
-    if may_fork and can_fork() and _is_watched(context, options):
-        return _supervised(work, options, context)
+    work = partial(_command, line, context)
+    if may_fork and can_fork() and _is_watched(context, line.options):
+        return _supervised(work, line, context)
     return work()
 
 
-def _is_watched(context: Context, options: Options) -> bool:
+def _settled(line: CommandLine) -> CommandLine:
+    """With the names of the files to write settled. Raises `UserError` where one cannot be written."""
+    if not line.options.outputs():
+        return line
+    from tumato_symbolic.cli.targets import settled
+
+    return line._replace(options=settled(line.options))
+
+
+def _is_watched(context: Context, options: CommandOptions) -> bool:
     """Whether there is something to keep watch over: limits, or a terminal that shows how long work gets on."""
-    shown = options.command not in _SHORT and sys.stderr is not None and sys.stderr.isatty()
+    shown = options.shows_progress and sys.stderr is not None and sys.stderr.isatty()
     return shown or context.limits != NO_LIMITS
 
 
-def _supervised(work: Callable[[], int], options: Options, context: Context) -> int:
+def _supervised(work: Callable[[], int], line: CommandLine, context: Context) -> int:
     """Have a child do the command, and report what it knew when it had to be ended."""
     from tumato_symbolic.cli.supervise import EndedError, TerminatedError, supervised
 
-    _module(options)  # both processes need it: one to work, the other to report
     try:
         return supervised(partial(_guarded, work), context)
     except EndedError as ended:
-        return _stopped(context.known, str(ended), options)
+        return _stopped(context.known, str(ended), line)
     except KeyboardInterrupt:
-        _report_interrupted(context.known, options)
+        _report_interrupted(context.known, line)
         raise
     except TerminatedError as ended:
         return TERMINATED + ended.number
 
 
-def _command(options: Options, context: Context, typed: Sequence[str]) -> int:
+def _command(line: CommandLine, context: Context) -> int:
     """Hand over to the command."""
     try:
-        code: int = _module(options).run(options, context)
+        return line.command.run(line.options, context)
     except UserError as error:
-        return _unusable(error, options, typed)
+        return _unusable(error, line)
     except LimitReachedError as limit:
-        return _stopped(context.known, str(limit), options)
+        return _stopped(context.known, str(limit), line)
     except KeyboardInterrupt:
-        _report_interrupted(context.known, options)
+        _report_interrupted(context.known, line)
         raise
-    return code
 
 
-def _unusable(error: UserError, options: Options, typed: Sequence[str]) -> int:
+def _unusable(error: UserError, line: CommandLine) -> int:
     from tumato_symbolic.cli.failure import show_user_error
     from tumato_symbolic.cli.mixups import recognized
 
-    show_user_error(recognized(error, options, typed), options)
+    show_user_error(recognized(error, line.options, line.words), line.options)
     return USAGE
 
 
-def _stopped(known: object, why: str, options: Options) -> int:
+def _stopped(known: object, why: str, line: CommandLine) -> int:
     """Report what was known when a command had to end, and why it had to."""
     if known is None:
         from tumato_symbolic.cli.failure import show_undecided
 
-        show_undecided(why, options)
+        show_undecided(why, line.options)
         return UNDECIDED
-    code: int = _module(options).stopped(known, why, options)
-    return code
+    return line.command.stopped(known, why, line.options)
 
 
-def _report_interrupted(known: object, options: Options) -> None:
-    """After Ctrl-C an explanation says what it has found; nothing else is worth half."""
-    if known is not None and options.command == "explain":
-        _stopped(known, "it was interrupted", options)
-
-
-def _module(options: Options) -> Any:  # noqa: ANN401 - a module with `run`, and with `stopped` where it learns
-    """The module of a command; each imports only what it needs, because start-up is measured."""
-    name = "export" if options.command == "export-proof" else options.command
-    return import_module(f"tumato_symbolic.cli.{name}")
+def _report_interrupted(known: object, line: CommandLine) -> None:
+    """After Ctrl-C an explanation says what it has found; of the other commands, nothing is worth half."""
+    if known is not None and line.options.reports_interruption:
+        _stopped(known, "it was interrupted", line)

@@ -6,7 +6,6 @@ import os
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from tumato_symbolic.cli.parser import Options
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.spec import load
 from tumato_symbolic.spec.canonical import digest
@@ -20,11 +19,11 @@ EXAMPLES = Path("..", "examples")
 
 
 class Specifications:
-    """The specifications of the folders where those of a folder of policies are looked for."""
+    """The specifications of the folders where those of a folder of policies are looked for: those given come first."""
 
-    def __init__(self, options: Options) -> None:
-        folder = Path(options.policy)
-        self._given = [*map(Path, options.spec_folders)]
+    def __init__(self, policies: str, given: Iterable[str]) -> None:
+        folder = Path(policies)
+        self._given = [*map(Path, given)]
         self._beside = [folder, Path(os.path.normpath(folder / EXAMPLES))]
         self._digests: dict[Path, str | None] = {}
 

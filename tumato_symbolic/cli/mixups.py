@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Literal
 
-from tumato_symbolic.cli.parser import Options
+from tumato_symbolic.cli.options import CommandOptions
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.diagnostics.wording import quoted
 
@@ -22,7 +22,7 @@ _CERTIFICATE = re.compile(rb'"Type"\s*:\s*"unrealizable"')
 _POLICY = re.compile(rb'"PolicyFrameworkVersion"|"Type"\s*:\s*"policy')
 
 
-def recognized(error: UserError, options: Options, typed: Sequence[str]) -> UserError:
+def recognized(error: UserError, options: CommandOptions, typed: Sequence[str]) -> UserError:
     """That an input is of the other kind, if it is, else what `error` says. `typed` are the words of the command."""
     policy, first = options.policy, next(iter(options.specs), "")
     found = [_kind(spec) for spec in options.specs]

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Protocol, TypeVar
 
 from tumato_symbolic.cli.console import note, wants_colour, write
-from tumato_symbolic.cli.parser import Options
+from tumato_symbolic.cli.options import CommandOptions
 from tumato_symbolic.limits import Context
-from tumato_symbolic.report.layout import dump
 
 Done_contra = TypeVar("Done_contra", contravariant=True)
 
@@ -27,24 +27,53 @@ class Report(Protocol[Done_contra]):
         """Workflow commands."""
 
 
-def show(report: Report[Done_contra], done: Done_contra, options: Options, *, to_stderr: bool = False) -> None:
+def show(report: Report[Done_contra], done: Done_contra, options: CommandOptions) -> None:
     """Print a result in the format that was asked for."""
+    show_as(
+        options,
+        text=partial(report.as_text, done),
+        json=partial(report.as_json, done),
+        github=partial(report.as_github, done),
+    )
+
+
+def show_as(
+    options: CommandOptions,
+    *,
+    text: Callable[[bool], str] | None = None,
+    json: Callable[[], Mapping[str, object]] | None = None,
+    github: Callable[[], str] | None = None,
+    sarif: Callable[[], Mapping[str, object]] | None = None,
+) -> None:
+    """Print a report in the format that was asked for; only that is made. `text` is told whether to use colour.
+
+    It goes to the standard output, or beside it where that is for what the command makes.
+    """
     match options.output_format:
-        case "json":
-            text = dump(report.as_json(done))
-        case "github":
-            text = report.as_github(done)
-        case _:
-            text = report.as_text(done, wants_colour(sys.stderr if to_stderr else sys.stdout))
-    (note if to_stderr else write)(text)
+        case "json" if json is not None:
+            shown = _dumped(json())
+        case "sarif" if sarif is not None:
+            shown = _dumped(sarif())
+        case "github" if github is not None:
+            shown = github()
+        case "text" if text is not None:
+            shown = text(wants_colour(sys.stderr if options.report_apart else sys.stdout))
+        case other:
+            raise AssertionError(f"the command offers the format {other}, and does not make it")
+    (note if options.report_apart else write)(shown)
 
 
-def show_profile(context: Context, options: Options) -> None:
-    """Where the time went, on the standard error stream, if that was asked for."""
-    if options.profile:
-        from tumato_symbolic.report.profile import profile_text
+def _dumped(report: Mapping[str, object]) -> str:
+    from tumato_symbolic.report.layout import dump
 
-        note(profile_text(context.stages(), _peak_megabytes()))
+    return dump(report)
+
+
+def show_profile(context: Context) -> None:
+    """Where the time went, on the standard error stream."""
+    from tumato_symbolic.report.profile import profile_text
+
+    note(profile_text(context.stages(), _peak_megabytes()))
 
 
 def _peak_megabytes() -> int | None:

@@ -5,42 +5,28 @@ from __future__ import annotations
 import os
 import stat
 import sys
-from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import TextIO
+from typing import TextIO, TypeVar
 
 from tumato_symbolic.cli.console import need_output
-from tumato_symbolic.cli.parser import Options
+from tumato_symbolic.cli.options import STANDARD_OUTPUT, CommandOptions, Target
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.diagnostics.wording import quoted
 from tumato_symbolic.policy.saving import open_file
 
-STANDARD_OUTPUT = "-"
+AnyOptions = TypeVar("AnyOptions", bound=CommandOptions)
 
 
-@dataclass(frozen=True, slots=True)
-class Target:
-    """A file that a command may write: its name, what is written there, and the option that names it."""
-
-    path: str
-    what: str
-    option: str = "-o"
-    example: str = "policy.json"
-
-
-def settled(options: Options) -> Options:
+def settled(options: AnyOptions) -> AnyOptions:
     """The options of a command that may begin: whatever it writes can be written, and is none of its inputs.
 
     Every name of the standard output becomes `-`. Raises `UserError` (TUM117, TUM118, TUM510).
     """
-    options = replace(
-        options,
-        output=_name(options.output),
-        write=None if options.write is None else _name(options.write),
-    )
-    for target in _targets(options):
+    named = {field: getattr(options, field) for field in options.outputs()}
+    options = replace(options, **{field: _name(output) for field, output in named.items() if output is not None})
+    for target in options.targets():
         if target.path == STANDARD_OUTPUT:
             need_output()
         else:
@@ -70,23 +56,6 @@ def _name(output: str) -> str:
         if open_file(Path(output)) == 1:
             return STANDARD_OUTPUT
     return output
-
-
-def _targets(options: Options) -> Iterator[Target]:
-    match options.command:
-        case "synth":
-            yield Target(options.output, "policy")
-            certificate = certificate_path(options.output)
-            if certificate is not None:
-                yield Target(str(certificate), "certificate that there is no policy")
-        case "export-proof":
-            yield Target(options.output, "theorem", example="policy.v")
-        case "explain" if options.write is not None:
-            yield Target(options.write, "specification", "--write", "assumed.tum")
-
-
-def _inputs(options: Options) -> list[str]:
-    return [name for name in (options.policy, *options.specs) if name]
 
 
 def _check_file(target: Target) -> None:
@@ -135,12 +104,12 @@ def _another(target: Target) -> str:
     return f"name another file with {target.option} FILE"
 
 
-def _check_inputs(target: Target, options: Options) -> None:
+def _check_inputs(target: Target, options: CommandOptions) -> None:
     """Raise `UserError` (TUM118) where the target is an input, be it by another name or through a link."""
     written = _standard(sys.stdout) if target.path == STANDARD_OUTPUT else _status(target.path)
     if written is None or stat.S_ISCHR(written.st_mode):
         return
-    for name in _inputs(options):
+    for name in options.inputs():
         read = _standard(sys.stdin) if name == "-" else _status(name)
         if read is not None and os.path.samestat(read, written):
             there = "the standard output" if target.path == STANDARD_OUTPUT else quoted(target.path)

@@ -4,27 +4,75 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
 
+from tumato_symbolic.cli import arguments
 from tumato_symbolic.cli.console import need_output, note, write
 from tumato_symbolic.cli.exits import NO, YES
-from tumato_symbolic.cli.parser import Options
+from tumato_symbolic.cli.options import CommandOptions, argument
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.limits import Context
-from tumato_symbolic.policy import Policy, UndecidedState, parse_assignments, parse_state
-from tumato_symbolic.syntax.reading import standard_input
+
+if TYPE_CHECKING:
+    from tumato_symbolic.policy import Policy
+
+ABOUT = """\
+Ask a policy what to do in a state: one action a line, nothing where nothing is to be done.
+
+With --stdin, read one JSON object per line and answer each with one JSON list on a line of its own: null where the
+policy says nothing about the state, {"error": "..."} where the line is no state. Every line is answered; the exit code
+is 1 where one of them was not answered with a list.
+"""
+
+EXAMPLES = """\
+examples:
+  tumato-sym decide policy.json S_Location=corridor S_Battery=low S_Load=free S_Conveyor=off
+  echo '{"S_Location": "corridor", "S_Battery": "low", "S_Load": "free", "S_Conveyor": "off"}' \\
+    | tumato-sym decide policy.json --stdin
+"""
+
 
 _LONGEST_LINE = 1_000_000
 """Bytes of one line on the standard input; a state needs a few hundred."""
 
 
+@dataclass(frozen=True, slots=True)
+class Options(CommandOptions):
+    """What may be typed after `decide`."""
+
+    policy: str = arguments.policy()
+    assignments: tuple[str, ...] = arguments.state("*")
+    stdin: bool = argument(
+        "--stdin", action="store_true", help="read states from the standard input, one JSON object a line"
+    )
+
+    shows_progress: ClassVar[bool] = False
+
+    def inputs(self) -> list[str]:
+        """The policy, and the states where they are read as well."""
+        return [self.policy, *(["-"] if self.stdin else [])]
+
+    def mistake(self) -> str | None:
+        """States come from one place."""
+        if self.stdin != bool(self.assignments):
+            return None
+        what = "not both" if self.stdin else "or --stdin"
+        return f"give the state as VAR=VALUE …, {what} (see tumato-sym decide --help)"
+
+
 def run(options: Options, _: Context) -> int:
     """Answer for one state, or for every line of the standard input."""
+    from tumato_symbolic.policy import Policy
+
     need_output()
     policy = Policy.load(options.policy)
     return _answer_lines(policy) if options.stdin else _answer(policy, options.assignments)
 
 
 def _answer(policy: Policy, words: tuple[str, ...]) -> int:
+    from tumato_symbolic.policy import UndecidedState, parse_assignments
+
     try:
         actions = policy.decide(parse_assignments(policy.vocabulary, words))
     except UndecidedState as undecided:
@@ -54,6 +102,8 @@ def _answer_lines(policy: Policy) -> int:
 
 def _lines() -> Iterator[bytes]:
     """The lines of the standard input; one that is too long is cut. Raises `UserError` where it cannot be read."""
+    from tumato_symbolic.syntax.reading import standard_input
+
     try:
         stream = standard_input()
         while line := stream.readline(_LONGEST_LINE + 1):
@@ -67,6 +117,8 @@ def _lines() -> Iterator[bytes]:
 
 def _reply(policy: Policy, line: bytes) -> tuple[str, str | None]:
     """The line that answers a line, and why it names no actions."""
+    from tumato_symbolic.policy import UndecidedState, parse_state
+
     try:
         if len(line) > _LONGEST_LINE:
             return _error(f"the line is longer than {_LONGEST_LINE:,} bytes")

@@ -1,65 +1,31 @@
-"""`tumato-sym synth`: synthesize, prove, write, report."""
+"""A specification is solved, its answer proved and written: what `synth` does."""
 
 from __future__ import annotations
 
 import time
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Literal, cast
 
 from tumato_symbolic.cli.console import write, writing
-from tumato_symbolic.cli.exits import NO, UNDECIDED, YES
-from tumato_symbolic.cli.inputs import errors_in, read_spec, show_warnings
-from tumato_symbolic.cli.output import show, show_profile
-from tumato_symbolic.cli.parser import Options
-from tumato_symbolic.cli.targets import STANDARD_OUTPUT, certificate_path
+from tumato_symbolic.cli.options import STANDARD_OUTPUT
+from tumato_symbolic.cli.targets import certificate_path
 from tumato_symbolic.diagnostics import Code, UserError
 from tumato_symbolic.limits import Context
 from tumato_symbolic.policy import dumps
 from tumato_symbolic.policy.saving import save_text
-from tumato_symbolic.report import synthesized
 from tumato_symbolic.report.synthesized import Synthesized
 from tumato_symbolic.synthesis import Outcome, Realizable, Undecided, Unrealizable, synthesize
-from tumato_symbolic.synthesis.synthesize import stopped as ended
-from tumato_symbolic.verify.result import stopped as not_all_proved
 
 if TYPE_CHECKING:
     from tumato_symbolic.policy.unrealizable import Unrealizability
-    from tumato_symbolic.verify import Verification
+    from tumato_symbolic.spec import Ordering
+    from tumato_symbolic.verify import ProverName, Verification
+
+PolicyFormat = Literal["auto", "table", "diagram"]
 
 
-def run(options: Options, context: Context) -> int:
-    """Exit with 0 only when there is a policy, it is proved (unless that was declined), and it is written."""
-    context.tell("reading the specification")
-    source, spec, warnings = read_spec(options.specs[0])
-    so_far = Synthesized(source, spec, Undecided("", None), None, warnings, options.output, False)
-    context.learn(so_far)
-    with errors_in(source):
-        so_far = _solve(so_far, options, context)
-        so_far = _prove(so_far, options, context)
-    done = _write(so_far, context)
-    context.tell("writing the report")
-    return _report(done, options, context)
-
-
-def stopped(known: Synthesized, why: str, options: Options) -> int:
-    """Report what was known when a limit was met; what the answer is, if that was known."""
-    found = ended(known.outcome, why)
-    proof = None if known.proof is None else not_all_proved(known.proof, why)
-    return _report(replace(known, outcome=found, proof=proof, cut_short=why), options, None)
-
-
-def _report(done: Synthesized, options: Options, context: Context | None) -> int:
-    show_warnings(done.warnings, done.source, options)
-    show(synthesized, done, options, to_stderr=options.output == STANDARD_OUTPUT)
-    if context is not None:
-        show_profile(context, options)
-    if done.written:
-        return YES
-    return NO if isinstance(done.outcome, Unrealizable) else UNDECIDED
-
-
-def _solve(so_far: Synthesized, options: Options, context: Context) -> Synthesized:
+def solve(so_far: Synthesized, ordering: Ordering | None, policy_format: PolicyFormat, context: Context) -> Synthesized:
     """The outcome of synthesis."""
     started, warnings = time.perf_counter(), so_far.warnings
 
@@ -70,22 +36,22 @@ def _solve(so_far: Synthesized, options: Options, context: Context) -> Synthesiz
     return having(
         synthesize(
             so_far.spec,
-            options.effect_ordering,
-            policy_format=options.policy_format,
+            ordering,
+            policy_format=policy_format,
             context=context.within(learned=lambda outcome: context.learn(having(cast("Outcome", outcome)))),
         )
     )
 
 
-def _prove(so_far: Synthesized, options: Options, context: Context) -> Synthesized:
-    """With the verdict on our own policy or certificate, unless that was declined.
+def prove(so_far: Synthesized, prover: ProverName, jobs: int | None, context: Context, *, wanted: bool) -> Synthesized:
+    """With the verdict on our own policy or certificate, where that is wanted.
 
     A refutation would be a bug of this program, and must not pass as a verdict.
     """
-    if options.prove and isinstance(so_far.outcome, Realizable):
-        return _prove_policy(so_far, so_far.outcome, options, context)
+    if wanted and isinstance(so_far.outcome, Realizable):
+        return _prove_policy(so_far, so_far.outcome, prover, jobs, context)
     context.learn(_without_policy(so_far))
-    if options.prove and isinstance(so_far.outcome, Unrealizable) and so_far.outcome.certificate is not None:
+    if wanted and isinstance(so_far.outcome, Unrealizable) and so_far.outcome.certificate is not None:
         return _prove_certificate(so_far, so_far.outcome.certificate, context)
     return so_far
 
@@ -97,7 +63,9 @@ def _without_policy(done: Synthesized) -> Synthesized:
     return done
 
 
-def _prove_policy(so_far: Synthesized, outcome: Realizable, options: Options, context: Context) -> Synthesized:
+def _prove_policy(
+    so_far: Synthesized, outcome: Realizable, prover: ProverName, jobs: int | None, context: Context
+) -> Synthesized:
     from tumato_symbolic.cli.judging import wanted_jobs
     from tumato_symbolic.verify import verify
 
@@ -110,8 +78,8 @@ def _prove_policy(so_far: Synthesized, outcome: Realizable, options: Options, co
         outcome.policy,
         so_far.spec,
         ordering=outcome.statistics.ordering,
-        prover=options.prover,
-        jobs=wanted_jobs(options),
+        prover=prover,
+        jobs=wanted_jobs(jobs),
         context=context.within(learned=lambda found: context.learn(_without_policy(having(found)))),
     )
     if proof.verdict == "refuted":
@@ -129,7 +97,7 @@ def _prove_certificate(so_far: Synthesized, certificate: Unrealizability, contex
     return replace(so_far, disproof=found, proved_in=time.perf_counter() - started)
 
 
-def _write(so_far: Synthesized, context: Context) -> Synthesized:
+def write_answer(so_far: Synthesized, context: Context) -> Synthesized:
     """With what may be written: a policy that is proved, or not to be proved; the certificate of the answer no."""
     outcome = so_far.outcome
     if isinstance(outcome, Realizable) and (so_far.proof is None or so_far.proof.verdict == "proved"):

@@ -1,0 +1,101 @@
+"""The options that several commands share."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from tumato_symbolic.cli.numbers import seconds, whole
+from tumato_symbolic.cli.options import OutputFormat, argument
+
+
+def policy(help_: str = "the policy, a .json file") -> Any:  # noqa: ANN401
+    """`POLICY`."""
+    return argument(metavar="POLICY", help=help_)
+
+
+def spec() -> Any:  # noqa: ANN401
+    """`SPEC`, once."""
+    return argument(metavar="SPEC", nargs=1, help="the specification, a .tum file")
+
+
+def state(number: str, help_: str = "the state: a value for every variable") -> Any:  # noqa: ANN401
+    """`VAR=VALUE`, as many as argparse's `nargs` says."""
+    return argument(metavar="VAR=VALUE", nargs=number, help=help_)
+
+
+def effect_ordering(default: str) -> Any:  # noqa: ANN401
+    """`--effect-ordering`."""
+    return argument(
+        "--effect-ordering",
+        choices=("any", "first"),
+        help="how the effects of actions executed together may strike: in any order, one after the other, or only the "
+        f"first of them (default: {default})",
+    )
+
+
+def timeout(default: str = "no limit") -> Any:  # noqa: ANN401
+    """`--timeout`; `default` is how long a command takes at most by itself."""
+    return argument(
+        "--timeout",
+        type=seconds,
+        metavar="SECONDS",
+        help="how long the command may take before it ends with what it has found (exit 3 where that is no answer; "
+        f"default: {default})",
+    )
+
+
+def memory() -> Any:  # noqa: ANN401
+    """`--memory`."""
+    return argument(
+        "--memory",
+        type=whole(1, "megabytes"),
+        metavar="MB",
+        help="how much memory it may take before it ends so (default: no limit)",
+    )
+
+
+def prover() -> Any:  # noqa: ANN401
+    """`--prover`."""
+    return argument(
+        "--prover",
+        choices=("auto", "z3", "walk", "explicit", "both"),
+        default="auto",
+        help="who proves a policy: Z3; the walk, our own checker over decision diagrams, which does without Z3; "
+        "explicit-state checking, which looks at every decided state, up to 200,000; both Z3 and the walk, which must "
+        "agree; or Z3 for what it answers soon, the walk for the rest, and explicit-state checking for what they leave "
+        "open (default: auto). That there is no policy is proved by Z3",
+    )
+
+
+def jobs(what: str) -> Any:  # noqa: ANN401
+    """`--jobs`."""
+    return argument(
+        "--jobs",
+        type=whole(1, "processes"),
+        metavar="N",
+        help=f"how many processes may work at {what}; the answer is the same (default: one on every processor)",
+    )
+
+
+def profile() -> Any:  # noqa: ANN401
+    """`--profile`."""
+    return argument(
+        "--profile",
+        action="store_true",
+        help="show on the standard error stream where the time went, and how much memory was taken",
+    )
+
+
+def output_format(*formats: OutputFormat) -> Any:  # noqa: ANN401
+    """`--output-format`, with the formats that there are beside the text for a person."""
+    readers = {
+        "json": "for a program (one JSON object)",
+        "github": "as workflow commands of GitHub",
+    }
+    said = ["for a person", *(readers[each] for each in formats if each in readers)]
+    return argument(
+        "--output-format",
+        choices=("text", *formats),
+        default="text",
+        help=f"{', '.join(said[:-1])}, or {said[-1]} (default: text)",
+    )

@@ -1,0 +1,182 @@
+"""`tumato-sym explain`: why there is no policy, and what would change that."""
+
+from __future__ import annotations
+
+import sys
+import time
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, ClassVar
+
+from tumato_symbolic.cli import arguments
+from tumato_symbolic.cli.console import note, wants_colour, write, writing
+from tumato_symbolic.cli.exits import NO, UNDECIDED, YES
+from tumato_symbolic.cli.numbers import whole
+from tumato_symbolic.cli.options import STANDARD_OUTPUT, CommandOptions, OutputFormat, Target, argument
+from tumato_symbolic.cli.output import show_as
+from tumato_symbolic.diagnostics import Source
+from tumato_symbolic.limits import Context
+
+if TYPE_CHECKING:
+    from tumato_symbolic.report.explained import Explained
+    from tumato_symbolic.spec import Ordering
+
+ABOUT = """\
+Say why there is no policy for a specification, and what would change that.
+
+All states that fail, in a few groups; for each group the fewest lines that suffice for it; what the nearest sets of
+actions break; what could be dropped or changed, each way tried; and the largest part of the states for which there is
+a policy, as an assumption.
+"""
+
+EXAMPLES = """\
+examples:
+  tumato-sym explain robots.tum
+  tumato-sym explain robots.tum --write robots_assumed.tum       # with the assumption that makes it realizable
+  tumato-sym explain robots.tum --output-format sarif > explain.sarif
+"""
+
+
+_BETWEEN = 0.5
+"""Seconds between two records of what is known, where nothing is written."""
+
+
+@dataclass(frozen=True, slots=True)
+class Options(CommandOptions):
+    """What may be typed after `explain`."""
+
+    specs: tuple[str, ...] = arguments.spec()
+    max_cubes: int | None = argument(
+        "--max-cubes",
+        type=whole(1),
+        metavar="N",
+        help="list at most N groups of failing states (default: 1,000 for a program, the largest ones for a person)",
+    )
+    cores: int = argument(
+        "--cores", type=whole(1), default=1, metavar="N", help="give up to N reasons for each group (default: 1)"
+    )
+    repairs: int = argument(
+        "--repairs", type=whole(0), default=3, metavar="N", help="look for N ways to drop lines (default: 3)"
+    )
+    write: str | None = argument(
+        "--write",
+        metavar="FILE",
+        help="write the specification with the assumption that makes it realizable (- for the standard output, the "
+        "report then goes to the standard error stream)",
+        writes=Target("specification", "--write", "assumed.tum"),
+    )
+    timeout: float | None = arguments.timeout("60")
+    memory: int | None = arguments.memory()
+    effect_ordering: Ordering | None = arguments.effect_ordering("the specification's, else any")
+    output_format: OutputFormat = arguments.output_format("json", "github", "sarif")
+
+    own_seconds: ClassVar[float | None] = 58.0
+    reports_interruption: ClassVar[bool] = True
+
+
+@dataclass(frozen=True, slots=True)
+class _Known:
+    """What is known by now, how many pieces of its text are written, and when that was recorded."""
+
+    done: Explained
+    written: int = 0
+    recorded: float = 0.0
+
+
+def run(options: Options, context: Context) -> int:
+    """Exit with 1 where there is no policy: that is the answer, and the explanation belongs to it."""
+    from tumato_symbolic.cli.inputs import errors_in, read_spec, show_warnings
+    from tumato_symbolic.explain.explain import MAX_CUBES, explained
+    from tumato_symbolic.explain.explanation import Explanation, Unexplained
+    from tumato_symbolic.report.explained import Explained
+
+    context.tell("reading the specification")
+    source, spec, warnings = read_spec(options.specs[0])
+    show_warnings(warnings, source, options)
+    every_cube = options.max_cubes is not None
+    known = _Known(Explained(source, spec, Unexplained(), warnings, None, every_cube))
+    known = _learned(known, options, context)
+    with errors_in(source):
+        for found in explained(
+            spec,
+            options.effect_ordering,
+            max_cubes=MAX_CUBES if options.max_cubes is None else options.max_cubes,
+            cores=options.cores,
+            wanted_repairs=options.repairs,
+            context=context,
+        ):
+            done = replace(known.done, found=found)
+            if options.write and done.written is None and isinstance(found, Explanation) and found.part is not None:
+                _write(options.write, source, found.part.text)
+                done = replace(done, written=options.write)
+            known = _learned(replace(known, done=done), options, context)
+    return _ended(known, options)
+
+
+def stopped(known: _Known, why: str, options: Options) -> int:
+    """Report what is known, or what of it is not written yet, when work has to end."""
+    from tumato_symbolic.explain.explanation import stopped as what_is_known
+
+    return _ended(replace(known, done=replace(known.done, found=what_is_known(known.done.found, why))), options)
+
+
+def _learned(known: _Known, options: Options, context: Context) -> _Known:
+    """Write the text of what is new, and record what is known; the other formats wait for the end."""
+    before, now = known.written, time.monotonic()
+    if options.output_format == "text":
+        known = _written(known, options)
+    if known.written > before or now - known.recorded >= _BETWEEN:
+        known = replace(known, recorded=now)
+        context.learn(known)
+    return known
+
+
+def _written(known: _Known, options: Options) -> _Known:
+    from tumato_symbolic.report.explained import pieces
+
+    found = pieces(known.done, wants_colour(sys.stderr if options.report_apart else sys.stdout))
+    if len(found) > known.written:
+        (note if options.report_apart else write)("\n".join(found[known.written :]))
+    return replace(known, written=len(found))
+
+
+def _ended(known: _Known, options: Options) -> int:
+    """Write what is not written yet, and give the exit code."""
+    if options.output_format == "text":
+        _written(known, options)
+    else:
+        from tumato_symbolic import __version__
+        from tumato_symbolic.report import explained_data, sarif
+
+        show_as(
+            options,
+            json=lambda: explained_data.as_json(known.done),
+            github=lambda: explained_data.as_github(known.done),
+            sarif=lambda: sarif.as_sarif(known.done, __version__),
+        )
+    return _code(known)
+
+
+def _code(known: _Known) -> int:
+    from tumato_symbolic.explain.explanation import NothingToExplain, Unexplained
+
+    match known.done.found:
+        case NothingToExplain():
+            return YES
+        case Unexplained():
+            return UNDECIDED
+        case _:
+            return NO
+
+
+def _write(path: str, source: Source, assumption: str) -> None:
+    """Write the specification with the assumption of its realizable part."""
+    from tumato_symbolic.explain.writing import with_assumption
+    from tumato_symbolic.policy.saving import save_text
+
+    text = with_assumption(source, assumption)
+    if path == STANDARD_OUTPUT:
+        write(text)
+    else:
+        with writing():
+            save_text(text, Path(path), "specification")

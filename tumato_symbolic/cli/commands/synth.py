@@ -1,0 +1,119 @@
+"""`tumato-sym synth`: synthesize, prove, write, report."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Literal
+
+from tumato_symbolic.cli import arguments
+from tumato_symbolic.cli.exits import NO, UNDECIDED, YES
+from tumato_symbolic.cli.options import CommandOptions, OutputFormat, Target, argument
+from tumato_symbolic.limits import Context
+
+if TYPE_CHECKING:
+    from tumato_symbolic.report.synthesized import Synthesized
+    from tumato_symbolic.spec import Ordering
+    from tumato_symbolic.verify import ProverName
+
+ABOUT = """\
+Compute a policy for a specification, prove it, and write it.
+
+The policy says for every valid state which actions to execute. It is written only after it has been proved. Where there
+is none, the states that fail are named, and NAME.unrealizable.json with the proof of that is written instead.
+"""
+
+EXAMPLES = """\
+examples:
+  tumato-sym synth amr.tum                                      # writes policy.json
+  tumato-sym synth amr.tum -o - | python -m json.tool | less    # the policy on the standard output
+  tumato-sym synth amr.tum --output-format json                 # the answer for a program
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class Options(CommandOptions):
+    """What may be typed after `synth`."""
+
+    specs: tuple[str, ...] = arguments.spec()
+    output: str = argument(
+        "-o",
+        "--output",
+        metavar="FILE",
+        default="policy.json",
+        help="where to write the policy (default: policy.json here; - for the standard output, the report then goes "
+        "to the standard error stream)",
+        writes=Target("policy"),
+    )
+    effect_ordering: Ordering | None = arguments.effect_ordering("the specification's, else any")
+    policy_format: Literal["auto", "table", "diagram"] = argument(
+        "--policy-format",
+        choices=("auto", "table", "diagram"),
+        default="auto",
+        help="a row for every state, or a decision diagram (default: auto, a table up to about 10,000 valid states)",
+    )
+    prove: bool = argument(
+        "--no-verify", action="store_false", help="write the policy without a proof (the report says so)"
+    )
+    timeout: float | None = arguments.timeout()
+    memory: int | None = arguments.memory()
+    prover: ProverName = arguments.prover()
+    jobs: int | None = arguments.jobs("the proof of a large policy")
+    profile: bool = arguments.profile()
+    output_format: OutputFormat = arguments.output_format("json", "github")
+
+    def targets(self) -> Iterator[Target]:
+        """The policy, and the certificate that there is none."""
+        from tumato_symbolic.cli.targets import certificate_path
+
+        yield from CommandOptions.targets(self)
+        certificate = certificate_path(self.output)
+        if certificate is not None:
+            yield Target("certificate that there is no policy", path=str(certificate))
+
+
+def run(options: Options, context: Context) -> int:
+    """Exit with 0 only when there is a policy, it is proved (unless that was declined), and it is written."""
+    from tumato_symbolic.cli.inputs import errors_in, read_spec
+    from tumato_symbolic.cli.synthesizing import prove, solve, write_answer
+    from tumato_symbolic.report.synthesized import Synthesized
+    from tumato_symbolic.synthesis import Undecided
+
+    context.tell("reading the specification")
+    source, spec, warnings = read_spec(options.specs[0])
+    so_far = Synthesized(source, spec, Undecided("", None), None, warnings, options.output, False)
+    context.learn(so_far)
+    with errors_in(source):
+        so_far = solve(so_far, options.effect_ordering, options.policy_format, context)
+        so_far = prove(so_far, options.prover, options.jobs, context, wanted=options.prove)
+    done = write_answer(so_far, context)
+    context.tell("writing the report")
+    code = _report(done, options)
+    if options.profile:
+        from tumato_symbolic.cli.output import show_profile
+
+        show_profile(context)
+    return code
+
+
+def stopped(known: Synthesized, why: str, options: Options) -> int:
+    """Report what was known when a limit was met; what the answer is, if that was known."""
+    from tumato_symbolic.synthesis.synthesize import stopped as ended
+    from tumato_symbolic.verify.result import stopped as not_all_proved
+
+    found = ended(known.outcome, why)
+    proof = None if known.proof is None else not_all_proved(known.proof, why)
+    return _report(replace(known, outcome=found, proof=proof, cut_short=why), options)
+
+
+def _report(done: Synthesized, options: Options) -> int:
+    from tumato_symbolic.cli.inputs import show_warnings
+    from tumato_symbolic.cli.output import show
+    from tumato_symbolic.report import synthesized
+    from tumato_symbolic.synthesis import Unrealizable
+
+    show_warnings(done.warnings, done.source, options)
+    show(synthesized, done, options)
+    if done.written:
+        return YES
+    return NO if isinstance(done.outcome, Unrealizable) else UNDECIDED

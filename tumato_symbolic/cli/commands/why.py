@@ -1,0 +1,92 @@
+"""`tumato-sym why`: why a policy decides as it does in a state."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from tumato_symbolic.cli import arguments
+from tumato_symbolic.cli.console import note
+from tumato_symbolic.cli.exits import NO, YES
+from tumato_symbolic.cli.options import CommandOptions, OutputFormat, argument
+from tumato_symbolic.cli.output import show_as
+from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
+from tumato_symbolic.limits import Context
+
+if TYPE_CHECKING:
+    from tumato_symbolic.semantics import ActionSet
+    from tumato_symbolic.spec import Ordering, Spec
+
+ABOUT = """\
+Say why a policy decides as it does in a state: which goal is active and why, the run to the goal, which other sets of
+actions are not allowed, and by which outcome, and what the allowed ones would cost.
+"""
+
+EXAMPLES = """\
+examples:
+  tumato-sym why policy.json amr.tum S_Location=corridor S_Battery=low S_Load=free S_Conveyor=on
+  tumato-sym why policy.json amr.tum S_Location=corridor S_Battery=low S_Load=free S_Conveyor=on --not move_to_charger
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class Options(CommandOptions):
+    """What may be typed after `why`."""
+
+    policy: str = arguments.policy()
+    specs: tuple[str, ...] = arguments.spec()
+    assignments: tuple[str, ...] = arguments.state("+")
+    instead: str | None = argument(
+        "--not", metavar="ACTION[,ACTION]", help="say why not this set of actions ('' is: nothing)"
+    )
+    output_format: OutputFormat = arguments.output_format("json")
+    timeout: float | None = arguments.timeout()
+    memory: int | None = arguments.memory()
+    effect_ordering: Ordering | None = arguments.effect_ordering(
+        "the one that the policy records, else the specification's, else any"
+    )
+
+
+def run(options: Options, context: Context) -> int:
+    """Exit with 1 where the policy says nothing about the state."""
+    from tumato_symbolic.cli.inputs import errors_in, read_spec
+    from tumato_symbolic.explain.decision import Decisions, judged, why
+    from tumato_symbolic.policy import Policy, UndecidedState, bind, parse_assignments
+    from tumato_symbolic.report import decided
+    from tumato_symbolic.report.reasons import Place
+
+    context.tell("reading the specification")
+    source, spec, _ = read_spec(options.specs[0])
+    context.tell(f"reading {options.policy}")
+    policy = Policy.load(options.policy)
+    with errors_in(source):
+        policy = bind(policy, spec)
+    ordering = options.effect_ordering or spec.ordering
+    asked = parse_assignments(policy.vocabulary, options.assignments)
+    state = tuple(variable.values.index(asked[variable.name]) for variable in spec.variables)
+    context.tell("judging the decision")
+    decisions = Decisions(spec, policy)
+    instead = None if options.instead is None else _actions(spec, options.instead)
+    try:
+        decision = why(spec, decisions, state, ordering)
+    except KeyError:
+        note(f"tumato-sym: {UndecidedState(asked)}")
+        return NO
+    other = None if instead is None else judged(spec, decisions, state, instead, ordering)
+    done = decided.Decided(Place(spec, source.name), options.policy, decision, other)
+    show_as(options, text=lambda _: decided.as_text(done), json=lambda: decided.as_json(done))
+    return YES
+
+
+def _actions(spec: Spec, text: str) -> ActionSet:
+    """The set that a list of names stands for; the empty text is the empty set."""
+    from tumato_symbolic.diagnostics.wording import nearest, quoted
+
+    names = [name.strip() for name in text.split(",") if name.strip()]
+    known = [action.name for action in spec.actions]
+    for name in names:
+        if name not in known:
+            similar = nearest(name, known)
+            help_ = f"did you mean {quoted(similar)}?" if similar else "see the ACTIONS block of the specification"
+            raise UserError((Diagnostic(Code.TUM505, f"there is no action {quoted(name)}", help=help_),))
+    return frozenset(known.index(name) for name in names)

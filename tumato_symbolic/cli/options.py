@@ -1,0 +1,105 @@
+"""The options of a command: a record whose fields say how they are typed."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from dataclasses import dataclass, field, fields
+from typing import Any, ClassVar, Literal, NamedTuple
+
+OutputFormat = Literal["text", "json", "github", "sarif"]
+
+STANDARD_OUTPUT = "-"
+
+
+class Target(NamedTuple):
+    """A file that a command may write: what is written there, the option that names it, and its name."""
+
+    what: str
+    option: str = "-o"
+    example: str = "policy.json"
+    path: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class CommandOptions:
+    """What was typed after a command. A command's own record extends this one, and says so where it differs.
+
+    Its fields are made by `argument`, in the order in which the help shows them; one of a name that is known here
+    takes the place of the default here.
+    """
+
+    own_seconds: ClassVar[float | None] = None
+    """How long the command takes at most where no limit is asked for."""
+
+    shows_progress: ClassVar[bool] = True
+    reports_interruption: ClassVar[bool] = False
+    """Whether what is known is reported after Ctrl-C as well."""
+
+    @property
+    def policy(self) -> str:
+        """The file with the policy, empty where the command reads none."""
+        return ""
+
+    @property
+    def specs(self) -> tuple[str, ...]:
+        """The files with specifications."""
+        return ()
+
+    @property
+    def timeout(self) -> float | None:
+        """The time limit in seconds."""
+        return None
+
+    @property
+    def memory(self) -> int | None:
+        """The memory limit in megabytes."""
+        return None
+
+    @property
+    def output_format(self) -> OutputFormat:
+        """For whom the report is."""
+        return "text"
+
+    def inputs(self) -> list[str]:
+        """The names of what is read, `-` for the standard input."""
+        return [name for name in (self.policy, *self.specs) if name]
+
+    @classmethod
+    def outputs(cls) -> dict[str, Target]:
+        """The fields that name a file to write, with what is written there."""
+        return {each.name: each.metadata["writes"] for each in fields(cls) if each.metadata["writes"] is not None}
+
+    def targets(self) -> Iterator[Target]:
+        """The files that may be written."""
+        for name, target in self.outputs().items():
+            path = getattr(self, name)
+            if path is not None:
+                yield target._replace(path=path)
+
+    def mistake(self) -> str | None:
+        """What is wrong with options that do not go together."""
+        return None
+
+    @property
+    def report_apart(self) -> bool:
+        """Whether the standard output is for what the command makes, and not for its report."""
+        return any(getattr(self, name) == STANDARD_OUTPUT for name in self.outputs())
+
+
+def argument(*flags: str, writes: Target | None = None, **settings: Any) -> Any:  # noqa: ANN401 - a field of any type
+    """A field of a record of options, with what `argparse` is told of it. Without flags, it is typed by its place.
+
+    `writes` says what is written to the file that the field names.
+    """
+    return field(metadata={"flags": flags, "settings": settings, "writes": writes})
+
+
+def add_arguments(parser: argparse.ArgumentParser, options: type[CommandOptions]) -> None:
+    """Let a parser know the fields of a record."""
+    for each in fields(options):
+        flags, settings = each.metadata["flags"], each.metadata["settings"]
+        if flags:
+            parser.add_argument(*flags, dest=each.name, **settings)
+        else:
+            parser.add_argument(each.name, **settings)
