@@ -4,17 +4,22 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator
-from typing import Literal
+from typing import Literal, NoReturn
 
 import pytest
 
 from tests.semantics import literal
-from tests.semantics.build import Build, priority
-from tests.verify.policies import certified
-from tumato_symbolic.semantics import Residual
+from tests.semantics.build import Build, priority, when
+from tests.verify.policies import certified, exact_ranks
+from tumato_symbolic.semantics import NOTHING, Residual, State
 from tumato_symbolic.spec import Not, Spec
 from tumato_symbolic.verify import verify
+from tumato_symbolic.verify.by_walk.ranks import WalkRanks
+from tumato_symbolic.verify.by_walk.walk import BudgetError
 from tumato_symbolic.verify.by_z3 import rank_terms
+from tumato_symbolic.verify.by_z3.rank_terms import RankProof
+from tumato_symbolic.verify.by_z3.solver import UndecidedError
+from tumato_symbolic.verify.given import NOT_ALL
 
 Table = dict[literal.State, int]
 Policy = dict[literal.State, literal.Actions]
@@ -195,3 +200,71 @@ def test_a_rank_leads_out_of_the_safe_states(prover: Name) -> None:
     spec = build.spec(priority(build.goal(build.atom("x=c"))), state_rules=[unsafe])
     policy = {(0,): frozenset((out.action,)), (1,): frozenset((back.action,)), (2,): frozenset[int]()}
     assert _status(spec, policy, {(0,): 2, (1,): 1, (2,): 0}, prover, "goals")[1] == "set aside"
+
+
+GOALS = [Residual(frozenset((number,)), frozenset()) for number in range(2)]
+
+
+def going_round(bound: int | None = None, modes: str = "qp") -> tuple[Spec, Policy]:
+    """Four places in a ring; in mode `p` the goal is the third, in mode `q` the fourth; the mode stays."""
+    build = Build({"m": modes, "x": "abcd"})
+    steps = [build.action(f"x={there}", when=[build.atom(f"x={here}")]) for here, there in ("ab", "bc", "cd", "da")]
+    goals = [when(build.atom(f"m={mode}"), build.goal(build.atom(f"x={place}"))) for mode, place in ("pc", "qd")]
+    policy = {(mode, place): frozenset((step.action,)) for mode in range(2) for place, step in enumerate(steps)}
+    return build.spec(priority(*goals), bound=bound), policy
+
+
+def _of_two(spec: Spec, policy: Policy, ranks: dict[Residual, Table], prover: Name) -> tuple[str, str, State | None]:
+    answer = verify(certified(spec, policy, ranks), spec, prover=prover, properties=["safe", "goals"])
+    refutation = answer.properties[1].refutation
+    return answer.properties[1].verdict, answer.certificate.status, refutation and refutation.state
+
+
+@needing_no_rival
+def test_every_goal_is_looked_at(prover: Name) -> None:
+    """What one goal lacks, or a run that misses it, does not hide that the ranks of another one exceed the bound."""
+    spec, policy = going_round(bound=9)
+    right = exact_ranks(spec, policy, "any")
+    assert _of_two(spec, policy, right, prover) == ("proved", "used", None)
+    standing = {**policy, (1, 0): NOTHING, (0, 0): NOTHING}
+    ranks = exact_ranks(spec, standing, "any")
+    assert _of_two(spec, standing, ranks, prover)[:2] == ("refuted", "incomplete")
+    for goal in GOALS:
+        assert _of_two(spec, policy, {goal: right[goal]}, prover) == ("proved", "incomplete", None)
+        far = {state: 9 * rank for state, rank in right[goal].items()}
+        assert _of_two(spec, policy, {goal: far}, prover) == ("proved", "wrong", None)
+        far = {state: 9 * rank for state, rank in ranks[goal].items()}
+        assert _of_two(spec, standing, {**ranks, goal: far}, prover)[:2] == ("refuted", "wrong")
+
+
+@needing_no_rival
+def test_what_nobody_owes_may_exceed_the_bound(prover: Name) -> None:
+    """Where another goal is owed, a rank may be as large as it likes; that one is missing elsewhere is no worse."""
+    spec, policy = going_round(bound=9)
+    right = exact_ranks(spec, policy, "any")
+    far = {state: rank if state[0] == 0 else 9 * rank for state, rank in right[GOALS[1]].items()}
+    assert _of_two(spec, policy, {**right, GOALS[1]: far}, prover) == ("proved", "used", None)
+    del far[0, 0]
+    assert _of_two(spec, policy, {**right, GOALS[1]: far}, prover) == ("proved", "incomplete", None)
+
+
+@pytest.mark.parametrize("prover", JUDGES, indirect=True)
+@pytest.mark.parametrize("modes", ["qp", "pq"])
+def test_the_first_run_that_fails_is_the_witness(modes: str, prover: Name, monkeypatch: pytest.MonkeyPatch) -> None:
+    """That of the goal which is looked at first, not the first state; and it stands, whatever becomes of the rest."""
+    spec, policy = going_round(modes=modes)
+    standing = {**policy, (1, 0): NOTHING, (0, 0): NOTHING}
+    ranks = exact_ranks(spec, standing, "any")
+    verdict, status, state = _of_two(spec, standing, ranks, prover)
+    assert (verdict, status, state and modes[state[0]]) == ("refuted", "incomplete", "p" if prover == "z3" else "q")
+
+    def tired(*_: object) -> NoReturn:
+        raise UndecidedError("ranks are below the bound") if prover == "z3" else BudgetError
+
+    monkeypatch.setattr(RankProof, "first_too_large", tired)
+    monkeypatch.setattr(WalkRanks, "given_far", tired)
+    answer = verify(certified(spec, standing, ranks), spec, prover=prover, properties=["goals"])
+    assert (answer.verdict, answer.certificate.status, answer.certificate.reason) == ("refuted", "incomplete", NOT_ALL)
+    right = exact_ranks(spec, policy, "any")
+    del right[GOALS[0]][modes.index("p"), 3]
+    assert verify(certified(spec, policy, right), spec, prover=prover, properties=["goals"]).verdict == "undecided"
