@@ -226,7 +226,7 @@ def test_every_goal_is_looked_at(prover: Name) -> None:
     spec, policy = going_round(bound=9)
     right = exact_ranks(spec, policy, "any")
     assert _of_two(spec, policy, right, prover) == ("proved", "used", None)
-    standing = {**policy, (1, 0): NOTHING, (0, 0): NOTHING}
+    standing = {**policy, (1, 3): NOTHING, (0, 0): NOTHING}
     ranks = exact_ranks(spec, standing, "any")
     assert _of_two(spec, standing, ranks, prover)[:2] == ("refuted", "incomplete")
     for goal in GOALS:
