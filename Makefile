@@ -8,6 +8,7 @@ BIN := $(VENV)/bin
 help:
 	@echo "make demo        install what is needed into $(VENV) and show the main job on a mobile robot"
 	@echo "make test        install the development tools too; lint, types, import walls, tests"
+	@echo "make check       all of that but the tests"
 	@echo "make proofs      compile the theorems in proofs/coq, and that of every example's policy (needs Coq)"
 	@echo "make mutants     20,000 changed policies, certificates and specifications through every prover (half an hour)"
 	@echo "make mutants-code  300 faults in the trusted base, each through the tests meant for it (ten minutes)"
@@ -21,12 +22,14 @@ help:
 demo: $(VENV)/.runtime
 	@BIN="$(abspath $(BIN))" sh examples/demo.sh
 
-test: $(VENV)/.development
+check: $(VENV)/.development
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/mypy --strict proofs/checker.py
 	$(BIN)/lint-imports
+
+test: check
 	$(BIN)/python -m pytest -n auto --dist worksteal
 
 proofs: $(VENV)/.development
@@ -57,18 +60,24 @@ bench-compare: $(VENV)/.development
 clean:
 	rm -rf $(VENV) build dist .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
 
-# Stamps: what is installed is installed again only when pyproject.toml changes.
+# Stamps: what is installed is installed again only when pyproject.toml or constraints.txt changes.
+INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt
+GROUP := import sys, tomllib; print(*tomllib.load(sys.stdin.buffer)["dependency-groups"]["dev"], sep="\n")
+
 $(VENV)/.made:
 	@$(PYTHON) -c 'import sys; sys.exit(None if sys.version_info >= (3, 11) else "Python 3.11 or newer is needed (make PYTHON=…)")'
 	$(PYTHON) -m venv $(VENV)
 	@touch $@
 
-$(VENV)/.runtime: pyproject.toml | $(VENV)/.made
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e .
+$(VENV)/.runtime: pyproject.toml constraints.txt | $(VENV)/.made
+	$(INSTALL) -e .
 	$(BIN)/python -m compileall -q tumato_symbolic
 	@touch $@
 
-$(VENV)/.development: pyproject.toml | $(VENV)/.made
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[dev]'
+$(VENV)/development.txt: pyproject.toml | $(VENV)/.made
+	@$(BIN)/python -c '$(GROUP)' <pyproject.toml >$@.new && mv $@.new $@
+
+$(VENV)/.development: pyproject.toml constraints.txt $(VENV)/development.txt | $(VENV)/.made
+	$(INSTALL) -e . -r $(VENV)/development.txt
 	$(BIN)/python -m compileall -q tumato_symbolic
 	@touch $@ $(VENV)/.runtime
