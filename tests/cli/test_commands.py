@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.conftest import Cli
+from tests.limits import campaign
 from tests.repo.documents import ROOT
 from tumato_symbolic.cli import commands
 from tumato_symbolic.cli.commands import COMMANDS, load
@@ -31,7 +32,7 @@ EXAMPLES = "examples:\\n  tumato-sym count-bytes amr.tum\\n"
 
 @dataclass(frozen=True, slots=True)
 class Options(CommandOptions):
-    specs: tuple[str, ...] = arguments.spec()
+    specs: tuple[str, ...] = arguments.specs()
     times: int = argument("--times", type=int, default=1, metavar="N", help="count so often")
     output: str | None = argument("--output", metavar="FILE", help="a copy of the number", writes=Target("number"))
     output_format: OutputFormat = arguments.output_format("json")
@@ -118,6 +119,23 @@ def test_nothing_else_names_commands() -> None:
     for path in CLI.glob("*.py"):
         named = {node.value for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, ast.Constant)}
         assert not named & set(COMMANDS), path.name
+
+
+def test_options_of_several_commands_are_defined_once() -> None:
+    """A flag that two commands know is in `arguments`, and in no module of a command."""
+    spelled = []
+    for path in (CLI / "commands").glob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text())):
+            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "argument":
+                spelled += [each.value for each in node.args if isinstance(each, ast.Constant)]
+    assert "--strict" in spelled
+    assert len(spelled) == len(set(spelled))
+
+
+def test_limits_are_tried_on_every_command_that_has_some() -> None:
+    """The campaign on limits knows every command with a time limit."""
+    limited = {name for name in COMMANDS if "timeout" in {field.name for field in fields(load(name).Options)}}
+    assert set(campaign.COMMANDS) == limited
 
 
 def test_the_documents_know_every_command() -> None:

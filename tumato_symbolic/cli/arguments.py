@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from tumato_symbolic.cli.numbers import seconds, whole
-from tumato_symbolic.cli.options import OutputFormat, argument
+from tumato_symbolic.cli.options import OutputFormat, Target, argument
 
 
 def policy(help_: str = "the policy, a .json file") -> Any:  # noqa: ANN401
@@ -13,9 +13,14 @@ def policy(help_: str = "the policy, a .json file") -> Any:  # noqa: ANN401
     return argument(metavar="POLICY", help=help_)
 
 
-def spec() -> Any:  # noqa: ANN401
-    """`SPEC`, once."""
-    return argument(metavar="SPEC", nargs=1, help="the specification, a .tum file")
+def specs(number: int | str = 1, help_: str = "the specification, a .tum file") -> Any:  # noqa: ANN401
+    """`SPEC`, as many as argparse's `nargs` says."""
+    return argument(metavar="SPEC", nargs=number, help=help_)
+
+
+def output(writes: Target, default: str, help_: str) -> Any:  # noqa: ANN401
+    """`--output`, where that is what the command is for."""
+    return argument("-o", "--output", metavar="FILE", default=default, help=help_, writes=writes)
 
 
 def state(number: str, help_: str = "the state: a value for every variable") -> Any:  # noqa: ANN401

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, ClassVar
 from tumato_symbolic.cli import arguments
 from tumato_symbolic.cli.console import note
 from tumato_symbolic.cli.exits import UNDECIDED, USAGE, YES
-from tumato_symbolic.cli.options import CommandOptions, OutputFormat, argument
+from tumato_symbolic.cli.options import CommandOptions, OutputFormat
 from tumato_symbolic.cli.output import show_as
 from tumato_symbolic.limits import Context
 
@@ -34,7 +34,7 @@ examples:
 class Options(CommandOptions):
     """What may be typed after `check`."""
 
-    specs: tuple[str, ...] = argument(metavar="SPEC", nargs="+", help="specifications, .tum files")
+    specs: tuple[str, ...] = arguments.specs("+", "specifications, .tum files")
     timeout: float | None = arguments.timeout()
     memory: int | None = arguments.memory()
     output_format: OutputFormat = arguments.output_format("json", "github")

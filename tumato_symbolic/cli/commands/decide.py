@@ -88,8 +88,7 @@ def _answer(policy: Policy, words: tuple[str, ...]) -> int:
 def _answer_lines(policy: Policy) -> int:
     """Answer line by line, to the end: one that is no state is answered with what is wrong with it."""
     unanswered = 0
-    for number, line in enumerate(_lines(), 1):
-        text, problem = _reply(policy, line)
+    for number, (text, problem) in enumerate(_replies(policy), 1):
         write(text)
         if problem is not None:
             unanswered += 1
@@ -115,20 +114,23 @@ def _lines() -> Iterator[bytes]:
         raise UserError((Diagnostic(Code.TUM101, message),)) from error
 
 
-def _reply(policy: Policy, line: bytes) -> tuple[str, str | None]:
-    """The line that answers a line, and why it names no actions."""
+def _replies(policy: Policy) -> Iterator[tuple[str, str | None]]:
+    """For every line the one that answers it, and why it names no actions."""
     from tumato_symbolic.policy import UndecidedState, parse_state
 
-    try:
-        if len(line) > _LONGEST_LINE:
-            return _error(f"the line is longer than {_LONGEST_LINE:,} bytes")
-        return json.dumps(policy.decide(parse_state(policy.vocabulary, line.decode()))), None
-    except UndecidedState as undecided:
-        return "null", str(undecided)
-    except UnicodeDecodeError:
-        return _error("the line is not UTF-8 text")
-    except UserError as error:
-        return _error("; ".join(diagnostic.message for diagnostic in error.diagnostics))
+    def reply(line: bytes) -> tuple[str, str | None]:
+        try:
+            if len(line) > _LONGEST_LINE:
+                return _error(f"the line is longer than {_LONGEST_LINE:,} bytes")
+            return json.dumps(policy.decide(parse_state(policy.vocabulary, line.decode()))), None
+        except UndecidedState as undecided:
+            return "null", str(undecided)
+        except UnicodeDecodeError:
+            return _error("the line is not UTF-8 text")
+        except UserError as error:
+            return _error("; ".join(diagnostic.message for diagnostic in error.diagnostics))
+
+    return map(reply, _lines())
 
 
 def _error(problem: str) -> tuple[str, str]:

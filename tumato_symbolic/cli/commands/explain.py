@@ -45,7 +45,7 @@ _BETWEEN = 0.5
 class Options(CommandOptions):
     """What may be typed after `explain`."""
 
-    specs: tuple[str, ...] = arguments.spec()
+    specs: tuple[str, ...] = arguments.specs()
     max_cubes: int | None = argument(
         "--max-cubes",
         type=whole(1),

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from tumato_symbolic.cli import arguments
 from tumato_symbolic.cli.console import note, write, writing
 from tumato_symbolic.cli.exits import YES
-from tumato_symbolic.cli.options import STANDARD_OUTPUT, CommandOptions, Target, argument
+from tumato_symbolic.cli.options import STANDARD_OUTPUT, CommandOptions, Target
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.limits import Context
 
@@ -34,14 +34,9 @@ class Options(CommandOptions):
     """What may be typed after `export-proof`."""
 
     policy: str = arguments.policy()
-    specs: tuple[str, ...] = arguments.spec()
-    output: str = argument(
-        "-o",
-        "--output",
-        metavar="FILE",
-        default="-",
-        help="where to write the theorem (default: the standard output)",
-        writes=Target("theorem", example="policy.v"),
+    specs: tuple[str, ...] = arguments.specs()
+    output: str = arguments.output(
+        Target("theorem", example="policy.v"), "-", "where to write the theorem (default: the standard output)"
     )
     timeout: float | None = arguments.timeout()
     memory: int | None = arguments.memory()

@@ -35,15 +35,12 @@ examples:
 class Options(CommandOptions):
     """What may be typed after `synth`."""
 
-    specs: tuple[str, ...] = arguments.spec()
-    output: str = argument(
-        "-o",
-        "--output",
-        metavar="FILE",
-        default="policy.json",
-        help="where to write the policy (default: policy.json here; - for the standard output, the report then goes "
-        "to the standard error stream)",
-        writes=Target("policy"),
+    specs: tuple[str, ...] = arguments.specs()
+    output: str = arguments.output(
+        Target("policy"),
+        "policy.json",
+        "where to write the policy (default: policy.json here; - for the standard output, the report then goes to the "
+        "standard error stream)",
     )
     effect_ordering: Ordering | None = arguments.effect_ordering("the specification's, else any")
     policy_format: Literal["auto", "table", "diagram"] = argument(

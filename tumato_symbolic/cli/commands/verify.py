@@ -52,9 +52,7 @@ class Options(CommandOptions):
     """What may be typed after `verify`."""
 
     policy: str = arguments.policy("the policy or the proof that there is none, a .json file, or a folder of them")
-    specs: tuple[str, ...] = argument(
-        metavar="SPEC", nargs="*", help="the specification, a .tum file; none for a folder"
-    )
+    specs: tuple[str, ...] = arguments.specs("*", "the specification, a .tum file; none for a folder")
     spec_folders: tuple[str, ...] = argument(
         "--specs",
         metavar="DIR",

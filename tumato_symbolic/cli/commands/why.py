@@ -34,7 +34,7 @@ class Options(CommandOptions):
     """What may be typed after `why`."""
 
     policy: str = arguments.policy()
-    specs: tuple[str, ...] = arguments.spec()
+    specs: tuple[str, ...] = arguments.specs()
     assignments: tuple[str, ...] = arguments.state("+")
     instead: str | None = argument(
         "--not", metavar="ACTION[,ACTION]", help="say why not this set of actions ('' is: nothing)"
