@@ -215,6 +215,14 @@ def test_every_operation_counts_what_it_remembers(name: str) -> None:
     assert walk.is_full
 
 
+def test_a_result_counts_as_one() -> None:
+    """A constant is no result; a node that was looked up is."""
+    walk = Walk(range(3), [2, 2, 2])
+    assert walk.remembered == 0
+    walk.combine(operator.add, walk.variable(0), walk.variable(1))
+    assert walk.remembered == len(walk._combined[operator.add]) == 3
+
+
 def test_time_and_watchers() -> None:
     """Heeded now and then while results are remembered."""
     walk = Walk(range(12), [2] * 12)
