@@ -153,14 +153,14 @@ def test_a_child_that_is_ended_while_it_writes_leaves_no_temporary_file(
 
 
 def test_a_child_that_crashes_is_a_bug() -> None:
-    """A signal that nobody sent is no verdict; one that the system sends for want of memory is undecided."""
+    """A signal that nobody sent is no verdict; one that the system sends because memory ran out is undecided."""
 
     def ended_by(number: int) -> Callable[[], int]:
         return lambda: os.kill(os.getpid(), number) or 0
 
     with pytest.raises(ChildCrashedError, match="ended by signal"):
         supervised(ended_by(signal.SIGUSR1), Context())
-    with pytest.raises(EndedError, match="for want of memory"):
+    with pytest.raises(EndedError, match="memory ran out"):
         supervised(ended_by(signal.SIGKILL), Context())
 
 

@@ -123,7 +123,7 @@ def _learn_of(
 
 
 def _kept(answer: list[Entry] | Lost) -> list[Entry]:
-    """What a child has found. Raises `MemoryError` where it was ended: most likely for want of memory."""
+    """What a child has found. Raises `MemoryError` where it was ended: most likely because memory ran out."""
     if not isinstance(answer, Lost):
         return answer
     raise MemoryError(answer.reason)

@@ -253,5 +253,5 @@ class _Watch:
         if code >= 0:
             return code
         if code == -signal.SIGKILL:
-            raise EndedError("the system ended the process that worked, for want of memory most likely")
+            raise EndedError("the system ended the process that worked, most likely because memory ran out")
         raise ChildCrashedError(f"the process that worked was ended by signal {-code} while {self.context.stage}")

@@ -12,7 +12,7 @@ _FRAMES = 8
 
 @contextmanager
 def room_for(levels: int) -> Iterator[None]:
-    """Let functions of this room call themselves once for every level.
+    """Raise the recursion limit for so many nested calls.
 
     Plain calls of Python functions use no stack of the machine; those through `map`, `sum`, `all` or `f(*x)` do.
     """

@@ -80,7 +80,7 @@ def _undecided(done: Synthesized, outcome: Undecided, paint: Paint) -> list[str]
 
 
 def _kept(done: Synthesized) -> str:
-    return "" if done.output == "-" else f" {done.output}, if it exists, is what it was."
+    return "" if done.output == "-" else f" An existing {done.output} was left unchanged."
 
 
 def _states(statistics: Statistics) -> str:
@@ -94,7 +94,7 @@ def _engine(statistics: Statistics) -> list[str]:
     if statistics.backend == "cudd":
         return []
     return [
-        "  diagrams: in pure Python, for want of CUDD, which is many times faster; the answer is the same",
+        "  diagrams: in pure Python, since CUDD is not available here; slower, with the same answer",
         "            (dd brings CUDD for Linux on x86-64 and Python 3.11 to 3.13)",
     ]
 
@@ -168,7 +168,8 @@ def _unrealizable(done: Synthesized, outcome: Unrealizable, paint: Paint) -> lis
         shown = [failure_line(done.place, failure) for failure in outcome.failures]
         shown.append(f"The rest of the report is left out: {done.cut_short}.")
     written = "\n".join((f"No policy was written.{_kept(done)}", *_certified(done, outcome, paint)))
-    explain = f"`tumato-sym explain {shlex.quote(done.source.name)}` says why, line by line, and what would do."
+    why = "says why, line by line, and which changes would give a policy"
+    explain = f"`tumato-sym explain {shlex.quote(done.source.name)}` {why}."
     return ["\n".join(head), *shown, f"{written}\n{explain}"]
 
 

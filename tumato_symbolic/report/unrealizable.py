@@ -20,7 +20,7 @@ _REASONS: Final[dict[UnrealizabilityKind, str]] = {
     "conflict": "there are states that no policy serves together",
 }
 
-_PROVERS: Final = {"z3": "Z3", "walk": "the walk", "meaning": "the explicit meaning"}
+_PROVERS: Final = {"z3": "Z3", "walk": "the walk"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,8 +72,9 @@ def as_text(done: Disproved, colour: bool) -> str:
 
 def proof_line(found: UnrealizabilityVerdict) -> str:
     """What a certificate that holds proves."""
-    by = " and ".join(_PROVERS[name] for name in _proved_by(found))
-    return f"{_REASONS[found.kind]} ({found.kind}): {count(found.obligations, 'obligation')} proved by {by}"
+    by = " and ".join(_PROVERS[name] for name in _proved_by(found) if name in _PROVERS)
+    how = f"proved by {by}" if by else "checked by direct evaluation"
+    return f"{_REASONS[found.kind]} ({found.kind}): {count(found.obligations, 'obligation')} {how}"
 
 
 def _proved_by(found: UnrealizabilityVerdict) -> list[str]:

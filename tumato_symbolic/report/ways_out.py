@@ -21,7 +21,7 @@ def repair_pieces(place: Place, found: Explanation) -> Iterator[str]:
             "The robot needs another action or effect, or other goals."
         )
     elif found.repairs:
-        yield "\nWhat would do (each was tried: it makes the specification realizable):"
+        yield "\nPossible changes (each was tried and gives a policy; whether it is safe is for you to judge):"
         for number, repair in enumerate(found.repairs, 1):
             lines = (f"     {line}" for change in repair.changes for line in _change(place, change))
             yield "\n".join([f"  {number}. {_summary(repair)}", *lines])

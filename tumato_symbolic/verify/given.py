@@ -1,4 +1,4 @@
-"""The certificate of a policy as it was given: nothing in it is believed (`docs/certificate.md`)."""
+"""Ranks claimed by a policy, unverified until they are checked (`docs/certificate.md`)."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ from tumato_symbolic.spec import Assignment, Ordering, Spec
 from tumato_symbolic.verify.by_states.packed import Code, Packing, all_hold
 
 MOST_WAYS = 200_000
-"""The most ways in which the effects of one set may strike, one after the other, that are listed."""
+"""The most orders in which the effects of one set may interleave that are listed."""
 
 
 class TooManyError(Exception):

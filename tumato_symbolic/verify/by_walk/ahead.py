@@ -1,4 +1,4 @@
-"""Parts of a proof that children find ahead of time; every answer is what would have been found here."""
+"""Proves parts of a property in worker processes; results equal those of a single process."""
 
 from __future__ import annotations
 
