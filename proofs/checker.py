@@ -1793,6 +1793,6 @@ if __name__ == "__main__":
     sys.stdout.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]
     try:
         sys.exit(main())
-    except Exception:
+    except Exception:  # noqa: BLE001 - a bug must not exit with 1
         traceback.print_exc()
         sys.exit(70)

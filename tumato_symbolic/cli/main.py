@@ -61,7 +61,7 @@ def _guarded(work: Callable[[], int]) -> int:
     except MemoryError as error:
         note(f"tumato-sym: undecided: {str(error) or 'out of memory'}")
         return UNDECIDED
-    except Exception:  # whatever comes here is our bug, and must not exit with 1
+    except Exception:  # noqa: BLE001 - whatever comes here is our bug, and must not exit with 1
         import traceback
 
         note(f"{traceback.format_exc()}{_REPORT_THIS}")

@@ -79,11 +79,15 @@ class Conditions:
     def changed(self, element: Element, rule: Rule) -> Conditions:
         """The same with another predicate in the place of a rule or a precondition; the rest is not computed again."""
         other = self._with_spec(replace_rule(self.spec, element, rule))
-        other._known = {demand: found for demand, found in self._known.items() if demand.element != element}
-        other._here = None
-        if _is_lasting(element):
-            other._relevant = self._relevant | {element: other._relevant_alternatives(element)}
+        other.forget(element)
         return other
+
+    def forget(self, element: Element) -> None:
+        """Compute anew, when it is asked next, what was found about an element."""
+        self._known = {demand: found for demand, found in self._known.items() if demand.element != element}
+        self._here = None
+        if _is_lasting(element):
+            self._relevant = self._relevant | {element: self._relevant_alternatives(element)}
 
     def bounded(self, bound: int) -> Conditions:
         """The same with another plan bound."""

@@ -15,7 +15,7 @@ from tumato_symbolic.report.failures import FAILURE_CODES
 from tumato_symbolic.report.layout import count, enumeration
 from tumato_symbolic.report.reasons import Place, objection_text
 from tumato_symbolic.report.roles import KINDS, declared, role, where
-from tumato_symbolic.semantics import Objection, State
+from tumato_symbolic.semantics import Objection
 from tumato_symbolic.spec import Spec, variables_of
 
 _REASONS_IN_FULL = 3
@@ -196,11 +196,11 @@ def near_pieces(place: Place, found: Explanation) -> Iterator[str]:
         if reason.near:
             yield f"\nThe nearest sets in the example of reason {number}:"
             for near in reason.near:
-                yield "\n".join(f"  {line}" for line in near_story(place, reason.example, near))
+                yield "\n".join(f"  {line}" for line in near_story(place, near))
             return
 
 
-def near_story(place: Place, state: State, near: NearMiss) -> list[str]:
+def near_story(place: Place, near: NearMiss) -> list[str]:
     """Why a set is not allowed, as a short story."""
     first = near.objections[0]
     others = {(each.rule, each.actions) for each in near.objections} - {(first.rule, first.actions)}

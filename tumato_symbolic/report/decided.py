@@ -87,8 +87,7 @@ def _others(place: Place, decision: Decision) -> Iterator[str]:
 
 def _list(place: Place, decision: Decision, others: list[Other], title: str) -> str:
     lines = [title]
-    for other in others[:_LISTED]:
-        lines.append(f"  {place.actions(other.chosen)}: {_sentence(place, decision, other)}")
+    lines.extend(f"  {place.actions(other.chosen)}: {_sentence(place, decision, other)}" for other in others[:_LISTED])
     if len(others) > _LISTED:
         lines.append(f"  … and {len(others) - _LISTED} more")
     return "\n".join(lines)

@@ -109,7 +109,7 @@ def _reason_json(done: Explained, reason: Reason) -> dict[str, object]:
         "near": [
             {
                 "actions": list(action_names(spec, near.chosen)),
-                "story": " ".join(line.strip() for line in near_story(place, reason.example, near)),
+                "story": " ".join(line.strip() for line in near_story(place, near)),
             }
             for near in reason.near
         ],

@@ -37,7 +37,7 @@ def suspicions(spec: Spec) -> tuple[Diagnostic, ...]:
     found = []
     try:
         for one in chain(_goals(spec, valid, work), _rules(spec, valid, work), _actions(spec, valid, work)):
-            found.append(one)
+            found.append(one)  # noqa: PERF402 - what is found before the work is spent stays
     except _SpentError:
         pass
     return in_order(found)

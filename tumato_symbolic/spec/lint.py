@@ -67,7 +67,7 @@ def _decided(spec: Spec) -> Iterator[Diagnostic]:
         single = [each for rule in action.preconditions for each in judge.of(rule, "precondition")]
         yield from single
         if not single and len(action.preconditions) > 1:
-            yield from judge.together(action.preconditions, action.name, action.span)
+            yield from judge.together(action.preconditions, action.name)
     for rule in (*spec.reaction_rules, *spec.state_rules):
         yield from judge.of(rule, "rule")
     for rule in spec.assumptions:
@@ -95,7 +95,7 @@ class _Judge:
         elif self._possible(Not(rule.formula)) is False:
             yield Diagnostic(Code.TUM323, f"this {kind} is always true", rule.span, _ALWAYS[kind])
 
-    def together(self, rules: Sequence[Rule], action: str, span: Span) -> Iterator[Diagnostic]:
+    def together(self, rules: Sequence[Rule], action: str) -> Iterator[Diagnostic]:
         """The warning about preconditions that exclude each other."""
         if self._possible(And(tuple(rule.formula for rule in rules))) is False:
             yield Diagnostic(

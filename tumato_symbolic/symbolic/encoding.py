@@ -173,8 +173,10 @@ class Encoding:
                 yield state
                 continue
             bits = self.state_bits[len(state)]
-            for number in reversed(range(len(self.spec.variables[len(state)].values))):
-                stack.append(((*state, number), self.manager.cofactor(rest, number_bits(bits, number))))
+            stack.extend(
+                ((*state, number), self.manager.cofactor(rest, number_bits(bits, number)))
+                for number in reversed(range(len(self.spec.variables[len(state)].values)))
+            )
 
     def first_set(self, choices: Bdd) -> ActionSet:
         """Some set of actions of a non-empty set of choices (the only one, where there is one): first actions first."""

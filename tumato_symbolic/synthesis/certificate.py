@@ -28,9 +28,10 @@ def policy_diagram(problem: Problem, policy: Bdd, ranks: Sequence[Layers]) -> Po
     encoding, steps = problem.encoding, problem.steps
     builder: DiagramBuilder[bool] = DiagramBuilder(encoding.order, (False, True))
     extract = Extractor(encoding, builder, default=False)
-    roots = []
-    for action in range(len(problem.spec.actions)):
-        roots.append(extract.function([(True, steps.states_of(policy & encoding.executing(action)))]))
+    roots = [
+        extract.function([(True, steps.states_of(policy & encoding.executing(action)))])
+        for action in range(len(problem.spec.actions))
+    ]
     defined = extract.function([(True, steps.valid)])
     safe = extract.function([(True, steps.safe)])
     found, vocabulary = builder.finish(), Vocabulary.of(problem.spec)
@@ -50,12 +51,11 @@ def certificate(problem: Problem, policy: Bdd, ranks: Sequence[Layers]) -> Certi
     deepest = max((len(layers) for layers in ranks), default=0)
     builder: DiagramBuilder[int | None] = DiagramBuilder(problem.encoding.order, (None, *range(deepest)))
     extract = Extractor(problem.encoding, builder, default=None)
-    goals = []
+    goals: list[RankedGoal] = []
     for target, layers in zip(problem.targets, ranks, strict=True):
         owing = [residual for residual, owed in target.residuals if (owed & concerned) != problem.false]
         if owing:
             root = extract.function(list(enumerate(layers)))
-            for residual in owing:
-                goals.append(RankedGoal(*goal_names(spec, residual), root))
+            goals.extend(RankedGoal(*goal_names(spec, residual), root) for residual in owing)
     goals.sort(key=lambda goal: (goal.bodies, goal.executed))
     return Certificate(builder.finish(), tuple(goals))

@@ -94,7 +94,7 @@ def _work(writer: Connection, task: Callable[[], object], parent: int) -> None:
         writer.send((task(),))
     except BrokenPipeError:
         return  # nobody waits for the answer any more
-    except Exception as error:
+    except Exception as error:  # noqa: BLE001 - the parent raises it
         import traceback
 
         writer.send(_Failed(traceback.format_exc(), isinstance(error, MemoryError)))

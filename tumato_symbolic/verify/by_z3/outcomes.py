@@ -154,14 +154,14 @@ class UnsafeOutcome:
             for effect, term in enumerate(self._taken[number])
             if is_true(model, term)
         ]
-        way = replay(self._spec, state, steps)
+        way = replay(state, steps)
         if not steps or not {number for number, _ in steps} <= chosen or is_safe(self._spec, way[-1].after):
             raise RuntimeError(f"the outcome {steps} of {sorted(chosen)} in {state} is safe, against the solver")
         for step in list(steps):
             shorter = [kept for kept in steps if kept is not step]
-            if shorter and not is_safe(self._spec, replay(self._spec, state, shorter)[-1].after):
+            if shorter and not is_safe(self._spec, replay(state, shorter)[-1].after):
                 steps = shorter
-        way = replay(self._spec, state, steps)
+        way = replay(state, steps)
         end = way[-1].after
         return Objection("unsafe", tuple(sorted(chosen)), broken_rule(self._spec, end), way, end)
 
@@ -188,7 +188,7 @@ def objections_to(
     return [unsafe.objection(solver.model, state, chosen)] if answer == "sat" else []
 
 
-def replay(spec: Spec, state: State, steps: Sequence[tuple[int, tuple[tuple[int, int], ...]]]) -> Outcome:
+def replay(state: State, steps: Sequence[tuple[int, tuple[tuple[int, int], ...]]]) -> Outcome:
     """The states met when effects strike in this order."""
     way = []
     for number, effect in steps:

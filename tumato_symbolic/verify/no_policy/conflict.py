@@ -31,7 +31,7 @@ def check_conflict(reason: Conflict, step: AllowedStep) -> int:
         if not is_valid(step.spec, choice.state):
             text = state_text(step.spec, choice.state)
             raise FalseClaimError(f"the state {text} is not valid, so no policy has to decide there")
-    _check_distances(reason, goals, step)
+    _check_distances(goals, step)
     _check_options(reason, goals, step)
     clauses = [clause(reason, goals.distances, cut, number, step.spec) for number, cut in enumerate(reason.cuts)]
     _refute(reason, clauses, step)
@@ -48,7 +48,7 @@ class _Goals:
         self.distances = Distances(reason.distances, spec.max_plan_length, context)
 
 
-def _check_distances(reason: Conflict, goals: _Goals, step: AllowedStep) -> None:
+def _check_distances(goals: _Goals, step: AllowedStep) -> None:
     """`D(t) = 0` in every safe state that meets the goal, and no allowed step makes `D` smaller by more than one."""
     spec = step.spec
     for root, members in goals.members.items():

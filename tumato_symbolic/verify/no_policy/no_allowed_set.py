@@ -170,4 +170,4 @@ def _unsafe(spec: Spec, state: State, cube: Cube, ordering: Ordering) -> str | N
         return "only the first effect counts"
     if any(effect not in spec.actions[action].effects for action, effect in strikes):
         return "an action does not have the effect"
-    return "the outcome is safe" if is_safe(spec, replay(spec, state, strikes)[-1].after) else None
+    return "the outcome is safe" if is_safe(spec, replay(state, strikes)[-1].after) else None
