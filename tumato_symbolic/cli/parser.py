@@ -31,7 +31,7 @@ _EXAMPLES = """\
 example:
   tumato-sym check amr.tum                   # any mistakes?
   tumato-sym synth amr.tum                   # writes policy.json, proved
-  tumato-sym explain robots.tum              # why there is none, and what would do
+  tumato-sym explain robots.tum              # why there is none, and possible changes
   tumato-sym verify policy.json amr.tum      # proves it again, believing nobody
   tumato-sym decide policy.json S_Location=corridor S_Battery=low S_Load=free S_Conveyor=off
 

@@ -14,8 +14,8 @@ from tumato_symbolic.limits import Context
 
 COMMANDS: Final = {
     "synth": "compute, prove and write a policy",
-    "explain": "why there is no policy, and what would do",
-    "verify": "prove a policy, whoever made it",
+    "explain": "why there is no policy, and possible changes",
+    "verify": "prove a policy, whatever its origin",
     "export-proof": "write a policy as a theorem for Coq",
     "decide": "what to do in a state",
     "rules": "a policy as a short list of rules",
