@@ -45,12 +45,12 @@ def test_an_answer_answers_for_more_and_for_less(monkeypatch: pytest.MonkeyPatch
     monkeypatch.setattr(plans, "failing", counted)
     most, least = conditions.everything, frozenset()
     hopeless = known.failing(least, conditions.valid)
-    served = conditions.valid & ~known.failing(most, conditions.valid)
+    winning = conditions.valid & ~known.failing(most, conditions.valid)
     assert len(computed) == 2 * regions
     for element in conditions.elements:
         assert known.failing(most - {element}, hopeless) == hopeless
-        assert known.failing(frozenset((element,)), served) == conditions.false
-    assert known.failing(most, conditions.valid) == conditions.valid & ~served
+        assert known.failing(frozenset((element,)), winning) == conditions.false
+    assert known.failing(most, conditions.valid) == conditions.valid & ~winning
     assert len(computed) == 2 * regions
 
 

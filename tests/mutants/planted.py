@@ -82,12 +82,12 @@ def _predecessor(patch: pytest.MonkeyPatch) -> None:
 
         return run
 
-    leading = fixpoints.leading
+    preimage = fixpoints.preimage
     patch.setattr(steps, "nominal_predecessor", mistaken(steps.nominal_predecessor))
     patch.setattr(steps.Steps, "next_state", mistaken(steps.Steps.next_state))
-    patch.setattr(fixpoints.Course, "predecessor", mistaken(fixpoints.Course.predecessor))
+    patch.setattr(fixpoints.ClosedLoop, "predecessor", mistaken(fixpoints.ClosedLoop.predecessor))
     for room in (routing, judging):
-        patch.setattr(room, "leading", lambda *given: mistaken(mistaken(leading)(*given)))
+        patch.setattr(room, "preimage", lambda *given: mistaken(mistaken(preimage)(*given)))
 
 
 def _order_of_effects(patch: pytest.MonkeyPatch) -> None:

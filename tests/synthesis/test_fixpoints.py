@@ -10,16 +10,16 @@ from tests.generate import PROFILES, random_spec
 from tumato_symbolic import parse
 from tumato_symbolic.symbolic import Bdd, Manager, available_backend, preferred
 from tumato_symbolic.synthesis import fixpoints
-from tumato_symbolic.synthesis.fixpoints import course, leading, mixed
+from tumato_symbolic.synthesis.fixpoints import closed_loop, mixed, preimage
 from tumato_symbolic.synthesis.judging import Judge
-from tumato_symbolic.synthesis.problem import Problem, pose
+from tumato_symbolic.synthesis.problem import Problem, build_problem
 
 SEEDS = range(12)
 
 
 def problems(profile: str) -> list[Problem]:
     """Some generated problems, each with a safe state."""
-    found = [pose(random_spec(seed, PROFILES[profile]), "any", available_backend()) for seed in SEEDS]
+    found = [build_problem(random_spec(seed, PROFILES[profile]), "any", available_backend()) for seed in SEEDS]
     return [problem for problem in found if problem.steps.safe != problem.false]
 
 
@@ -50,7 +50,7 @@ def test_a_course_is_the_predecessor_of_its_policy(profile: str, taken: str, mon
         random = Random(1)
         steps, states, target = problem.steps, some_states(problem, random), some_states(problem, random)
         for policy in policies(problem, random):
-            found = course(problem, policy, most)
+            found = closed_loop(problem, policy, most)
             assert (found.moves is None) == (most == 0)
             assert found.predecessor(states, target) == states & steps.states_of(policy & steps.before(target))
 
@@ -62,9 +62,9 @@ def test_a_mixed_course_is_that_of_the_mixed_policy(profile: str, most: int) -> 
     for problem in problems(profile):
         random = Random(2)
         here, states, target = (some_states(problem, random) for _ in range(3))
-        one, other = (course(problem, policy, most) for policy in policies(problem, random))
+        one, other = (closed_loop(problem, policy, most) for policy in policies(problem, random))
         found = mixed(one, other, here)
-        anew = course(problem, found.policy, most)
+        anew = closed_loop(problem, found.policy, most)
         assert found.policy == (one.policy & ~here) | (other.policy & here)
         assert (found.decided, found.owing) == (anew.decided, anew.owing)
         assert found.predecessor(states, target) == anew.predecessor(states, target)
@@ -78,7 +78,7 @@ def test_what_leads_into_a_set(profile: str, monkeypatch: pytest.MonkeyPatch) ->
         expected = problem.steps.allowed & problem.steps.before(target)
         for most in (0, 10_000):
             monkeypatch.setattr(fixpoints, "MOST_MOVES", most)
-            assert leading(problem, problem.steps.allowed)(target) == expected
+            assert preimage(problem, problem.steps.allowed)(target) == expected
 
 
 @pytest.mark.parametrize("profile", sorted(PROFILES))
@@ -91,7 +91,7 @@ def test_whether_all_are_served_is_whether_none_fails(profile: str) -> None:
             found = judge.evaluate(policy)
             suspects = list(range(len(problem.targets)))
             Random(5).shuffle(suspects)
-            serves = judge.serves_all(found.course, suspects)
+            serves = judge.serves_all(found.closed_loop, suspects)
             assert serves == (found.failing == problem.false)
             assert sorted(suspects) == list(range(len(problem.targets)))
             seen.add(serves)
@@ -119,11 +119,11 @@ END GOALS
 
 def test_unsafe_states_have_to_be_served_as_well() -> None:
     """A policy that serves all safe states still fails where what restores safety leads to where it stays."""
-    problem = pose(parse(LEFT_BEHIND), "any", available_backend())
+    problem = build_problem(parse(LEFT_BEHIND), "any", available_backend())
     judge, encoding, steps = Judge(problem), problem.encoding, problem.steps
     idle = preferred(encoding, steps.allowed & steps.safe)
     found = judge.evaluate(idle)
     assert found.failing == steps.unsafe == encoding.state_cube((0,))
-    assert not judge.serves_all(found.course, list(range(len(problem.targets))))
+    assert not judge.serves_all(found.closed_loop, list(range(len(problem.targets))))
     walking = (idle & ~encoding.state_cube((1,))) | (encoding.state_cube((1,)) & encoding.choices_cube(frozenset({1})))
-    assert judge.serves_all(judge.evaluate(walking).course, list(range(len(problem.targets))))
+    assert judge.serves_all(judge.evaluate(walking).closed_loop, list(range(len(problem.targets))))

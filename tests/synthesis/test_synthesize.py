@@ -17,7 +17,7 @@ from tumato_symbolic.spec import FALSE, And, Is, Not, Or, Spec
 from tumato_symbolic.symbolic import Backend, available_backend
 from tumato_symbolic.synthesis import Outcome, Realizable, Undecided, Unrealizable, synthesize
 from tumato_symbolic.synthesis.fixpoints import attractor
-from tumato_symbolic.synthesis.problem import pose
+from tumato_symbolic.synthesis.problem import build_problem
 
 pipeline = import_module("tumato_symbolic.synthesis.synthesize")
 
@@ -301,7 +301,7 @@ def test_the_answer_no_stands_without_its_certificate() -> None:
 def test_every_step_of_a_fixpoint_heeds_the_time_limit(monkeypatch: pytest.MonkeyPatch) -> None:
     """However a step is computed, time is looked at before each: a long plan cannot overrun it."""
     _, spec = line()
-    problem = pose(spec, "any", available_backend())
+    problem = build_problem(spec, "any", available_backend())
     asked: list[int] = []
     monkeypatch.setattr(problem.encoding.manager.context, "check", lambda: asked.append(1))
     steps = problem.steps

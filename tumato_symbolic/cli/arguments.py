@@ -33,8 +33,8 @@ def effect_ordering(default: str) -> Any:  # noqa: ANN401
     return argument(
         "--effect-ordering",
         choices=("any", "first"),
-        help="how the effects of actions executed together may interleave: in any order, one after the other, or only the "
-        f"first of them (default: {default})",
+        help="how the effects of actions executed together may interleave: in any order, one after the other, or only "
+        f"the first of them (default: {default})",
     )
 
 

@@ -8,11 +8,11 @@ from dataclasses import replace
 from tumato_symbolic.explain.conditions import Conditions
 from tumato_symbolic.explain.elements import Elements
 from tumato_symbolic.explain.minimize import minimal
-from tumato_symbolic.explain.plans import pose_kept
+from tumato_symbolic.explain.plans import build_kept_problem
 from tumato_symbolic.semantics import State
 from tumato_symbolic.symbolic import Bdd, preferred, regions
 from tumato_symbolic.synthesis.fixpoints import distances
-from tumato_symbolic.synthesis.judging import Judge, served
+from tumato_symbolic.synthesis.judging import Judge, winning
 from tumato_symbolic.synthesis.problem import Problem
 from tumato_symbolic.synthesis.repair import Impossible, Repair, RoundsExhaustedError
 from tumato_symbolic.synthesis.routing import shortest_decisions
@@ -32,10 +32,10 @@ def conflict_core(conditions: Conditions, states: Sequence[State], among: Elemen
 def conflicting(conditions: Conditions, wanted: Bdd, kept: Elements) -> bool:
     """Whether it is shown that no policy serves these states when only some elements are kept."""
     valid = conditions.steps(kept).valid
-    problem = pose_kept(conditions, kept, regions(conditions.encoding, valid))
+    problem = build_kept_problem(conditions, kept, regions(conditions.encoding, valid))
     problem = replace(problem, steps=replace(problem.steps, valid=wanted))
     ranks = distances(problem)
-    if (wanted & ~served(problem, ranks, problem.steps.allowed)) != conditions.false:
+    if (wanted & ~winning(problem, ranks, problem.steps.allowed)) != conditions.false:
         return True
     policy = shortest_decisions(problem, ranks, problem.steps.safe, problem.steps.allowed)
     try:

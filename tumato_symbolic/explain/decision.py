@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from tumato_symbolic.explain.near import candidates
+from tumato_symbolic.explain.near_misses import candidates
 from tumato_symbolic.policy import Policy, UndecidedState
 from tumato_symbolic.semantics import (
     ActionSet,

@@ -20,9 +20,9 @@ from tumato_symbolic.explain.explanation import (
     so_far,
     stopped,
 )
-from tumato_symbolic.explain.near import near_misses
-from tumato_symbolic.explain.part import largest_part
+from tumato_symbolic.explain.near_misses import near_misses
 from tumato_symbolic.explain.predicates import predicate_text
+from tumato_symbolic.explain.realizable_part import largest_part
 from tumato_symbolic.explain.reasons import reasons_found
 from tumato_symbolic.explain.repairs import repairs_found
 from tumato_symbolic.explain.work import Work

@@ -7,7 +7,7 @@ from typing import Final, Literal, TypeAlias
 
 from tumato_symbolic.explain.cubes import StateCube
 from tumato_symbolic.explain.elements import Element
-from tumato_symbolic.explain.near import NearMiss
+from tumato_symbolic.explain.near_misses import NearMiss
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Formula, Ordering, Spec
 from tumato_symbolic.synthesis.outcome import FailureKind, Statistics

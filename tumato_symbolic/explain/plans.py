@@ -9,11 +9,11 @@ from tumato_symbolic.explain.elements import Element, Elements
 from tumato_symbolic.semantics import ActiveGoals, State
 from tumato_symbolic.symbolic import Bdd, Regions, targets
 from tumato_symbolic.synthesis.fixpoints import distances
-from tumato_symbolic.synthesis.judging import served
+from tumato_symbolic.synthesis.judging import winning
 from tumato_symbolic.synthesis.problem import Problem
 
 
-def pose_kept(conditions: Conditions, kept: Elements, regions: Regions) -> Problem:
+def build_kept_problem(conditions: Conditions, kept: Elements, regions: Regions) -> Problem:
     """The synthesis problem when only these elements are kept, for the states of `regions`."""
     steps = conditions.steps(kept)
     bound = conditions.spec.max_plan_length if Element("plan-bound") in kept else None
@@ -23,8 +23,8 @@ def pose_kept(conditions: Conditions, kept: Elements, regions: Regions) -> Probl
 
 def failing(conditions: Conditions, kept: Elements, states: Bdd) -> Bdd:
     """Those of some valid states that fail, either way, when only these elements are kept."""
-    problem = pose_kept(conditions, kept, restricted(conditions.regions, states, conditions.false))
-    return states & ~served(problem, distances(problem), problem.steps.allowed)
+    problem = build_kept_problem(conditions, kept, restricted(conditions.regions, states, conditions.false))
+    return states & ~winning(problem, distances(problem), problem.steps.allowed)
 
 
 class Plans:
@@ -69,7 +69,7 @@ def restricted(regions: Regions, states: Bdd, false: Bdd) -> Regions:
 def shortest_plan(conditions: Conditions, state: Bdd) -> int | None:
     """The fewest steps in which a state reaches its goal without a plan bound; None where it never does."""
     kept = conditions.everything - {Element("plan-bound")}
-    problem = pose_kept(conditions, kept, restricted(conditions.regions, state, conditions.false))
+    problem = build_kept_problem(conditions, kept, restricted(conditions.regions, state, conditions.false))
     found = [
         rank + 1
         for target, layers in zip(problem.targets, distances(problem), strict=True)

@@ -10,7 +10,7 @@ from tumato_symbolic.explain.cores import Cause, causes, core_finder, element_li
 from tumato_symbolic.explain.elements import Element, Elements
 from tumato_symbolic.explain.explanation import Explanation, Reason
 from tumato_symbolic.explain.plans import shortest_plan
-from tumato_symbolic.explain.unmet import own_goals
+from tumato_symbolic.explain.unmet_goals import own_goals
 from tumato_symbolic.explain.work import Work
 
 MAX_CAUSES = 1_000

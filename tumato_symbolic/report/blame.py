@@ -9,7 +9,7 @@ from dataclasses import replace
 from tumato_symbolic.explain.cubes import StateCube
 from tumato_symbolic.explain.elements import Element, span_of
 from tumato_symbolic.explain.explanation import Explanation, FailingGroup, Reason
-from tumato_symbolic.explain.near import NearMiss, applicable
+from tumato_symbolic.explain.near_misses import NearMiss, applicable
 from tumato_symbolic.explain.predicates import predicate_text
 from tumato_symbolic.report.failures import FAILURE_CODES
 from tumato_symbolic.report.layout import count, enumeration

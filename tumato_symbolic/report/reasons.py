@@ -21,7 +21,7 @@ from tumato_symbolic.semantics import (
 from tumato_symbolic.spec import Assignment, Ordering, Rule, Spec
 
 if TYPE_CHECKING:
-    from tumato_symbolic.explain.near import NearMiss
+    from tumato_symbolic.explain.near_misses import NearMiss
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +106,7 @@ def why_no_set(place: Place, state: State, ordering: Ordering, limit: int = 3) -
 
     Nearest: see `near_misses`.
     """
-    from tumato_symbolic.explain.near import near_misses
+    from tumato_symbolic.explain.near_misses import near_misses
 
     nearest = near_misses(place.spec, state, ordering, limit).misses
     lines = [f"{place.actions(near.chosen)}: {_together(place, near)}" for near in nearest]

@@ -45,7 +45,7 @@ def by_any_step(problem: Problem, relation: Bdd) -> Predecessor:
     return lambda states, target: states & problem.steps.predecessor(relation & states, target)
 
 
-def leading(problem: Problem, relation: Bdd) -> Callable[[Bdd], Bdd]:
+def preimage(problem: Problem, relation: Bdd) -> Callable[[Bdd], Bdd]:
     """Those pairs of a relation that lead into a set of states.
 
     Where the pairs do few different things they are taken move by move: the predecessor under one is a cofactor. So are
@@ -67,8 +67,8 @@ def distances(problem: Problem) -> tuple[Layers, ...]:
 
 
 @dataclass(frozen=True)
-class Course:
-    """Where a policy nominally leads, and what it owes.
+class ClosedLoop:
+    """The closed loop of a policy: its nominal successor function, and the target that each state owes.
 
     A policy that does few different things is taken move by move: `moves` has the states by what is written there, and
     the predecessor is a union of cofactors. Otherwise `moves` is None, and `following` has the next value of every bit
@@ -105,17 +105,17 @@ class Course:
         return states & self.decided & manager.compose(target, self.following)
 
 
-def course(problem: Problem, policy: Bdd, most: int = MOST_MOVES) -> Course:
-    """The course of a policy, which is a function where it is defined; `moves` where there are at most so many."""
+def closed_loop(problem: Problem, policy: Bdd, most: int = MOST_MOVES) -> ClosedLoop:
+    """The closed loop of a policy, which is a function where it is defined; `moves` where there are at most so many."""
     steps = problem.steps
     moves = steps.moves(policy, most)
     following = steps.next_state(policy) if moves is None else {}
     owing = tuple(steps.states_of(policy & target.owed) for target in problem.targets)
-    return Course(problem, policy, steps.states_of(policy), owing, moves, following)
+    return ClosedLoop(problem, policy, steps.states_of(policy), owing, moves, following)
 
 
-def mixed(one: Course, other: Course, states: Bdd) -> Course:
-    """The course of the policy that follows `other` in some states, else `one`; both have `moves`, or neither."""
+def mixed(one: ClosedLoop, other: ClosedLoop, states: Bdd) -> ClosedLoop:
+    """The closed loop of the policy that follows `other` in some states, else `one`; both have `moves`, or neither."""
     problem = one.problem
 
     def spliced(elsewhere: Bdd, there: Bdd) -> Bdd:
@@ -128,7 +128,7 @@ def mixed(one: Course, other: Course, states: Bdd) -> Course:
             for effect in {**one.moves, **other.moves}
         }
     following = {bit: spliced(function, other.following[bit]) for bit, function in one.following.items()}
-    return Course(
+    return ClosedLoop(
         problem,
         spliced(one.policy, other.policy),
         spliced(one.decided, other.decided),

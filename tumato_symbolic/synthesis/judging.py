@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from tumato_symbolic.symbolic import Bdd
-from tumato_symbolic.synthesis.fixpoints import Course, Layers, attractor, course, leading
+from tumato_symbolic.synthesis.fixpoints import ClosedLoop, Layers, attractor, closed_loop, preimage
 from tumato_symbolic.synthesis.problem import Problem
 
 
@@ -19,7 +19,7 @@ class Evaluation:
     decision: safe ones whose run misses what they owe, and unsafe ones where no allowed set serves.
     """
 
-    course: Course
+    closed_loop: ClosedLoop
     ranks: tuple[Layers, ...]
     failing: Bdd
 
@@ -29,7 +29,7 @@ def in_time(problem: Problem, ranks: Sequence[Layers]) -> list[Layers]:
     return [layers[: problem.spec.max_plan_length] for layers in ranks]
 
 
-def served(problem: Problem, ranks: Sequence[Layers], relation: Bdd) -> Bdd:
+def winning(problem: Problem, ranks: Sequence[Layers], relation: Bdd) -> Bdd:
     """The states where some pair of `relation` leads, in time, to a state with a rank for the target that it owes."""
     manager = problem.encoding.manager
     return manager.union(
@@ -49,18 +49,18 @@ class Judge:
     def _restoring(self) -> list[Callable[[Bdd], Bdd]]:
         """For every target, which pairs in unsafe states owe it and lead into a set."""
         pairs = self.problem.steps.allowed & self.problem.steps.unsafe
-        return [leading(self.problem, pairs & target.owed) for target in self.problem.targets]
+        return [preimage(self.problem, pairs & target.owed) for target in self.problem.targets]
 
     def evaluate(self, policy: Bdd) -> Evaluation:
         """All that a policy achieves."""
         problem, union = self.problem, self.problem.encoding.manager.union
-        found, steps = course(problem, policy), problem.steps
+        found, steps = closed_loop(problem, policy), problem.steps
         ranks = tuple(attractor(problem, t.states, found.predecessor, steps.safe, None) for t in problem.targets)
         near = [union(layers) for layers in in_time(problem, ranks)]
         safe = union(found.predecessor(*pair) for pair in zip(found.owing, near, strict=True))
         return Evaluation(found, ranks, steps.valid & ~(safe | union(map(self._restored, range(len(near)), near))))
 
-    def serves_all(self, found: Course, suspects: list[int]) -> bool:
+    def serves_all(self, found: ClosedLoop, suspects: list[int]) -> bool:
         """Whether no state fails under a policy.
 
         Targets are tried in the order of `suspects`, a permutation of their numbers; one that fails moves to the front.

@@ -1,17 +1,17 @@
-"""Warnings that need the whole state space, by diagrams; `semantics.suspicions` finds the same state by state."""
+"""Warnings that need the whole state space, by diagrams; `semantics.lint` finds the same state by state."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from tumato_symbolic.diagnostics import Diagnostic
-from tumato_symbolic.semantics.suspicions import SETS, STATES, idle_action, idle_goal, idle_rule, in_order
+from tumato_symbolic.semantics.lint import SETS, STATES, idle_action, idle_goal, idle_rule, in_order
 from tumato_symbolic.spec import TRUE, ConditionalGoal
 from tumato_symbolic.symbolic import compatible_sets, never_entered
 from tumato_symbolic.synthesis.problem import Problem
 
 
-def suspicions(problem: Problem) -> tuple[Diagnostic, ...]:
+def lint(problem: Problem) -> tuple[Diagnostic, ...]:
     """Goals that are never entered, rules that nothing breaks, actions that are allowed nowhere; in source order.
 
     What a predicate's own variables decide is left out: that is said when the specification is read.

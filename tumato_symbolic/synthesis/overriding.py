@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tumato_symbolic.symbolic import Bdd, preferred
-from tumato_symbolic.synthesis.fixpoints import Course, Layers, course, mixed
+from tumato_symbolic.synthesis.fixpoints import ClosedLoop, Layers, closed_loop, mixed
 from tumato_symbolic.synthesis.judging import Evaluation, Judge
 from tumato_symbolic.synthesis.problem import Problem
 from tumato_symbolic.synthesis.routing import shortest_decisions
@@ -23,8 +23,8 @@ def override(judge: Judge, found: Evaluation, distances: tuple[Layers, ...]) -> 
     while improved and found.failing != problem.false:
         improved = False
         for number in range(len(problem.targets)):
-            candidate = _towards(problem, found.course.policy, found.failing, distances, number)
-            if candidate == found.course.policy:
+            candidate = _towards(problem, found.closed_loop.policy, found.failing, distances, number)
+            if candidate == found.closed_loop.policy:
                 continue
             judged = judge.evaluate(candidate)
             if count(judged.failing) < count(found.failing):
@@ -57,7 +57,7 @@ def _towards(problem: Problem, policy: Bdd, failing: Bdd, distances: tuple[Layer
     return changed | (policy & ~steps.states_of(changed))
 
 
-def give_back(judge: Judge, before: Bdd, after: Bdd) -> Bdd:
+def revert_unneeded(judge: Judge, before: Bdd, after: Bdd) -> Bdd:
     """`after` with as many decisions of `before` as fit without a failing state; what does not go is halved.
 
     Both policies are defined in every safe state, and none fails under `after`.
@@ -78,11 +78,11 @@ def give_back(judge: Judge, before: Bdd, after: Bdd) -> Bdd:
     return now.policy
 
 
-def _smaller(problem: Problem, before: Bdd, after: Bdd) -> tuple[Course, Course]:
+def _smaller(problem: Problem, before: Bdd, after: Bdd) -> tuple[ClosedLoop, ClosedLoop]:
     """Two policies, both move by move or both as functions: whichever takes fewer nodes. The answers are the same."""
     nodes = problem.encoding.manager.nodes
-    as_functions = course(problem, before, 0), course(problem, after, 0)
-    by_moves = course(problem, before), course(problem, after)
+    as_functions = closed_loop(problem, before, 0), closed_loop(problem, after, 0)
+    by_moves = closed_loop(problem, before), closed_loop(problem, after)
     moves = by_moves[1].moves
     if by_moves[0].moves is None or moves is None:
         return as_functions

@@ -54,7 +54,7 @@ class Problem:
         return None if self.spec.max_plan_length is None else self.spec.max_plan_length - 1
 
 
-def pose(spec: Spec, ordering: Ordering, backend: Backend, context: Context | None = None) -> Problem:
+def build_problem(spec: Spec, ordering: Ordering, backend: Backend, context: Context | None = None) -> Problem:
     """Encode a specification and compute its steps, regions and targets."""
     context = context or Context()
     context.tell("encoding states and actions")

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from tumato_symbolic.semantics import ActiveGoals
 from tumato_symbolic.symbolic import Bdd, Target, preferred
-from tumato_symbolic.synthesis.fixpoints import Layers, attractor, course, leading
+from tumato_symbolic.synthesis.fixpoints import Layers, attractor, closed_loop, preimage
 from tumato_symbolic.synthesis.problem import Problem
 
 
@@ -34,7 +34,7 @@ def _nearest_first(problem: Problem, target: Target, here: Bdd) -> Bdd:
     others end in it.
     """
     policy, undecided, front, steps = problem.false, here, target.states, 0
-    bound, into = problem.spec.max_plan_length, leading(problem, target.owed & here)
+    bound, into = problem.spec.max_plan_length, preimage(problem, target.owed & here)
     while problem.false not in {undecided, front} and (bound is None or steps < bound):
         pairs = undecided & into(front)
         decided = problem.steps.states_of(pairs)
@@ -49,7 +49,7 @@ def route(problem: Problem, policy: Bdd, undecided: Bdd, within: Bdd, owing: Seq
     Runs use decided states of `within` only, so that a later decision never spoils an earlier one.
     """
     while undecided != problem.false:
-        so_far = course(problem, policy)
+        so_far = closed_loop(problem, policy)
         decided = within & so_far.decided
         ranks = [attractor(problem, t.states, so_far.predecessor, decided, problem.last_layer) for t in owing]
         nearest = next(iter(_by_steps(problem, owing, ranks, undecided, problem.steps.allowed)), None)
@@ -74,7 +74,8 @@ def _by_steps(
 ) -> Iterator[Bdd]:
     """The pairs that reach what they owe in one step, in two, and so on; empty sets are left out."""
     parts = [
-        (leading(problem, relation & states & target.owed), layers) for target, layers in zip(owing, ranks, strict=True)
+        (preimage(problem, relation & states & target.owed), layers)
+        for target, layers in zip(owing, ranks, strict=True)
     ]
     for rank in range(max(map(len, ranks), default=0)):
         pairs = problem.encoding.manager.union(

@@ -10,13 +10,13 @@ from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.limits import Context, LimitReachedError
 from tumato_symbolic.policy import Policy, as_table
 from tumato_symbolic.semantics import count_states
-from tumato_symbolic.semantics.suspicions import no_valid_state
+from tumato_symbolic.semantics.lint import no_valid_state
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.symbolic import Backend, Bdd, available_backend
 from tumato_symbolic.synthesis.certificate import policy_diagram
-from tumato_symbolic.synthesis.fixpoints import Layers, course, distances
-from tumato_symbolic.synthesis.judging import Evaluation, Judge, in_time, served
-from tumato_symbolic.synthesis.lint import suspicions
+from tumato_symbolic.synthesis.fixpoints import Layers, closed_loop, distances
+from tumato_symbolic.synthesis.judging import Evaluation, Judge, in_time, winning
+from tumato_symbolic.synthesis.lint import lint
 from tumato_symbolic.synthesis.outcome import (
     STATES_LISTED,
     Failure,
@@ -27,8 +27,8 @@ from tumato_symbolic.synthesis.outcome import (
     Undecided,
     Unrealizable,
 )
-from tumato_symbolic.synthesis.overriding import give_back, override
-from tumato_symbolic.synthesis.problem import Problem, pose
+from tumato_symbolic.synthesis.overriding import override, revert_unneeded
+from tumato_symbolic.synthesis.problem import Problem, build_problem
 from tumato_symbolic.synthesis.restoring import restoring_policy
 from tumato_symbolic.synthesis.routing import own_region_policy, route, shortest_decisions
 
@@ -58,7 +58,7 @@ def synthesize(
     """
     context = context or Context()
     try:
-        problem = pose(spec, ordering or spec.ordering, backend or available_backend(), context)
+        problem = build_problem(spec, ordering or spec.ordering, backend or available_backend(), context)
         with problem.encoding.manager.within_memory():
             return _solve(problem, policy_format, certify)
     except LimitReachedError as limit:
@@ -82,7 +82,7 @@ def _solve(problem: Problem, policy_format: PolicyFormat, certify: bool) -> Outc
         raise UserError((Diagnostic(Code.TUM508, message, None, "use `--policy-format diagram`"),))
     context.learn(Undecided("", statistics))
     context.tell("looking for what is surely not meant")
-    warnings = suspicions(problem)
+    warnings = lint(problem)
     stuck = problem.steps.valid & ~problem.steps.states_of(problem.steps.allowed)
     context.tell("solving each goal in its own region")
     context.learn(Undecided("", statistics, warnings))
@@ -94,7 +94,7 @@ def _solve(problem: Problem, policy_format: PolicyFormat, certify: bool) -> Outc
     if stuck != problem.false or evaluation is None or evaluation.failing != problem.false:
         context.tell("measuring distances")
         apart = distances(problem)
-        helpless = problem.steps.valid & ~stuck & ~served(problem, apart, problem.steps.allowed)
+        helpless = problem.steps.valid & ~stuck & ~winning(problem, apart, problem.steps.allowed)
         if (stuck | helpless) != problem.false:
             from tumato_symbolic.synthesis.disproof import certified, no_allowed_set, no_plan
 
@@ -151,7 +151,7 @@ def _resolve(
         return _Resolved(found, statistics)
     tell("overriding decisions of other goals")
     found = override(judge, found, apart)
-    changed = found.course.policy
+    changed = found.closed_loop.policy
     if found.failing != problem.false:
         from tumato_symbolic.synthesis.repair import ROUNDS, Impossible, Repair, RoundsExhaustedError
 
@@ -172,7 +172,7 @@ def _resolve(
             return replace(answer, certificate=certified(problem, conflict(problem, apart, repaired)))
         changed = repaired
     tell("giving back decisions that need not change")
-    changed = give_back(judge, policy, changed)
+    changed = revert_unneeded(judge, policy, changed)
     statistics = replace(statistics, changed=_count_decided(problem, policy & ~changed))
     return _Resolved(judge.evaluate(changed), statistics)
 
@@ -182,8 +182,8 @@ def _finish(problem: Problem, found: Evaluation, statistics: Statistics) -> tupl
     steps, near, tell = problem.steps, in_time(problem, found.ranks), problem.context.tell
     tell("choosing restoring sets")
     restoring, durations = restoring_policy(problem, near)
-    policy = found.course.policy | restoring
-    assert steps.states_of(policy) == steps.valid, "a served state was left without a decision"
+    policy = found.closed_loop.policy | restoring
+    assert steps.states_of(policy) == steps.valid, "a winning state was left without a decision"
     longest = _longest_run(problem, policy, near)
     tell("extracting the policy and its certificate")
     statistics = replace(statistics, longest_run=longest, restoring_durations=len(durations))
@@ -192,7 +192,7 @@ def _finish(problem: Problem, found: Evaluation, statistics: Statistics) -> tupl
 
 def _longest_run(problem: Problem, policy: Bdd, ranks: Sequence[Layers]) -> int:
     """The largest number of steps that a run of a policy takes to what it owes."""
-    found, deepest = course(problem, policy), max(map(len, ranks))
+    found, deepest = closed_loop(problem, policy), max(map(len, ranks))
     return next(
         1 + rank
         for rank in reversed(range(deepest))

@@ -77,7 +77,7 @@ def _report(files: Sequence[Checked], options: Options, undecided: str | None = 
 def _check(path: str) -> Checked:
     from tumato_symbolic.diagnostics import UserError
     from tumato_symbolic.report.checked import Checked
-    from tumato_symbolic.semantics.suspicions import suspicions
+    from tumato_symbolic.semantics.lint import lint
     from tumato_symbolic.spec import load
     from tumato_symbolic.syntax import read_source
 
@@ -91,4 +91,4 @@ def _check(path: str) -> Checked:
 
         other = misplaced(path)
         return Checked(path, source, None, loaded.diagnostics if other is None else (other,))
-    return Checked(path, source, loaded.spec, (*loaded.diagnostics, *suspicions(loaded.spec)))
+    return Checked(path, source, loaded.spec, (*loaded.diagnostics, *lint(loaded.spec)))

@@ -16,7 +16,7 @@ from tumato_symbolic.spec import Formula, Rule, Spec
 from tumato_symbolic.symbolic import Bdd, targets
 from tumato_symbolic.synthesis import Realizable, Unrealizable
 from tumato_symbolic.synthesis.fixpoints import distances
-from tumato_symbolic.synthesis.judging import served
+from tumato_symbolic.synthesis.judging import winning
 from tumato_symbolic.synthesis.problem import Problem
 
 CHOICES = 200
@@ -71,7 +71,7 @@ def _without_failing(conditions: Conditions, states: Bdd) -> Bdd:
     """`ν X. {s ∈ states ∩ X : s does not fail when outcomes have to stay in X}`."""
     while states != conditions.false:
         problem = _within(conditions, states)
-        kept = states & served(problem, distances(problem), problem.steps.allowed)
+        kept = states & winning(problem, distances(problem), problem.steps.allowed)
         if kept == states:
             break
         states = kept

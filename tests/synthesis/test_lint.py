@@ -11,11 +11,11 @@ from tests.cli.conftest import Cli, cli
 from tests.generate import PROFILES, random_text
 from tests.repo.documents import ROOT
 from tumato_symbolic.diagnostics import Source
-from tumato_symbolic.semantics import suspicions as explicit
+from tumato_symbolic.semantics import lint as explicit
 from tumato_symbolic.spec import Spec, load
 from tumato_symbolic.symbolic import available_backend
-from tumato_symbolic.synthesis.lint import suspicions
-from tumato_symbolic.synthesis.problem import pose
+from tumato_symbolic.synthesis.lint import lint
+from tumato_symbolic.synthesis.problem import build_problem
 
 __all__ = ["cli"]
 
@@ -32,8 +32,8 @@ def agree(spec: Spec) -> int:
     found = 0
     for ordering in ("any", "first"):
         case = replace(spec, effect_ordering=ordering)
-        warnings = explicit.suspicions(case)
-        assert warnings == suspicions(pose(case, case.ordering, available_backend()))
+        warnings = explicit.lint(case)
+        assert warnings == lint(build_problem(case, case.ordering, available_backend()))
         found += len(warnings)
     return found
 
@@ -122,12 +122,12 @@ def test_check_finds_that_no_state_is_valid(cli: Cli, tmp_path) -> None:
 def test_what_would_take_long_is_left_to_synth(monkeypatch: pytest.MonkeyPatch, limit: str, value: int) -> None:
     """Beyond a number of states or of atoms nothing is said."""
     monkeypatch.setattr(explicit, limit, value)
-    assert explicit.suspicions(spec_of(SUSPICIOUS)) == ()
+    assert explicit.lint(spec_of(SUSPICIOUS)) == ()
 
 
 def test_half_the_work_is_half_the_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     """Whatever may be done: what is said then is among what would be said in the end."""
-    whole = explicit.suspicions(spec_of(SUSPICIOUS))
+    whole = explicit.lint(spec_of(SUSPICIOUS))
     for most in range(0, 400, 7):
         monkeypatch.setattr(explicit, "MAX_WORK", most)
-        assert set(explicit.suspicions(spec_of(SUSPICIOUS))) <= set(whole)
+        assert set(explicit.lint(spec_of(SUSPICIOUS))) <= set(whole)

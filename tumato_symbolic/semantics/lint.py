@@ -22,7 +22,7 @@ MAX_WORK = 500_000
 States: TypeAlias = Sequence[State]
 
 
-def suspicions(spec: Spec) -> tuple[Diagnostic, ...]:
+def lint(spec: Spec) -> tuple[Diagnostic, ...]:
     """Goals that are never entered, rules that nothing breaks, actions that are allowed nowhere; in source order.
 
     An error (TUM312) where no state is valid; nothing where there are more than `MAX_STATES` states. What a predicate's

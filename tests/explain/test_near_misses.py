@@ -1,7 +1,7 @@
 """Tests of near misses."""
 
 from tumato_symbolic import parse
-from tumato_symbolic.explain.near import MOST_OUTCOMES, near_misses
+from tumato_symbolic.explain.near_misses import MOST_OUTCOMES, near_misses
 from tumato_symbolic.semantics import NOTHING
 
 VALUES = ", ".join(f"v{number}" for number in range(10))

@@ -13,7 +13,7 @@ from tumato_symbolic.semantics import State, active_goals
 from tumato_symbolic.spec import And, Formula, Not, Or, Rule
 from tumato_symbolic.symbolic import targets
 from tumato_symbolic.synthesis.fixpoints import distances
-from tumato_symbolic.synthesis.judging import served
+from tumato_symbolic.synthesis.judging import winning
 from tumato_symbolic.synthesis.problem import Problem
 
 
@@ -60,4 +60,4 @@ def _can_be_met(conditions: Conditions, state: State, rule: Rule, part: Formula)
     steps = replace(conditions.steps(frozenset()), encoding=replace(conditions.encoding, spec=spec))
     region = {frozenset((0,)): conditions.encoding.state_cube(state)}
     problem = Problem(spec, steps, region, tuple(targets(steps, region)))
-    return served(problem, distances(problem), steps.allowed) != conditions.false
+    return winning(problem, distances(problem), steps.allowed) != conditions.false
