@@ -229,3 +229,13 @@ def test_aliases_that_double_end() -> None:
     steps = " ".join(f"define k{n + 1} as k{n} AND k{n}" for n in range(30))
     with pytest.raises(checker.Unreadable, match="a predicate has"):
         checker.resolve(checker.Parser(alias(f"define k0 as A is x {steps}")).specification())
+
+
+@pytest.mark.parametrize(
+    ("effects", "left"),
+    [("A is x OR B is x", "4 assignments"), ("NOT A is x", "2 assignments"), ("A is x, A is y", "0 assignments")],
+)
+def test_what_nominal_effects_leave_is_told(effects: str, left: str) -> None:
+    """They have to leave one assignment; the message says how many it is."""
+    with pytest.raises(checker.Unreadable, match=f"line 8: the nominal effects of `go` leave {left}, not one"):
+        checker.read_specification(action(f"nominal effects: {effects}").encode())

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
 from tests.checker.refusals import spec_text
-from tests.checker.standalone import ask
+from tests.checker.standalone import CHECKER, ask
 from tumato_symbolic import parse
 from tumato_symbolic.policy import dumps, policy_from_rows
 
@@ -100,3 +103,16 @@ def test_a_decision_that_is_not_allowed(state: str, chosen: str, tmp_path: Path)
     names = ", ".join(sorted(chosen.split()))
     where = f"in (P {state[0]}, Q {state[1]}) the decision is {{{names}}} (duration 0): "
     assert told(tmp_path, TWO, {state: chosen})["safe"] == where + OBJECTIONS[state, chosen]
+
+
+def test_a_terminal_without_the_letters_of_a_rule(tmp_path: Path) -> None:
+    """Where it cannot show a letter, it shows its number; the exit code is that of the verdict."""
+    text = TWO.replace("rule: IF P is b THEN Q is a", "rule: IF P is b THEN Q is a // só")
+    spec = parse(text)
+    (tmp_path / "policy.json").write_text(dumps(policy_from_rows(spec, {(1, 1): frozenset()})), encoding="utf-8")
+    (tmp_path / "spec.tum").write_text(text, encoding="utf-8")
+    command = [sys.executable, str(CHECKER), str(tmp_path / "policy.json"), str(tmp_path / "spec.tum")]
+    environment = {**os.environ, "PYTHONIOENCODING": "ascii"}
+    done = subprocess.run(command, capture_output=True, check=False, env=environment)
+    assert (done.returncode, done.stderr) == (1, b"")
+    assert b"Q is a // s\\xf3`" in done.stdout

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from tests.checker.refusals import spec_text
 from tests.checker.standalone import checker
 from tests.checker.test_forged import text_of
 from tests.generate import PROFILES, random_text
@@ -153,6 +154,21 @@ def test_rules_are_split_up_to_a_limit(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(checker, "LARGEST", 0)
     with pytest.raises(checker.TooLarge, match="sets of actions in a rule"):
         checker.kept_rule(own, here, cube)
+
+
+def test_cases_and_guesses_are_counted(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The cases of a rule with two open actions that one of them keeps, and the guesses of a choice of two options."""
+    rule = "(NOT (P is b)) OR ((executing bc) OR (executing cb))"
+    own = world(spec_text("abc", "bc cb", f"BEGIN REACTION RULES rule: {rule} END REACTION RULES"))
+    cube = checker.Cube(frozenset(), frozenset(), "reaction-rule", rule=rule)
+    monkeypatch.setattr(checker, "LARGEST", 2)
+    assert checker.kept_rule(own, ("b",), cube) == "{bc} (duration 0) keeps the rule"
+    monkeypatch.setattr(checker, "LARGEST", 1)
+    with pytest.raises(checker.TooLarge, match="more than 1 sets of actions in a rule"):
+        checker.kept_rule(own, ("b",), cube)
+    assert checker.Choosing([2], []).succeeds()
+    with pytest.raises(checker.TooLarge, match="more than 1 choices of options"):
+        checker.Choosing([2, 2], []).succeeds()
 
 
 def test_sets_and_outcomes_are_counted(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -5,18 +5,21 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from importlib import import_module
 from typing import Any, cast
 
 import pytest
 
+from tests.unrealizability import certified as certificate_of
 from tests.verify.policies import certified
 from tests.verify.test_forged_ranks import along, exact
+from tests.verify.test_unrealizable_by_hand import line
 from tumato_symbolic.limits import Context, LimitReachedError, Limits
 from tumato_symbolic.policy import Policy
 from tumato_symbolic.semantics import Residual
 from tumato_symbolic.spec import Spec
-from tumato_symbolic.verify import PROPERTIES, PropertyName, PropertyResult, Verification, verify
+from tumato_symbolic.verify import PROPERTIES, PropertyName, PropertyResult, Verification, verify, verify_unrealizable
 from tumato_symbolic.verify.by_walk import prover as by_walk
 from tumato_symbolic.verify.by_walk.prover import WalkProver
 from tumato_symbolic.verify.by_z3 import rank_terms
@@ -237,3 +240,16 @@ def test_what_is_known_before_the_first_proof() -> None:
         "any",
         "default",
     )
+
+
+def test_without_a_proof_nobody_has_proved_anything() -> None:
+    """A certificate of no that is left open, or is refuted, names no prover, no witness that is none, and no count."""
+    spec = line(2)
+    certificate = certificate_of(spec, "any")
+    assert certificate is not None
+    late = verify_unrealizable(certificate, spec, timeout=0.0)
+    wrong = verify_unrealizable(certificate, replace(spec, effect_ordering="first"))
+    for found, verdict in ((late, "undecided"), (wrong, "refuted")):
+        assert found.verdict == verdict and found.reason
+        assert (found.obligations, found.by_solver, found.by_walk) == (0, False, False)
+        assert (found.state, found.chosen) == (None, None)
