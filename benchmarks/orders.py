@@ -13,6 +13,7 @@ from unittest.mock import patch
 
 from benchmarks.families import FAMILIES
 from tumato_symbolic.diagnostics import Source
+from tumato_symbolic.policy import DecisionDiagram
 from tumato_symbolic.spec import Spec, load
 from tumato_symbolic.symbolic import order
 from tumato_symbolic.synthesis import Context, Limits, Realizable, synthesize
@@ -78,9 +79,10 @@ def measured(spec: Spec, chosen: Order) -> str:
         seconds = time.process_time() - began
     if not isinstance(outcome, Realizable):
         return "–"
-    policy = outcome.policy
+    policy, decisions = outcome.policy, outcome.policy.decisions
     assert policy.certificate is not None, "synthesis brings ranks"
-    return f"{seconds:.2f}; {len(policy.decisions.diagram.nodes) + len(policy.certificate.ranks.nodes):,}"
+    assert isinstance(decisions, DecisionDiagram), "it was asked for"
+    return f"{seconds:.2f}; {len(decisions.diagram.nodes) + len(policy.certificate.ranks.nodes):,}"
 
 
 if __name__ == "__main__":

@@ -107,7 +107,7 @@ def measured(family: Family, size: int, limit: float, repeats: int) -> Record:
 
 def _pure_python(spec: Path, policy: Path, limit: float) -> float | None:
     """How many times as long the search takes in pure Python as with CUDD; None where it does not end."""
-    seconds = []
+    seconds: list[float] = []
     for backend in ("cudd", "autoref"):
         ran = run((sys.executable, "-m", "benchmarks.stages", str(spec), str(policy), backend), limit)
         if ran.code != 0:

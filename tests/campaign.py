@@ -91,8 +91,10 @@ def _tell(report: Report, failures: Path | None) -> None:
 
 
 def _table(totals: Counter[tuple[str, str]], profiles: Sequence[str]) -> str:
-    rows = ("cases", "realizable", "interacting", "failing", "conflict", "crashed", "referenced")
-    rows += ("right policies", "wrong policies", "disagree")
+    rows = (
+        *("cases", "realizable", "interacting", "failing", "conflict", "crashed", "referenced"),
+        *("right policies", "wrong policies", "disagree"),
+    )
     lines = ["".join((f"{'':16}", *(f"{profile:>13}" for profile in (*profiles, "all"))))]
     for row in rows:
         counts = [totals[profile, row] for profile in profiles]

@@ -92,6 +92,7 @@ def _compare(world: World, verdict: OracleVerdict, outcome: Outcome, report: Rep
                 yield f"realizable, but {verdict.kind}"
             yield from _compare_policy(world, outcome, report)
     counted = outcome.statistics
+    assert counted is not None
     exact = (count_states(world.spec), len(world.valid), len(world.safe), len(world.unsafe))
     if (counted.total, counted.valid, counted.safe, counted.unsafe) != exact:
         yield f"states are miscounted: {counted}"
@@ -117,6 +118,7 @@ def _compare_failures(world: World, verdict: OracleVerdict, outcome: Unrealizabl
 
 def _verify_certificate(world: World, outcome: Unrealizable) -> Iterator[str]:
     """Complaints about the verification of the answer no, through its file."""
+    assert outcome.certificate is not None
     certificate = unrealizable_file.loads(unrealizable_file.dumps(outcome.certificate))
     answer = verify_unrealizable(certificate, world.spec, ordering=world.ordering)
     if (answer.verdict, answer.stale) != ("proved", False):
@@ -216,7 +218,7 @@ def _compare_verification(world: World, rows: Decisions, judgement: Judgement, a
     right = judgement.sound_and_complete and judgement.minimal
     if answer.verdict != ("proved" if right else "refuted"):
         yield f"verdict {answer.verdict}, judged {judgement}"
-    verdicts = {result.name: result.verdict for result in answer.properties}
+    verdicts: dict[str, str] = {result.name: result.verdict for result in answer.properties}
     truth = {"total": not judgement.missing, "safe": not judgement.not_allowed}
     if truth["safe"]:
         truth["goals"] = not judgement.goal_missed

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from itertools import product
 from math import prod
@@ -97,7 +98,7 @@ class _Maker:
         )
         return spec if any(is_valid(spec, state) for state in all_states(spec)) else replace(spec, assumptions=())
 
-    def _rules(self, bounds: Range, make) -> tuple[Rule, ...]:
+    def _rules(self, bounds: Range, make: Callable[[], Formula]) -> tuple[Rule, ...]:
         return tuple(self._rule(make()) for _ in range(self._count(bounds)))
 
     def _rule(self, formula: Formula) -> Rule:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from random import Random
 
 from tumato_symbolic.spec import (
@@ -107,7 +107,7 @@ def _block(title: str, lines: list[str]) -> list[str]:
     return [f"BEGIN {title}", *lines, f"END {title}"]
 
 
-def _action(spec: Spec, action: Action, text, names: Names) -> list[str]:
+def _action(spec: Spec, action: Action, text: Callable[[Formula], str], names: Names) -> list[str]:
     lines = [f"  action {action.name}", f"    duration: {action.duration}"]
     if action.resources:
         held = ", ".join(spec.resources[number] for number in sorted(action.resources))
@@ -120,12 +120,12 @@ def _action(spec: Spec, action: Action, text, names: Names) -> list[str]:
     return lines
 
 
-def _goal_list(spec: Spec, goals: GoalList, text, indent: str) -> list[str]:
+def _goal_list(spec: Spec, goals: GoalList, text: Callable[[Formula], str], indent: str) -> list[str]:
     members = [line for member in goals.members for line in _goal(spec, member, text, indent + "  ")]
     return [f"{indent}BEGIN GOALS", f"{indent}  goal type: {goals.kind}", *members, f"{indent}END GOALS"]
 
 
-def _goal(spec: Spec, goal: Goal, text, indent: str) -> list[str]:
+def _goal(spec: Spec, goal: Goal, text: Callable[[Formula], str], indent: str) -> list[str]:
     match goal:
         case SimpleGoal(body):
             return [f"{indent}goal: {text(spec.bodies[body].formula)}"]

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from itertools import combinations
 from random import Random
+from typing import Literal, TypeVar
 
 from tests.generate import PROFILES, random_spec
 from tests.oracle import Together, World
@@ -15,6 +16,7 @@ from tumato_symbolic.policy.unrealizable import (
     Choice,
     Conflict,
     Cube,
+    Cut,
     NoAllowedSet,
     NoPlan,
     Unrealizability,
@@ -27,6 +29,18 @@ from tumato_symbolic.verify import verify_unrealizable
 
 CONFLICTS = (48, 189, 241, 316, 350)
 """Seeds of the profile `interacting` whose goals conflict."""
+
+Entry = TypeVar("Entry")
+
+VIOLATIONS: tuple[Literal["precondition", "resource", "nominal-conflict", "unsafe", "idle", "nominal-unsafe"], ...] = (
+    "precondition",
+    "resource",
+    "nominal-conflict",
+    "unsafe",
+    "idle",
+    "nominal-unsafe",
+)
+"""What is tried in the place of a violation; a rule would have to be named."""
 
 
 def certified(spec: Spec, ordering: Ordering) -> Unrealizability | None:
@@ -81,6 +95,7 @@ def assert_never_wrong(world: World, certificate: Unrealizability) -> str:
         assert verdict.verdict == "refuted"
         assert verdict.reason
     if verdict.state is not None:
+        assert verdict.chosen is not None
         assert allowed(spec, verdict.state, verdict.chosen, ordering)
     return verdict.verdict
 
@@ -100,12 +115,12 @@ def _any_state(vocabulary: Vocabulary, dice: Random) -> State:
     return tuple(dice.randrange(size) for size in vocabulary.sizes)
 
 
-def _without(entries: tuple, dice: Random) -> tuple:
+def _without(entries: tuple[Entry, ...], dice: Random) -> tuple[Entry, ...]:
     place = dice.randrange(len(entries))
     return entries[:place] + entries[place + 1 :]
 
 
-def _exchanged(entries: tuple, dice: Random, change) -> tuple:
+def _exchanged(entries: tuple[Entry, ...], dice: Random, change: Callable[[Entry], Entry]) -> tuple[Entry, ...]:
     place = dice.randrange(len(entries))
     return (*entries[:place], change(entries[place]), *entries[place + 1 :])
 
@@ -121,7 +136,7 @@ def _changed_cubes(reason: NoAllowedSet, vocabulary: Vocabulary, dice: Random) -
         return replace(cube, executed=executed, idle=idle)
 
     def violated(cube: Cube) -> Cube:
-        kind = dice.choice(("precondition", "resource", "nominal-conflict", "unsafe", "idle", "nominal-unsafe"))
+        kind = dice.choice(VIOLATIONS)
         number = 1 if kind == "precondition" else 2
         named = tuple(dice.sample(actions, min(number, len(actions)))) if kind[0] in "prn" else ()
         return replace(cube, violation=Violation(kind, named, cube.violation.rule, cube.violation.outcome))
@@ -190,7 +205,7 @@ def _changed_conflict(reason: Conflict, vocabulary: Vocabulary, dice: Random) ->
 
         return replace(choice, options=_exchanged(choice.options, dice, other)) if choice.options else choice
 
-    def cut_otherwise(cut):
+    def cut_otherwise(cut: Cut) -> Cut:
         match dice.randrange(5):
             case 0:
                 return replace(cut, goal=dice.randrange(len(reason.goals)))

@@ -5,15 +5,15 @@ from dataclasses import replace
 from tests.cli.inputs import CONFLICT, TWO_ROBOTS, WARNED
 from tests.generate import random_spec
 from tumato_symbolic import parse
-from tumato_symbolic.explain.explain import explain
+from tumato_symbolic.explain.explain import MAX_CUBES, explain
 from tumato_symbolic.explain.explanation import Explanation, NothingToExplain
 from tumato_symbolic.symbolic import Backend, available_backend
 
 BACKENDS: tuple[Backend, Backend] = (available_backend(), "autoref")
 
 
-def _explained(text: str, **options: int) -> Explanation:
-    found = explain(parse(text), **options)
+def _explained(text: str, wanted_repairs: int = 3, max_cubes: int = MAX_CUBES) -> Explanation:
+    found = explain(parse(text), wanted_repairs=wanted_repairs, max_cubes=max_cubes)
     assert isinstance(found, Explanation)
     return found
 

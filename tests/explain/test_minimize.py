@@ -1,5 +1,6 @@
 """Tests of minimal sets."""
 
+from collections.abc import Callable, Iterable
 from itertools import combinations
 from random import Random
 
@@ -10,13 +11,18 @@ from tumato_symbolic.limits import LimitReachedError
 from tumato_symbolic.synthesis.solver import HittingSets
 
 
+def meets(needs: Iterable[frozenset[int]]) -> Callable[[frozenset[int]], bool]:
+    """Whether one of some needs is among the items: a monotone question."""
+    return lambda some: any(need <= some for need in needs)
+
+
 def test_minimal_sets_are_enough_and_minimal() -> None:
     """Against random monotone questions: enough, and nothing can be left out."""
     random = Random(1)
     for _ in range(200):
         items = range(random.randint(1, 9))
         needs = [frozenset(random.sample(items, random.randint(0, len(items)))) for _ in range(3)]
-        found = minimal(items, lambda some, needs=needs: any(need <= some for need in needs))
+        found = minimal(items, meets(needs))
         assert any(need <= found for need in needs)
         assert not any(need <= found - {item} for need in needs for item in found)
 
@@ -31,7 +37,7 @@ def test_earlier_items_are_preferred() -> None:
         for item in reversed(items):
             if any(need <= expected - {item} for need in needs):
                 expected -= {item}
-        assert minimal(items, lambda some, needs=needs: any(need <= some for need in needs)) == expected
+        assert minimal(items, meets(needs)) == expected
 
 
 @pytest.mark.parametrize(
@@ -41,7 +47,8 @@ def test_few_questions_are_asked(size: int, needed: int, most: int) -> None:
     """About `k log(n / k)` where few items are needed, and about `n` where nearly all are."""
     random = Random(size)
     for _ in range(20):
-        core, asked = frozenset(random.sample(range(size), needed)), []
+        core = frozenset(random.sample(range(size), needed))
+        asked: list[int] = []
 
         def enough(some: frozenset[int], core: frozenset[int] = core, asked: list[int] = asked) -> bool:
             asked.append(len(some))

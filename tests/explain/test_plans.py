@@ -9,9 +9,11 @@ from tumato_symbolic import parse
 from tumato_symbolic.explain import plans
 from tumato_symbolic.explain.conditions import Conditions
 from tumato_symbolic.explain.conflicts import conflict_core
+from tumato_symbolic.explain.elements import Elements
 from tumato_symbolic.explain.explain import explain
 from tumato_symbolic.explain.explanation import Explanation
 from tumato_symbolic.explain.plans import Plans, failing
+from tumato_symbolic.symbolic import Bdd
 from tumato_symbolic.synthesis import Unrealizable, repair, synthesize
 
 
@@ -36,14 +38,15 @@ def test_an_answer_answers_for_more_and_for_less(monkeypatch: pytest.MonkeyPatch
     """What fails does when more is kept, and what does not fail does not when less is: nothing is computed again."""
     conditions = Conditions(random_spec(1, PROFILES["mixed"]), "any", "autoref")
     known, regions = Plans(conditions), len(conditions.regions)
-    computed = []
+    computed: list[Elements] = []
 
-    def counted(*asked: object) -> object:
-        computed.append(asked)
-        return failing(*asked)
+    def counted(conditions: Conditions, kept: Elements, states: Bdd) -> Bdd:
+        computed.append(kept)
+        return failing(conditions, kept, states)
 
     monkeypatch.setattr(plans, "failing", counted)
-    most, least = conditions.everything, frozenset()
+    most: Elements = conditions.everything
+    least: Elements = frozenset()
     hopeless = known.failing(least, conditions.valid)
     winning = conditions.valid & ~known.failing(most, conditions.valid)
     assert len(computed) == 2 * regions

@@ -36,14 +36,14 @@ def amr() -> Case:
 
 
 @pytest.fixture(scope="module")
-def library(tmp_path_factory) -> Library:
+def library(tmp_path_factory: pytest.TempPathFactory) -> Library:
     found = Library.copy_to(tmp_path_factory.mktemp("coq"))
     built = found.build()
     assert built.returncode == 0, built.stderr
     return found
 
 
-def test_the_file_states_the_theorem_and_prints_what_it_rests_on(amr):
+def test_the_file_states_the_theorem_and_prints_what_it_rests_on(amr: Case) -> None:
     """The last command prints the assumptions; the ordering is the one that was asked for."""
     text = amr.text
     assert text.endswith("Print Assumptions policy_is_right.\n")
@@ -52,7 +52,7 @@ def test_the_file_states_the_theorem_and_prints_what_it_rests_on(amr):
     assert "Admitted" not in text
 
 
-def test_the_specification_is_written_in_numbers_and_explained_in_comments(amr):
+def test_the_specification_is_written_in_numbers_and_explained_in_comments(amr: Case) -> None:
     """A reader finds every name and every rule as it was written, beside its numbers."""
     text = amr.text
     assert "sizes := [4; 2; 2; 2];" in text
@@ -66,13 +66,13 @@ def test_the_specification_is_written_in_numbers_and_explained_in_comments(amr):
     assert text.count("Leaf") == 32
 
 
-def test_a_diagram_gives_the_same_file_as_its_table(amr):
+def test_a_diagram_gives_the_same_file_as_its_table(amr: Case) -> None:
     """What is exported are the decisions, not the form of the policy."""
     policy = policy_from_rows(amr.spec, amr.rows)
     assert export(replace(policy, decisions=as_diagram(policy)), amr.spec, "any") == amr.text
 
 
-def test_texts_of_rules_cannot_end_their_comment(amr):
+def test_texts_of_rules_cannot_end_their_comment(amr: Case) -> None:
     """Whatever a rule's text holds, it stays inside one comment of one line."""
     hostile = replace(amr.spec.state_rules[0], text='a *) Axiom f : False. (* "b (*)\nc')
     text = replace(amr, spec=replace(amr.spec, state_rules=(hostile,))).text
@@ -80,7 +80,7 @@ def test_texts_of_rules_cannot_end_their_comment(amr):
     assert line == "    (* a * ) Axiom f : False. ( * 'b ( * ) c *)"
 
 
-def test_a_policy_that_leaves_a_valid_state_undecided_is_an_error(amr):
+def test_a_policy_that_leaves_a_valid_state_undecided_is_an_error(amr: Case) -> None:
     """There is nothing to prove about a policy that is not total."""
     rows = dict(amr.rows)
     del rows[0, 0, 0, 1]
@@ -91,7 +91,7 @@ def test_a_policy_that_leaves_a_valid_state_undecided_is_an_error(amr):
     assert "S_Location is corridor, S_Battery is low, S_Load is loaded, S_Conveyor is off" in diagnostic.message
 
 
-def test_too_many_states_are_an_error(amr):
+def test_too_many_states_are_an_error(amr: Case) -> None:
     """The checker goes through all states; where these are too many, the exporter says so."""
     count = MOST_STATES.bit_length()
     variables = "\n".join(f"state S{number} can be a, b" for number in range(count))
@@ -104,14 +104,14 @@ def test_too_many_states_are_an_error(amr):
     assert "proofs/checker.py" in str(diagnostic.help)
 
 
-def test_a_policy_for_another_specification_is_an_error(amr):
+def test_a_policy_for_another_specification_is_an_error(amr: Case) -> None:
     """The policy is bound to the specification by names."""
     with pytest.raises(UserError) as error:
         export(policy_from_rows(amr.spec, amr.rows), example("coin"), "any")
     assert error.value.diagnostics[0].code is Code.TUM503
 
 
-def test_states_that_are_not_valid_need_no_decision():
+def test_states_that_are_not_valid_need_no_decision() -> None:
     """A decision in an invalid state is not exported either."""
     text = "BEGIN STATE VECTOR\nstate S can be a, b\nEND STATE VECTOR\n"
     spec = parse(f"{text}BEGIN ASSUMPTIONS\nassume: S is a\nEND ASSUMPTIONS")
@@ -121,7 +121,7 @@ def test_states_that_are_not_valid_need_no_decision():
 
 
 @needs_coq
-def test_the_theorem_of_the_amr_compiles_and_rests_on_nothing(amr, library):
+def test_the_theorem_of_the_amr_compiles_and_rests_on_nothing(amr: Case, library: Library) -> None:
     """The policy of the paper's example is proved right, without axioms."""
     answer = library.compile(amr.text)
     assert answer.returncode == 0, answer.stderr
@@ -129,7 +129,7 @@ def test_the_theorem_of_the_amr_compiles_and_rests_on_nothing(amr, library):
 
 
 @needs_coq
-def test_a_changed_decision_is_refused(amr, library):
+def test_a_changed_decision_is_refused(amr: Case, library: Library) -> None:
     """The exporter judges nothing: the file of a wrong policy is written, and Coq refuses it."""
     wrong = replace(amr, rows={**amr.rows, (1, 0, 0, 1): frozenset()})
     answer = library.compile(wrong.text)
@@ -138,14 +138,14 @@ def test_a_changed_decision_is_refused(amr, library):
 
 
 @needs_coq
-def test_an_undecided_state_is_refused(amr, library):
+def test_an_undecided_state_is_refused(amr: Case, library: Library) -> None:
     """A hole in the table is no empty decision."""
     text = amr.text.replace("Leaf d0", "Leaf none", 1)
     assert library.compile(text).returncode != 0
 
 
 @needs_coq
-def test_orderings_differ(library):
+def test_orderings_differ(library: Library) -> None:
     """What is right under `first` may be wrong under `any`."""
     spec = example("concurrent")
     first = rows_of(spec, "first")
@@ -154,7 +154,7 @@ def test_orderings_differ(library):
 
 
 @needs_coq
-def test_a_restoring_set_that_is_not_the_cheapest_is_refused(amr, library):
+def test_a_restoring_set_that_is_not_the_cheapest_is_refused(amr: Case, library: Library) -> None:
     """Minimality is part of the theorem: an allowed set that serves, but longer than needed, does not pass."""
     world, rows = World(amr.spec, "any"), dict(amr.rows)
     state: State = (0, 1, 0, 0)
@@ -167,7 +167,7 @@ def test_a_restoring_set_that_is_not_the_cheapest_is_refused(amr, library):
 
 @needs_coq
 @pytest.mark.parametrize("profile", PROFILES)
-def test_the_checker_agrees_with_the_explicit_meaning(profile: str, library):
+def test_the_checker_agrees_with_the_explicit_meaning(profile: str, library: Library) -> None:
     """`check` answers `true` for right policies, of generated specifications, and for no others."""
     cases = [case for seed in range(12) for case in generated(profile, seed, 4)]
     expected = [is_right(case) for case in cases]
@@ -178,7 +178,7 @@ def test_the_checker_agrees_with_the_explicit_meaning(profile: str, library):
 
 @needs_coq
 @pytest.mark.parametrize("planted", ["Lemma gap : False. Proof. Admitted.", "Axiom gap : False."])
-def test_the_build_refuses_gaps(planted: str, tmp_path):
+def test_the_build_refuses_gaps(planted: str, tmp_path: Path) -> None:
     """`make` fails on a proof that is not finished and on an axiom, used or not."""
     library = Library.copy_to(tmp_path)
     path = tmp_path / "Semantics.v"

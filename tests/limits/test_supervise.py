@@ -137,7 +137,7 @@ def test_a_child_that_is_ended_while_it_writes_leaves_no_temporary_file(
     monkeypatch.setattr(supervise, "PATIENCE_WITH_OUTPUT", 0.05)
     parent = os.getpid()
 
-    def fsync(_: int) -> None:
+    def fsync(fd: object) -> None:
         os.kill(parent, signal.SIGTERM)
         _for_ever()
 
@@ -156,7 +156,11 @@ def test_a_child_that_crashes_is_a_bug() -> None:
     """A signal that nobody sent is no verdict; one that the system sends because memory ran out is undecided."""
 
     def ended_by(number: int) -> Callable[[], int]:
-        return lambda: os.kill(os.getpid(), number) or 0
+        def end() -> int:
+            os.kill(os.getpid(), number)
+            return 0
+
+        return end
 
     with pytest.raises(ChildCrashedError, match="ended by signal"):
         supervised(ended_by(signal.SIGUSR1), Context())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Sequence
 from random import Random
-from typing import TypeAlias, TypeVar
+from typing import Any, TypeAlias, TypeVar
 
 Key = TypeVar("Key", bound=Hashable)
 Numbers = dict[Key, int]
@@ -72,7 +72,7 @@ def unchanged(numbers: Numbers[Key], keys: Sequence[Key], random: Random) -> Num
     return dict(numbers)
 
 
-CHANGES: dict[str, Change] = {
+CHANGES: dict[str, Change[Any]] = {
     "cut off": cut_off,
     "clamped": clamped,
     "inflated": inflated,

@@ -27,12 +27,15 @@ def examine(seed: int, each: int, folder: Path) -> Tally:
     length = LENGTHS[seed % len(LENGTHS)]
     spec = parse((crossing if seed % 2 else dead_end)(random, length))
     outcome = synthesize(spec)
-    if not isinstance(outcome, Unrealizable) or not isinstance(outcome.certificate.reason, Conflict | NoPlan):
+    if not isinstance(outcome, Unrealizable):
+        return tally
+    certificate = outcome.certificate
+    if certificate is None or not isinstance(certificate.reason, Conflict | NoPlan):
         return tally
     for number in range(4 * each):
         kind = KINDS[(seed + number) % len(KINDS)]
         judged = replace(spec, max_plan_length=_other_bound(spec, random)) if random.random() < 0.3 else spec
-        changed = _changed(World(spec, "any"), outcome.certificate, kind, random)
+        changed = _changed(World(spec, "any"), certificate, kind, random)
         for complaint in _judge(World(judged, "any"), changed, kind, tally):
             tally.complaints.append(f"{seed} {type(changed.reason).__name__} {kind}: {complaint}")
     return tally

@@ -13,6 +13,7 @@ from tests.ranks.campaign import Tally
 from tumato_symbolic import parse
 from tumato_symbolic.diagrams import DiagramBuilder
 from tumato_symbolic.policy import Certificate, RankedGoal, policy_from_rows
+from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import digest
 from tumato_symbolic.verify import verify
 from tumato_symbolic.verify.by_z3.step_counts import StepCounts
@@ -44,7 +45,8 @@ BEGIN CONFIG max_plan_length: 2 END CONFIG
 def test_none_is_no_number(prover: ProverName) -> None:
     """Ranks that are 0 at the goal and null elsewhere are no proof that a cheaper set is too slow."""
     spec = parse(ONE_STEP_FROM_NONE)
-    rows = {(state,): frozenset({action}) for state, action in enumerate((1, 3, 4, 5, 6))} | {(5,): frozenset()}
+    rows: dict[State, frozenset[int]] = {(state,): frozenset({action}) for state, action in enumerate((1, 3, 4, 5, 6))}
+    rows[(5,)] = frozenset()
     builder = DiagramBuilder[int | None]((0,), (0, None))
     root = builder.from_table([6], {(5,): 0}, None)
     certificate = Certificate(builder.finish(), (RankedGoal(("P is t0",), (), root),))

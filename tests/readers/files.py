@@ -84,7 +84,9 @@ class Base:
 @cache
 def bases() -> tuple[tuple[Base, ...], ...]:
     """Tables, diagrams, and certificates of the answer no."""
-    tables, diagrams, refusals = [], [], []
+    tables: list[Base] = []
+    diagrams: list[Base] = []
+    refusals: list[Base] = []
     for name, profile in PROFILES.items():
         for seed in range(20):
             spec, text = random_spec(seed, profile), random_text(seed, profile)

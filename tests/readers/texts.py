@@ -14,7 +14,7 @@ from tests.syntax.mutations import SNIPPETS, mutations
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
-STRANGE = (
+STRANGE: tuple[str, ...] = (
     *map(chr, (0, 8, 11, 12, 13, 26, 27, 28, 29, 30, 31, 127, 0x80, 0x85, 0x9F, 0xA0, 0xAD, 0x1680, 0x180E, 0x2000)),
     *map(chr, (0x200B, 0x200C, 0x200D, 0x200E, 0x2028, 0x2029, 0x202E, 0x202F, 0x205F, 0x2060, 0x2066, 0x3000, 0xFEFF)),
     *"é²٣߁４Ａıſ", "a\u0308", "\U0001d7d8", "\U0001f916", "\ufffd", "\uffff", "\r", "\r\n", "\n\r", "\t", " ", ".", "-",

@@ -38,6 +38,7 @@ def answer(seed: int, backend: Backend) -> str:
             if seed % WITNESS_EVERY == 0:
                 text += _witnesses(spec, outcome.policy, Random(seed))
         case Unrealizable():
+            assert outcome.certificate is not None
             text = unrealizable_file.dumps(outcome.certificate)
         case _:
             text = "undecided"

@@ -42,7 +42,10 @@ def certificate_path(example: Path) -> Path:
 def certificate_text(example: Path) -> str | None:
     """The certificate that an example has no policy, as it should be committed; None where there is one."""
     _, outcome = solved(example)
-    return unrealizable_file.dumps(outcome.certificate) if isinstance(outcome, Unrealizable) else None
+    if not isinstance(outcome, Unrealizable):
+        return None
+    assert outcome.certificate is not None
+    return unrealizable_file.dumps(outcome.certificate)
 
 
 def table() -> str:
@@ -51,6 +54,7 @@ def table() -> str:
     for example in EXAMPLES:
         _, outcome = solved(example)
         numbers = outcome.statistics
+        assert numbers is not None
         verdict = "realizable"
         if isinstance(outcome, Unrealizable):
             verdict = ", ".join(f"{failure.count} states: {failure.kind}" for failure in outcome.failures)

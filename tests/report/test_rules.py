@@ -10,7 +10,7 @@ from tumato_symbolic.spec import load
 VALUES = {"S_A": ("x", "y", "z", "w"), "S_B": ("on", "off")}
 
 
-def test_conditions_group_values_and_exclude_where_that_is_shorter():
+def test_conditions_group_values_and_exclude_where_that_is_shorter() -> None:
     """Several values of one variable stand in brackets, unless they are all there is; few missing ones are excluded."""
     cases = [
         ((), "otherwise"),
@@ -23,7 +23,7 @@ def test_conditions_group_values_and_exclude_where_that_is_shorter():
         assert condition(VALUES, Rule(given, ())) == expected
 
 
-def test_the_text_shows_order_and_actions():
+def test_the_text_shows_order_and_actions() -> None:
     """Rules are numbered; no action is `(nothing)`; an empty policy has no rules."""
     vocabulary = Vocabulary(tuple(VALUES.items()), ("go", "stop"))
     rules = (Rule((("S_B", ("on",)),), ("go", "stop")), Rule((), ()))
@@ -35,7 +35,7 @@ def test_the_text_shows_order_and_actions():
     assert as_text("p.json", vocabulary, RuleList(()), 0) == "p.json decides 0 states: there are no rules."
 
 
-def test_the_object_for_programs():
+def test_the_object_for_programs() -> None:
     """Conditions are lists of values by variable, the last one is empty."""
     rules = (Rule((("S_B", ("on",)),), ("go",)), Rule((), ()))
     assert as_json("p.json", RuleList(rules), 8)["rules"] == [
@@ -44,7 +44,7 @@ def test_the_object_for_programs():
     ]
 
 
-def test_conditions_are_predicates_of_the_language():
+def test_conditions_are_predicates_of_the_language() -> None:
     """A printed condition, read as a state rule, holds exactly where the rule matches."""
     for given in [
         (("S_A", ("x", "z")), ("S_B", ("on",))),

@@ -7,6 +7,7 @@ from tests.cli.inputs import CONFLICT
 from tumato_symbolic import Realizable, Undecided, Unrealizable, parse, synthesize, verify
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.report.synthesized import Synthesized, as_github, as_json, as_text
+from tumato_symbolic.verify.result import ProverName
 
 COIN = (Path(__file__).parents[2] / "examples" / "coin.tum").read_text(encoding="utf-8")
 SPEC = parse(CONFLICT)
@@ -40,7 +41,8 @@ def test_github_names_the_prover() -> None:
     spec = parse(COIN)
     outcome = synthesize(spec)
     assert isinstance(outcome, Realizable)
-    for prover, told in (("z3", "proved by Z3"), ("walk", "proved by the walk")):
+    named: dict[ProverName, str] = {"z3": "proved by Z3", "walk": "proved by the walk"}
+    for prover, told in named.items():
         proof = verify(outcome.policy, spec, prover=prover)
         done = replace(GIVEN_UP, spec=spec, outcome=outcome, proof=proof, written=True)
         assert as_github(done) == f"::notice file=big.tum::realizable, {told}"

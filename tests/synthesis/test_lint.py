@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -46,7 +47,7 @@ def test_both_ways_warn_of_the_same(profile: str, monkeypatch: pytest.MonkeyPatc
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "examples").glob("*.tum")), ids=lambda path: path.stem)
-def test_both_ways_warn_of_the_same_in_examples(path) -> None:
+def test_both_ways_warn_of_the_same_in_examples(path: Path) -> None:
     """The examples as well."""
     agree(spec_of(path.read_text()))
 
@@ -91,7 +92,7 @@ END GOALS
 """An action that no valid state allows, rules that nothing breaks, a goal behind one that is always entered."""
 
 
-def test_check_warns_of_them(cli: Cli, tmp_path) -> None:
+def test_check_warns_of_them(cli: Cli, tmp_path: Path) -> None:
     """`check` says what `synth` says; a rule that only repeats a shared resource is left alone."""
     (tmp_path / "suspicious.tum").write_text(SUSPICIOUS)
     check, synth = cli("check", "suspicious.tum"), cli("synth", "suspicious.tum")
@@ -108,7 +109,7 @@ def test_check_warns_of_them(cli: Cli, tmp_path) -> None:
     assert "suspicious.tum: 4 warnings" in check.out
 
 
-def test_check_finds_that_no_state_is_valid(cli: Cli, tmp_path) -> None:
+def test_check_finds_that_no_state_is_valid(cli: Cli, tmp_path: Path) -> None:
     """An error of the assumptions together: exit 2 and TUM312, as in `synth`."""
     text = SUSPICIOUS.replace("assume: x is a", "assume: x is a\nassume: x is b")
     (tmp_path / "empty.tum").write_text(text)

@@ -47,6 +47,7 @@ def test_a_policy_takes_the_fewest_steps() -> None:
         build.state("c"): {2},
         build.state("d"): frozenset(),
     }
+    assert outcome.statistics is not None
     assert outcome.statistics.longest_run == 3
 
 
@@ -76,6 +77,7 @@ def test_unsafe_states_are_left_by_the_shortest_duration() -> None:
     spec = build.spec(priority(build.goal(build.atom("x=d"))), state_rules=[Not(bad)])
     outcome = synthesize(spec)
     assert rows(outcome)[build.state("a")] == {1}
+    assert outcome.statistics is not None
     assert outcome.statistics.restoring_durations == 1
 
 
@@ -117,6 +119,7 @@ def test_goals_that_interact_are_solved_and_little_is_changed() -> None:
     outcome = synthesize(spec)
     judgement = judge(spec, rows(outcome), "any")
     assert judgement.sound_and_complete
+    assert outcome.statistics is not None
     assert judgement.longest_run == outcome.statistics.longest_run
     assert outcome.statistics.changed == 1
 
@@ -128,6 +131,7 @@ def test_repair_alone_solves_what_overriding_would(monkeypatch: pytest.MonkeyPat
     spec = exclusive(spec)
     outcome = synthesize(spec)
     assert judge(spec, rows(outcome), "any").sound_and_complete
+    assert outcome.statistics is not None
     assert outcome.statistics.changed == 1
 
 
