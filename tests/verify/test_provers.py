@@ -75,10 +75,29 @@ def test_where_there_is_little_to_look_at_the_walk_does_not_try_for_long(
         return _tired(_, name)
 
     monkeypatch.setattr(provers, "MANY_RANK_NODES", 0)
-    monkeypatch.setattr(provers, "FIRST_TURN", (30, 1_000 if little else 0))
+    monkeypatch.setattr(provers, "FIRST_TURN", (30, 8 if little else 7))  # 4 states: before and after one effect each
     monkeypatch.setattr(WalkProver, "prove", tired)
     assert _proved_by("auto") == ["explicit"] * 4
     assert asked == ([30] if little else [30, provers.SOON_REMEMBERED]) * 4
+
+
+def test_where_ranks_are_large_z3_is_asked_early_for_safe_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It does not mind many orders of effects, but ranks that count; in the end it is asked for all."""
+    from tumato_symbolic.verify.by_z3.prover import Z3Prover
+
+    asked: list[tuple[str, float | None]] = []
+
+    def tired(_: object, name: PropertyName, within: float | None = None) -> PropertyResult:
+        asked.append((name, within))
+        return _tired(_, name)
+
+    monkeypatch.setattr(provers, "MANY_RANK_NODES", 0)
+    monkeypatch.setattr(provers, "LITTLE", -1)
+    monkeypatch.setattr(provers, "FIRST_TURN", (30, -1))
+    monkeypatch.setattr(WalkProver, "prove", _tired)
+    monkeypatch.setattr(Z3Prover, "prove", tired)
+    assert _proved_by("auto") == ["explicit"] * 4
+    assert asked == [("total", None), ("safe", provers.SOON), ("safe", None), ("goals", None), ("minimal", None)]
 
 
 def test_the_explicit_meaning_has_the_last_word(monkeypatch: pytest.MonkeyPatch) -> None:
