@@ -56,7 +56,7 @@ def _no_allowed_set(place: Place, failure: Failure, ordering: Ordering) -> list[
         *_head(place, failure, "no allowed set of actions"),
         "The sets that come nearest, and what speaks against them:",
         *(indent(reason, "  ") for reason in why_no_set(place, failure.example, ordering)),
-        "Give the robot an action for such states, relax a rule, or exclude what cannot happen with `assume:`.",
+        "Give the robot an action for such states, or exclude what cannot happen with `assume:`.",
     ]
 
 
@@ -66,7 +66,7 @@ def _no_plan(place: Place, failure: Failure) -> list[str]:
     return [
         *_head(place, failure, "allowed sets, but no plan"),
         f"Its goal is {place.goals(failure.example)}, and no run of allowed sets{length} reaches it.",
-        "Give the robot an action towards the goal, relax a rule or the goal"
+        "Give the robot an action towards the goal, or ask for less (`when … then goal: …`)"
         + ("." if bound is None else ", or raise max_plan_length."),
     ]
 
