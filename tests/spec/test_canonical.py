@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from tests.spec.marked import loaded
-from tumato_symbolic.spec import And, Constant, Executing, Iff, Is, Not, Or, Spec, canonical_text, digest
+from tumato_symbolic.spec import And, Constant, Executing, Formula, Iff, Is, Not, Or, Spec, canonical_text, digest
 
 AMR = (Path(__file__).parents[2] / "examples" / "amr.tum").read_text(encoding="utf-8")
 
@@ -49,24 +49,24 @@ OTHER = [
 
 
 @pytest.mark.parametrize(("what", "text"), SAME, ids=[what for what, _ in SAME])
-def test_the_digest_ignores(what: str, text: str):
+def test_the_digest_ignores(what: str, text: str) -> None:
     """What leaves the meaning alone leaves the digest alone."""
     assert text != AMR, what
     assert digest(spec(text)) == digest(spec(AMR))
 
 
 @pytest.mark.parametrize(("what", "text"), OTHER, ids=[what for what, _ in OTHER])
-def test_the_digest_tells_apart(what: str, text: str):
+def test_the_digest_tells_apart(what: str, text: str) -> None:
     """What changes the meaning changes the digest."""
     assert text != AMR, what
     assert digest(spec(text)) != digest(spec(AMR))
 
 
-def test_canonical_texts_keep_the_structure():
+def test_canonical_texts_keep_the_structure() -> None:
     """Formulas with different structure have different texts, also where they are equivalent."""
     amr = spec(AMR)
     low, loaded_ = Is(1, 0), Is(2, 0)
-    formulas = [
+    formulas: list[Formula] = [
         Constant(True), Constant(False), low, Not(low), And((low, loaded_)), And((loaded_, low)), Or((low, loaded_)),
         And((low, And((low, low)))), And((And((low, low)), low)), And((low, low, low)), Iff(low, loaded_),
         Iff(Iff(low, low), low), Iff(low, Iff(low, low)), Not(Not(low)), Executing(0),

@@ -48,25 +48,25 @@ def diagnostics_document() -> str:
     return head + "".join(f"| {code.name} | {code.severity} | {code.title} |\n" for code in Code)
 
 
-def test_the_snippets_are_one_specification():
+def test_the_snippets_are_one_specification() -> None:
     """All snippets together load without an error or a warning."""
     assert codes(WHOLE) == []
 
 
 @pytest.mark.parametrize(("code", "text"), WRONG)
-def test_wrong_snippets_are_wrong_as_said(code: str, text: str):
+def test_wrong_snippets_are_wrong_as_said(code: str, text: str) -> None:
     """In place of the block of the same name, a snippet marked with an error gives that error."""
     title = text.split("\n", 1)[0].removeprefix("BEGIN ")
     block = re.compile(rf"^BEGIN {title}\n.*?^END {title}\n", re.MULTILINE | re.DOTALL)
     assert code in codes(block.sub(lambda _: text, WHOLE))
 
 
-def test_every_limit_is_documented():
+def test_every_limit_is_documented() -> None:
     """The table of limits has the values of the constants."""
     for what, value in LIMITS:
         assert f"| {what} | {value:,} |" in LANGUAGE
 
 
-def test_every_code_is_documented():
+def test_every_code_is_documented() -> None:
     """The table of codes is the one that the code has."""
     assert (DOCS / "diagnostics.md").read_text(encoding="utf-8") == diagnostics_document()

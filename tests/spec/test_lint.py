@@ -29,7 +29,7 @@ WARNINGS = [
 
 
 @pytest.mark.parametrize(("code", "marked"), WARNINGS, ids=lambda each: str(each)[:40])
-def test_a_warning_is_given_where_it_belongs(code: str, marked: str):
+def test_a_warning_is_given_where_it_belongs(code: str, marked: str) -> None:
     """The code and the span of each warning; nothing else is said, and there is a specification all the same."""
     case = unmark(marked)
     assert codes(case.text) == [code]
@@ -37,20 +37,20 @@ def test_a_warning_is_given_where_it_belongs(code: str, marked: str):
     assert loaded(case.text).spec is not None
 
 
-def test_a_plain_true_is_meant():
+def test_a_plain_true_is_meant() -> None:
     """`true` alone is no reason to warn, wherever it stands."""
     text = FULL.replace("goal: S is b", "when true then goal: true").replace("S is a nom", "true nom")
     assert codes(f"{text}BEGIN STATE RULES rule: true END STATE RULES") == []
 
 
-def test_what_is_used_by_an_unused_alias_only_is_unused():
+def test_what_is_used_by_an_unused_alias_only_is_unused() -> None:
     """An alias counts as used when a rule, a field or a goal needs it."""
     text = f"{FULL}BEGIN ALIASES define p as q define q as S is a END ALIASES"
     assert codes(text) == ["TUM322", "TUM322"]
     assert codes(f"{text} BEGIN STATE RULES rule: p END STATE RULES") == []
 
 
-def test_large_predicates_are_left_undecided():
+def test_large_predicates_are_left_undecided() -> None:
     """A predicate with too many assignments is not searched."""
     variables = " ".join(f"state S{number} can be a, b" for number in range(40))
     parity = "S0 is a"
@@ -61,6 +61,6 @@ def test_large_predicates_are_left_undecided():
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
-def test_the_examples_are_clean(path: Path):
+def test_the_examples_are_clean(path: Path) -> None:
     """No example has an error or a warning."""
     assert load(read_source(str(path))).diagnostics == ()

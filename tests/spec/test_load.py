@@ -20,7 +20,7 @@ def formula(predicate: str, aliases: str = "") -> object:
     return spec(text).reaction_rules[0].formula
 
 
-def test_operators_bind_as_documented():
+def test_operators_bind_as_documented() -> None:
     """IFONLYIF is loosest, then IF, OR, AND, NOT; an implication is a disjunction."""
     assert formula("NOT S is a AND T is x OR S is b") == Or((And((Not(A), X)), B))
     assert formula("IF S is a OR T is x THEN S is b AND T is x") == Or((Not(Or((A, X))), And((B, X))))
@@ -30,14 +30,14 @@ def test_operators_bind_as_documented():
     assert formula("true OR executing go") == Or((Constant(True), Executing(0)))
 
 
-def test_aliases_are_expanded():
+def test_aliases_are_expanded() -> None:
     """An alias may use aliases that are defined later, and may say `executing` where that is allowed."""
     assert formula("p AND S is b", "define p as q OR S is a define q as executing go") == And(
         (Or((Executing(0), A)), B)
     )
 
 
-def test_keywords_are_soft():
+def test_keywords_are_soft() -> None:
     """Words of the language name values, variables, actions and resources wherever that is unambiguous."""
     text = """
     BEGIN STATE VECTOR
@@ -59,7 +59,7 @@ def test_keywords_are_soft():
     assert found.bodies[0].formula == And((Is(0, 4), Executing(1)))
 
 
-def test_older_spellings_and_layouts():
+def test_older_spellings_and_layouts() -> None:
     """`cost:` and `effects:`, blocks and fields in any order, a space before a colon, comments, Windows line ends."""
     newer = f"""{VECTOR}
     BEGIN ACTIONS action go duration: 3 preconditions: S is a nominal effects: S is b END ACTIONS
@@ -72,7 +72,7 @@ def test_older_spellings_and_layouts():
     assert first.actions[0].duration == second.actions[0].duration == 3
 
 
-def test_lists_may_be_empty_or_none():
+def test_lists_may_be_empty_or_none() -> None:
     """`none`, and nothing at all, mean no condition and no change."""
     for nothing in ("none", ""):
         action = f"action go controlled resources: {nothing} preconditions: {nothing} nominal effects: {nothing}"
@@ -81,14 +81,14 @@ def test_lists_may_be_empty_or_none():
         assert found.alternatives[0].outcomes == ((),)
 
 
-def test_blocks_may_be_empty():
+def test_blocks_may_be_empty() -> None:
     """Every block but the state vector may hold nothing."""
     titles = ["ALIASES", "RESOURCES", "ACTIONS", "REACTION RULES", "STATE RULES", "ASSUMPTIONS", "GOALS", "CONFIG"]
     found = spec(VECTOR + "".join(f" BEGIN {title} END {title}" for title in titles))
     assert (found.actions, found.goals, found.max_plan_length, found.effect_ordering) == ((), None, None, None)
 
 
-def test_effects_are_assignments():
+def test_effects_are_assignments() -> None:
     """Nominal effects denote one assignment; alternative effects may denote several, each an outcome of its own."""
     fields = "nominal effects: NOT S is a, T is x OR T is y, NOT T is y alternative effects: S is a OR T is z"
     found = spec(f"{VECTOR} BEGIN ACTIONS action go {fields} END ACTIONS").actions[0]
@@ -97,14 +97,14 @@ def test_effects_are_assignments():
     assert found.alternatives[0].text == "S is a OR T is z"
 
 
-def test_text_is_the_users_own():
+def test_text_is_the_users_own() -> None:
     """The text of a rule is what stands in the file, white space collapsed and comments left out."""
     rule = "IF S is a\n  THEN ( S is b // why\n OR /* x */ T is x )"
     found = spec(f"{VECTOR} BEGIN STATE RULES rule: {rule} END STATE RULES")
     assert found.state_rules[0].text == "IF S is a THEN ( S is b OR T is x )"
 
 
-def test_equal_goal_bodies_are_one():
+def test_equal_goal_bodies_are_one() -> None:
     """Bodies are numbered by structure, aliases expanded; nested lists keep their kind."""
     text = f"""{VECTOR} BEGIN ALIASES define p as S is a END ALIASES
     BEGIN GOALS goal type: priority
@@ -118,7 +118,7 @@ def test_equal_goal_bodies_are_one():
     assert found.goals.kind == "priority"
 
 
-def test_a_deep_but_allowed_predicate_is_safe_to_compare():
+def test_a_deep_but_allowed_predicate_is_safe_to_compare() -> None:
     """Formulas at the bound of depth can be hashed and compared under the default recursion limit."""
     text = f"{VECTOR} BEGIN STATE RULES rule: {'NOT ' * 99} S is a END STATE RULES"
     first, second = spec(text), spec(text)
@@ -126,7 +126,7 @@ def test_a_deep_but_allowed_predicate_is_safe_to_compare():
     assert hash(first.state_rules[0].formula) == hash(second.state_rules[0].formula)
 
 
-def test_nothing_is_said_about_a_clean_specification():
+def test_nothing_is_said_about_a_clean_specification() -> None:
     """A complete specification has no diagnostics."""
     assert codes(FULL) == []
     assert load(Source("s", FULL)).spec is not None

@@ -111,7 +111,7 @@ MISTAKES = [
 
 
 @pytest.mark.parametrize(("code", "marked", "way_out"), MISTAKES, ids=lambda each: str(each)[:60])
-def test_a_mistake_is_reported_where_it_is(code: str, marked: str, way_out: str | None):
+def test_a_mistake_is_reported_where_it_is(code: str, marked: str, way_out: str | None) -> None:
     """The code, the span, and the way out of each mistake; there is no specification then."""
     case = unmark(marked)
     diagnostic = the(code, case.text)
@@ -121,13 +121,13 @@ def test_a_mistake_is_reported_where_it_is(code: str, marked: str, way_out: str 
 
 
 @pytest.mark.parametrize(("code", "marked", "way_out"), MISTAKES, ids=lambda each: str(each)[:60])
-def test_one_mistake_is_one_error(code: str, marked: str, way_out: str | None):
+def test_one_mistake_is_one_error(code: str, marked: str, way_out: str | None) -> None:
     """A mistake has no consequences that are reported as errors of their own."""
     errors = [each for each in loaded(unmark(marked).text).diagnostics if each.severity == "error"]
     assert [each.code.name for each in errors] == [code]
 
 
-def test_both_places_of_a_duplicate_are_shown():
+def test_both_places_of_a_duplicate_are_shown() -> None:
     """The second declaration is to blame, a note shows the first."""
     text = "BEGIN STATE VECTOR\nstate S can be a\nstate S can be b\nEND STATE VECTOR"
     diagnostic = the("TUM203", text)
@@ -136,7 +136,7 @@ def test_both_places_of_a_duplicate_are_shown():
     assert [note.span.line for note in diagnostic.notes] == [2]
 
 
-def test_executing_through_an_alias_shows_both_places():
+def test_executing_through_an_alias_shows_both_places() -> None:
     """The use of the alias is to blame, a note shows where the alias says `executing`."""
     alias = "BEGIN ALIASES define p as q define q as executing go END ALIASES\n"
     diagnostic = the("TUM304", unmark(rule("S is a OR p") + alias).text)
@@ -145,7 +145,7 @@ def test_executing_through_an_alias_shows_both_places():
     assert diagnostic.notes[0].span.end_column - diagnostic.notes[0].span.column == len("executing go")
 
 
-def test_several_mistakes_are_reported_in_one_run():
+def test_several_mistakes_are_reported_in_one_run() -> None:
     """Syntax errors in several items, and errors in names beside them, come out together, in the order of the text."""
     text = (
         "BEGIN STATE VECTOR state S can be a, a END STATE VECTOR\n"
@@ -155,7 +155,7 @@ def test_several_mistakes_are_reported_in_one_run():
     assert codes(text) == ["TUM203", "TUM105", "TUM201", "TUM111", "TUM202", "TUM108", "TUM310"]
 
 
-def test_every_item_with_a_mistake_is_reported():
+def test_every_item_with_a_mistake_is_reported() -> None:
     """Each broken rule of many is reported once, and only it."""
     broken = ["S is", "S is a OR", "NOT", "", "S b", "executing", "S is a)", "(S is a", "IF S is a", "a is b c"]
     lines = "".join(f"rule: {each}\nrule: S is a\n" for each in broken)
@@ -164,13 +164,13 @@ def test_every_item_with_a_mistake_is_reported():
     assert errors == ["TUM105"] * len(broken)
 
 
-def test_what_a_syntax_error_hides_is_not_missed():
+def test_what_a_syntax_error_hides_is_not_missed() -> None:
     """A name that was declared in a passage that could not be read is not reported as unknown."""
     text = "BEGIN STATE VECTOR state S can can a END STATE VECTOR BEGIN STATE RULES rule: S is a END STATE RULES"
     assert codes(text) == ["TUM105"]
 
 
-def test_remaining_assignments_are_listed():
+def test_remaining_assignments_are_listed() -> None:
     """Nominal effects that leave a choice say which."""
     message = the("TUM305", action("nominal effects: T is x OR T is z")).message
     assert "`T is x`; `T is z`" in message

@@ -59,20 +59,20 @@ HOSTILE = {
 
 
 @pytest.mark.parametrize("name", HOSTILE)
-def test_hostile_texts_end_in_a_diagnostic(name: str):
+def test_hostile_texts_end_in_a_diagnostic(name: str) -> None:
     """Each kind of hostile text is refused with the code that tells why."""
     text, code = HOSTILE[name]
     check(text)
     assert code in [each.code.name for each in load(Source(name, text)).diagnostics]
 
 
-def test_a_long_chain_of_aliases_is_harmless():
+def test_a_long_chain_of_aliases_is_harmless() -> None:
     """Aliases that only rename each other add no depth, however many there are."""
     assert load(Source("chain", rules("a4999", CHAIN))).spec is not None
 
 
 @pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.tum")), ids=lambda path: path.stem)
-def test_damaged_specifications_end_in_diagnostics(path: Path):
+def test_damaged_specifications_end_in_diagnostics(path: Path) -> None:
     """Fixed mutants of every example load or are refused; an error comes exactly where there is no specification."""
     for mutant in islice(mutations(path.read_text(encoding="utf-8"), 3), 60):
         check(mutant)

@@ -14,7 +14,7 @@ EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.tum"))
 
 @settings(max_examples=150, deadline=None)
 @given(specifications)
-def test_what_is_printed_parses_to_the_same_tree(tree: ast.Specification):
+def test_what_is_printed_parses_to_the_same_tree(tree: ast.Specification) -> None:
     """`parse(print(tree)) == tree` for every tree, whatever words serve as names."""
     parsed = parse(Source("generated", print_specification(tree)))
     assert parsed.diagnostics == ()
@@ -22,7 +22,7 @@ def test_what_is_printed_parses_to_the_same_tree(tree: ast.Specification):
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
-def test_printing_settles_after_one_round(path: Path):
+def test_printing_settles_after_one_round(path: Path) -> None:
     """A real specification keeps its tree when printed, and what is printed prints as itself."""
     tree = parse(read_source(str(path))).tree
     assert tree is not None

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Literal, TypeVar
+
 from hypothesis import strategies as st
 
 from tumato_symbolic.syntax import ast
@@ -12,6 +14,10 @@ SOFT = [
     "duration", "nominal", "controlled", "alternative", "preconditions", "resources", "STATE", "type", "any", "assume",
 ]  # fmt: skip
 RESERVED = frozenset({"true", "false", "none", "executing"})
+
+Part = TypeVar("Part")
+
+ORDERINGS: tuple[Literal["any", "first"], ...] = ("any", "first")
 
 words = st.one_of(st.sampled_from(SOFT), st.from_regex(r"[A-Za-z_][A-Za-z0-9_]{0,8}", fullmatch=True))
 values = words.filter(lambda word: word not in HARD).map(ast.Name)
@@ -39,7 +45,7 @@ def _larger(parts: st.SearchStrategy[ast.Predicate]) -> st.SearchStrategy[ast.Pr
 predicates: st.SearchStrategy[ast.Predicate] = st.recursive(atoms, _larger, max_leaves=8)
 
 
-def _some(parts: st.SearchStrategy[object], least: int = 0) -> st.SearchStrategy[tuple[object, ...]]:
+def _some(parts: st.SearchStrategy[Part], least: int = 0) -> st.SearchStrategy[tuple[Part, ...]]:
     return st.lists(parts, min_size=least, max_size=3).map(tuple)
 
 
@@ -70,9 +76,7 @@ blocks = st.one_of(
     _some(predicates).map(ast.Assumptions),
     goal_lists.map(ast.Goals),
     _some(
-        st.one_of(
-            st.integers(-5, 10**6).map(ast.MaxPlanLength), st.sampled_from(["any", "first"]).map(ast.EffectOrdering)
-        )
+        st.one_of(st.integers(-5, 10**6).map(ast.MaxPlanLength), st.sampled_from(ORDERINGS).map(ast.EffectOrdering))
     ).map(ast.Config),
 )
 specifications = st.lists(blocks, max_size=4).map(lambda each: ast.Specification(tuple(each)))
