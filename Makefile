@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV ?= .venv
 BIN := $(VENV)/bin
 
-.PHONY: help demo test proofs mutants mutants-code readers check format regenerate bench bench-compare clean
+.PHONY: help demo test proofs mutants mutants-code readers check format regenerate constraints bench bench-compare clean
 
 help:
 	@echo "make demo        install what is needed into $(VENV) and show the main job on a mobile robot"
@@ -15,6 +15,7 @@ help:
 	@echo "make readers     25,000 damaged specifications, policies and certificates through both readers (ten minutes)"
 	@echo "make format      put the sources into shape"
 	@echo "make regenerate  write proofs/ and the generated tables anew"
+	@echo "make constraints  write constraints.txt anew: the versions that are installed in $(VENV)"
 	@echo "make bench       measure every family of benchmarks/ (minutes; ARGUMENTS=--quick: about one)"
 	@echo "make bench-compare  the last two full measurements, with what became worse"
 	@echo "make clean       remove $(VENV) and all caches"
@@ -50,6 +51,10 @@ readers: $(VENV)/.development
 
 regenerate: $(VENV)/.development
 	$(BIN)/python -m tests.repo.regenerate
+
+constraints: $(VENV)/.development
+	@{ head -n 1 constraints.txt; $(BIN)/python -m pip freeze --all --exclude-editable --disable-pip-version-check | grep -v '^pip=='; } \
+	  >$(VENV)/constraints.txt && mv $(VENV)/constraints.txt constraints.txt
 
 bench: $(VENV)/.development
 	$(BIN)/python -m benchmarks.run $(ARGUMENTS)

@@ -31,6 +31,7 @@ def test_what_is_installed_is_pinned() -> None:
     pins = {canonicalize_name(name): version for name, _, version in (line.partition("==") for line in lines)}
     assert all(pins.values())
     assert len(pins) == len(lines), "each once"
+    assert "pip" not in pins, "it is what installs"
     for text in (*PROJECT["project"]["dependencies"], *PROJECT["dependency-groups"]["dev"]):
         wanted = Requirement(text)
         assert wanted.specifier.contains(pins[canonicalize_name(wanted.name)]), text
@@ -41,6 +42,15 @@ def test_the_makefile_installs_pinned_versions() -> None:
     (install,) = re.findall(r"^.*pip install.*$", MAKEFILE, re.MULTILINE)
     assert install.startswith("INSTALL := ")
     assert "--constraint constraints.txt" in install
+
+
+def test_make_help_names_every_target() -> None:
+    """Every target of the Makefile has a rule and a line in `make help`."""
+    (line,) = re.findall(r"^\.PHONY: (.*)$", MAKEFILE, re.MULTILINE)
+    targets = set(line.split())
+    assert "constraints" in targets
+    assert all(re.search(rf"^{target}:", MAKEFILE, re.MULTILINE) for target in targets)
+    assert set(re.findall(r'@echo "make ([\w-]+) ', MAKEFILE)) == targets - {"help"}
 
 
 def test_the_workflow_runs_ci_on_every_supported_version() -> None:
