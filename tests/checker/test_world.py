@@ -12,6 +12,7 @@ import pytest
 from tests.checker.refusals import spec_text
 from tests.checker.standalone import checker
 from tests.checker.test_forged import text_of
+from tests.checker.test_witnesses import TWO
 from tests.generate import PROFILES, random_text
 from tests.semantics import literal
 from tests.verify.test_forged_ranks import restoring
@@ -154,6 +155,17 @@ def test_rules_are_split_up_to_a_limit(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(checker, "LARGEST", 0)
     with pytest.raises(checker.TooLarge, match="sets of actions in a rule"):
         checker.kept_rule(own, here, cube)
+
+
+def test_two_actions_that_exclude_each_other() -> None:
+    """It takes both: one that controls a resource, or gives a value, shares none with one that does not."""
+    own = world(TWO)
+    shared = {frozenset(("one", "too"))}
+    disagreeing = {frozenset(("back", other)) for other in ("one", "two", "too")}
+    for pair in map(frozenset, checker.itertools.combinations(("back", "one", "too", "two"), 2)):
+        for kind, excluded in (("resource", shared), ("nominal-conflict", disagreeing)):
+            cube = checker.Cube(pair, frozenset(), kind, actions=pair)
+            assert (checker.unviolated(own, ("a", "a"), cube) == "") == (pair in excluded), (pair, kind)
 
 
 def test_cases_and_guesses_are_counted(monkeypatch: pytest.MonkeyPatch) -> None:
