@@ -72,6 +72,16 @@ def test_the_worked_example_works(
     assert capsys.readouterr().out.strip().isdigit()
 
 
+def test_every_decision_is_listed() -> None:
+    """And has a context, what was decided, what was rejected, and what follows."""
+    folder = ROOT / "docs" / "decisions"
+    listed = re.findall(r"\((\d{4}-[\w-]+\.md)\)", (folder / "README.md").read_text(encoding="utf-8"))
+    assert listed == sorted(path.name for path in folder.glob("0*.md"))
+    for name in listed:
+        text = (folder / name).read_text(encoding="utf-8")
+        assert all(f"**{part}.**" in text for part in ("Context", "Decision", "Rejected", "Consequences")), name
+
+
 def _size(name: str) -> int:
     path = ROOT / name if name.endswith(".py") else PACKAGE / name
     files = [path] if path.is_file() else sorted(path.rglob("*.py"))
