@@ -10,11 +10,12 @@ from typing import Any
 import pytest
 
 from tumato_symbolic import Realizable, parse, synthesize
+from tumato_symbolic.game import fixpoints, judging, routing
 from tumato_symbolic.policy import Policy
 from tumato_symbolic.spec import GoalList, Spec
 from tumato_symbolic.symbolic import extract, goals, steps
 from tumato_symbolic.symbolic.encoding import Encoding
-from tumato_symbolic.synthesis import fixpoints, judging, restoring, routing
+from tumato_symbolic.synthesis import restoring
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

@@ -12,11 +12,11 @@ from tests.cli.conftest import Cli, cli
 from tests.generate import PROFILES, random_text
 from tests.repo.documents import ROOT
 from tumato_symbolic.diagnostics import Source
+from tumato_symbolic.game.problem import build_problem
 from tumato_symbolic.semantics import lint as explicit
 from tumato_symbolic.spec import Spec, load
 from tumato_symbolic.symbolic import available_backend
 from tumato_symbolic.synthesis.lint import lint
-from tumato_symbolic.synthesis.problem import build_problem
 
 __all__ = ["cli"]
 

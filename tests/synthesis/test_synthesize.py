@@ -10,14 +10,14 @@ import pytest
 
 from tests.semantics.build import Build, chosen, constraint, priority, when
 from tumato_symbolic.diagnostics import Code, UserError
+from tumato_symbolic.game.fixpoints import attractor
+from tumato_symbolic.game.problem import build_problem
 from tumato_symbolic.limits import Context, Limits
 from tumato_symbolic.policy import Policy, Table, as_table, dumps
 from tumato_symbolic.semantics import ActionSet, State, judge
 from tumato_symbolic.spec import FALSE, And, Is, Not, Or, Spec
 from tumato_symbolic.symbolic import Backend, available_backend
 from tumato_symbolic.synthesis import Outcome, Realizable, Undecided, Unrealizable, synthesize
-from tumato_symbolic.synthesis.fixpoints import attractor
-from tumato_symbolic.synthesis.problem import build_problem
 
 pipeline = import_module("tumato_symbolic.synthesis.synthesize")
 

@@ -9,13 +9,10 @@ from tumato_symbolic.explain.conditions import Conditions
 from tumato_symbolic.explain.elements import Elements
 from tumato_symbolic.explain.minimize import minimal
 from tumato_symbolic.explain.plans import build_kept_problem
+from tumato_symbolic.game import Judge, Problem, distances, shortest_decisions, winning
 from tumato_symbolic.semantics import State
 from tumato_symbolic.symbolic import Bdd, preferred, regions
-from tumato_symbolic.synthesis.fixpoints import distances
-from tumato_symbolic.synthesis.judging import Judge, winning
-from tumato_symbolic.synthesis.problem import Problem
 from tumato_symbolic.synthesis.repair import Impossible, Repair, RoundsExhaustedError
-from tumato_symbolic.synthesis.routing import shortest_decisions
 
 
 def conflict_core(conditions: Conditions, states: Sequence[State], among: Elements) -> Elements:

@@ -6,11 +6,9 @@ from dataclasses import replace
 
 from tumato_symbolic.explain.conditions import Conditions
 from tumato_symbolic.explain.elements import Element, Elements
+from tumato_symbolic.game import Problem, distances, winning
 from tumato_symbolic.semantics import ActiveGoals, State
 from tumato_symbolic.symbolic import Bdd, Regions, targets
-from tumato_symbolic.synthesis.fixpoints import distances
-from tumato_symbolic.synthesis.judging import winning
-from tumato_symbolic.synthesis.problem import Problem
 
 
 def build_kept_problem(conditions: Conditions, kept: Elements, regions: Regions) -> Problem:

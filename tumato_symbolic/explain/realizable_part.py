@@ -11,13 +11,11 @@ from tumato_symbolic.explain.conditions import Conditions
 from tumato_symbolic.explain.plans import restricted
 from tumato_symbolic.explain.predicates import predicate_text, shortest_formula
 from tumato_symbolic.explain.trial import trial
+from tumato_symbolic.game import Problem, distances, winning
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Formula, Rule, Spec
 from tumato_symbolic.symbolic import Bdd, targets
 from tumato_symbolic.synthesis import Realizable, Unrealizable
-from tumato_symbolic.synthesis.fixpoints import distances
-from tumato_symbolic.synthesis.judging import winning
-from tumato_symbolic.synthesis.problem import Problem
 
 CHOICES = 200
 """So many ways out of conflicts are tried at most."""

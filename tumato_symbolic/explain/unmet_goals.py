@@ -9,12 +9,10 @@ from tumato_symbolic.explain.conditions import Conditions
 from tumato_symbolic.explain.explanation import OwnGoal
 from tumato_symbolic.explain.minimize import minimal
 from tumato_symbolic.explain.predicates import conjunction
+from tumato_symbolic.game import Problem, distances, winning
 from tumato_symbolic.semantics import State, active_goals
 from tumato_symbolic.spec import And, Formula, Not, Or, Rule
 from tumato_symbolic.symbolic import targets
-from tumato_symbolic.synthesis.fixpoints import distances
-from tumato_symbolic.synthesis.judging import winning
-from tumato_symbolic.synthesis.problem import Problem
 
 
 def own_goals(conditions: Conditions, state: State) -> tuple[OwnGoal, ...]:

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from tumato_symbolic.diagrams import DiagramBuilder
+from tumato_symbolic.game import Layers, Problem
 from tumato_symbolic.policy import Certificate, DecisionDiagram, Policy, RankedGoal, Vocabulary
 from tumato_symbolic.policy.compact import minimized_decisions, minimized_ranks
 from tumato_symbolic.semantics import Residual, action_names
 from tumato_symbolic.spec import Spec, canonical_text, digest
 from tumato_symbolic.symbolic import Bdd, Extractor
-from tumato_symbolic.synthesis.fixpoints import Layers
-from tumato_symbolic.synthesis.problem import Problem
 
 
 def goal_names(spec: Spec, residual: Residual) -> tuple[tuple[str, ...], tuple[str, ...]]:

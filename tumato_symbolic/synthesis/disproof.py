@@ -7,6 +7,8 @@ from itertools import combinations
 from math import prod
 
 from tumato_symbolic.diagrams import DiagramBuilder
+from tumato_symbolic.game import Layers as Ranks
+from tumato_symbolic.game import Problem
 from tumato_symbolic.policy import RankedGoal, Vocabulary
 from tumato_symbolic.policy.compact import minimized_layers
 from tumato_symbolic.policy.unrealizable import (
@@ -34,8 +36,6 @@ from tumato_symbolic.semantics import (
 from tumato_symbolic.spec import Rule, Spec, canonical_text, digest
 from tumato_symbolic.symbolic import Bdd, Extractor
 from tumato_symbolic.synthesis.certificate import goal_names
-from tumato_symbolic.synthesis.fixpoints import Layers as Ranks
-from tumato_symbolic.synthesis.problem import Problem
 from tumato_symbolic.synthesis.repair import Impossible
 
 MOST_CUBES = 2_000

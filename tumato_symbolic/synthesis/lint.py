@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from tumato_symbolic.diagnostics import Diagnostic
+from tumato_symbolic.game import Problem
 from tumato_symbolic.semantics.lint import SETS, STATES, idle_action, idle_goal, idle_rule, in_order
 from tumato_symbolic.spec import TRUE, ConditionalGoal
 from tumato_symbolic.symbolic import compatible_sets, never_entered
-from tumato_symbolic.synthesis.problem import Problem
 
 
 def lint(problem: Problem) -> tuple[Diagnostic, ...]:

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
+from tumato_symbolic.game import ClosedLoop, Evaluation, Judge, Layers, Problem, closed_loop, mixed, shortest_decisions
 from tumato_symbolic.symbolic import Bdd, preferred
-from tumato_symbolic.synthesis.fixpoints import ClosedLoop, Layers, closed_loop, mixed
-from tumato_symbolic.synthesis.judging import Evaluation, Judge
-from tumato_symbolic.synthesis.problem import Problem
-from tumato_symbolic.synthesis.routing import shortest_decisions
 
 TRIES_TO_GIVE_BACK = 200
 """How many evaluations are spent on undoing changes that turned out not to be needed."""

@@ -11,10 +11,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
+from tumato_symbolic.game import Judge, Layers
 from tumato_symbolic.semantics import ActionSet, State, successor
 from tumato_symbolic.symbolic import Bdd, preferred
-from tumato_symbolic.synthesis.fixpoints import Layers
-from tumato_symbolic.synthesis.judging import Judge
 from tumato_symbolic.synthesis.solver import Choices, Pick
 
 NARROW_ROUNDS = 24

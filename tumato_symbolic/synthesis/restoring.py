@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from tumato_symbolic.game import Layers, Problem, shortest_decisions
 from tumato_symbolic.symbolic import Bdd, lasting
-from tumato_symbolic.synthesis.fixpoints import Layers
-from tumato_symbolic.synthesis.problem import Problem
-from tumato_symbolic.synthesis.routing import shortest_decisions
 
 
 def restoring_policy(problem: Problem, ranks: Sequence[Layers]) -> tuple[Bdd, tuple[int, ...]]:

@@ -7,6 +7,20 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
+from tumato_symbolic.game import (
+    Evaluation,
+    Judge,
+    Layers,
+    Problem,
+    build_problem,
+    closed_loop,
+    distances,
+    in_time,
+    own_region_policy,
+    route,
+    shortest_decisions,
+    winning,
+)
 from tumato_symbolic.limits import Context, LimitReachedError
 from tumato_symbolic.policy import Policy, as_table
 from tumato_symbolic.semantics import count_states
@@ -14,8 +28,6 @@ from tumato_symbolic.semantics.lint import no_valid_state
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.symbolic import Backend, Bdd, available_backend
 from tumato_symbolic.synthesis.certificate import policy_diagram
-from tumato_symbolic.synthesis.fixpoints import Layers, closed_loop, distances
-from tumato_symbolic.synthesis.judging import Evaluation, Judge, in_time, winning
 from tumato_symbolic.synthesis.lint import lint
 from tumato_symbolic.synthesis.outcome import (
     STATES_LISTED,
@@ -28,9 +40,7 @@ from tumato_symbolic.synthesis.outcome import (
     Unrealizable,
 )
 from tumato_symbolic.synthesis.overriding import override, revert_unneeded
-from tumato_symbolic.synthesis.problem import Problem, build_problem
 from tumato_symbolic.synthesis.restoring import restoring_policy
-from tumato_symbolic.synthesis.routing import own_region_policy, route, shortest_decisions
 
 TABLE_LIMIT = 10_000
 """Up to so many valid states a policy is written as a table, unless another format is asked for."""

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TypeAlias
 
+from tumato_symbolic.game.problem import Problem
 from tumato_symbolic.spec import Assignment
 from tumato_symbolic.symbolic import Bdd
-from tumato_symbolic.synthesis.problem import Problem
 
 Layers: TypeAlias = list[Bdd]
 """Disjoint sets of safe states: in layer `j` are those that reach the target in `j` steps and not earlier."""

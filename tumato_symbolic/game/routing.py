@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from tumato_symbolic.game.fixpoints import Layers, attractor, closed_loop, preimage
+from tumato_symbolic.game.problem import Problem
 from tumato_symbolic.semantics import ActiveGoals
 from tumato_symbolic.symbolic import Bdd, Target, preferred
-from tumato_symbolic.synthesis.fixpoints import Layers, attractor, closed_loop, preimage
-from tumato_symbolic.synthesis.problem import Problem
 
 
 def own_region_policy(problem: Problem) -> Bdd:

@@ -8,11 +8,11 @@ import pytest
 
 from tests.generate import PROFILES, random_spec
 from tumato_symbolic import parse
+from tumato_symbolic.game import fixpoints
+from tumato_symbolic.game.fixpoints import closed_loop, mixed, preimage
+from tumato_symbolic.game.judging import Judge
+from tumato_symbolic.game.problem import Problem, build_problem
 from tumato_symbolic.symbolic import Bdd, Manager, available_backend, preferred
-from tumato_symbolic.synthesis import fixpoints
-from tumato_symbolic.synthesis.fixpoints import closed_loop, mixed, preimage
-from tumato_symbolic.synthesis.judging import Judge
-from tumato_symbolic.synthesis.problem import Problem, build_problem
 
 SEEDS = range(12)
 

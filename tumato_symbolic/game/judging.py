@@ -6,9 +6,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+from tumato_symbolic.game.fixpoints import ClosedLoop, Layers, attractor, closed_loop, preimage
+from tumato_symbolic.game.problem import Problem
 from tumato_symbolic.symbolic import Bdd
-from tumato_symbolic.synthesis.fixpoints import ClosedLoop, Layers, attractor, closed_loop, preimage
-from tumato_symbolic.synthesis.problem import Problem
 
 
 @dataclass(frozen=True)

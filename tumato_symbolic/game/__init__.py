@@ -1,0 +1,35 @@
+"""The game that a policy plays: steps, targets, the fixpoints over them, and how well a policy does."""
+
+from tumato_symbolic.game.fixpoints import (
+    ClosedLoop,
+    Layers,
+    attractor,
+    by_any_step,
+    closed_loop,
+    distances,
+    mixed,
+    preimage,
+)
+from tumato_symbolic.game.judging import Evaluation, Judge, in_time, winning
+from tumato_symbolic.game.problem import Problem, build_problem
+from tumato_symbolic.game.routing import own_region_policy, route, shortest_decisions
+
+__all__ = [
+    "ClosedLoop",
+    "Evaluation",
+    "Judge",
+    "Layers",
+    "Problem",
+    "attractor",
+    "build_problem",
+    "by_any_step",
+    "closed_loop",
+    "distances",
+    "in_time",
+    "mixed",
+    "own_region_policy",
+    "preimage",
+    "route",
+    "shortest_decisions",
+    "winning",
+]
