@@ -7,7 +7,7 @@ their parents, so a diagram cannot contain a cycle.
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import prod
 from typing import Generic, TypeAlias, TypeVar
@@ -38,30 +38,43 @@ class Diagram(Generic[Leaf]):
         return self.leaves[root]
 
 
-class DiagramBuilder(Generic[Leaf]):
-    """Builds one shared, reduced diagram from the leaves upwards."""
+class UniqueTable:
+    """Reduced nodes over some levels, every one once. References below `leaves` are those of the leaves."""
 
-    def __init__(self, order: Sequence[int], leaves: Sequence[Leaf]) -> None:
-        self._order = tuple(order)
-        self._leaves = tuple(leaves)
-        self._nodes: list[Node] = []
+    def __init__(self, leaves: int, levels: int) -> None:
+        self._levels = [levels] * leaves
+        self._below: list[tuple[Reference, ...]] = [()] * leaves
         self._known: dict[Node, Reference] = {}
-        self._leaf_references = {leaf: number for number, leaf in enumerate(self._leaves)}
-
-    def leaf(self, value: Leaf) -> Reference:
-        """The reference of a leaf."""
-        return self._leaf_references[value]
 
     def node(self, level: int, below: tuple[Reference, ...]) -> Reference:
-        """The reference of a node, which is made where there is none yet."""
+        """The reference of a node, which continues with `below[value]` for every value of the variable at `level`."""
         if below.count(below[0]) == len(below):
             return below[0]
         key = (level, below)
         found = self._known.get(key)
         if found is None:
-            found = self._known[key] = len(self._leaves) + len(self._nodes)
-            self._nodes.append(key)
+            found = self._known[key] = len(self._levels)
+            self._levels.append(level)
+            self._below.append(below)
         return found
+
+    def nodes_from(self, reference: Reference) -> Iterator[Node]:
+        """The nodes that were made, in order, from this reference on."""
+        return zip(self._levels[reference:], self._below[reference:], strict=True)
+
+
+class DiagramBuilder(UniqueTable, Generic[Leaf]):
+    """Builds one shared, reduced diagram from the leaves upwards."""
+
+    def __init__(self, order: Sequence[int], leaves: Sequence[Leaf]) -> None:
+        super().__init__(len(leaves), len(order))
+        self._order = tuple(order)
+        self._leaves = tuple(leaves)
+        self._leaf_references = {leaf: number for number, leaf in enumerate(self._leaves)}
+
+    def leaf(self, value: Leaf) -> Reference:
+        """The reference of a leaf."""
+        return self._leaf_references[value]
 
     def from_table(self, sizes: Sequence[int], table: Mapping[tuple[int, ...], Leaf], default: Leaf) -> Reference:
         """The diagram of a finite function: `table`, and `default` elsewhere. `sizes` counts values per variable."""
@@ -76,7 +89,7 @@ class DiagramBuilder(Generic[Leaf]):
 
     def finish(self) -> Diagram[Leaf]:
         """The diagram with all nodes made so far."""
-        return Diagram(self._order, self._leaves, tuple(self._nodes))
+        return Diagram(self._order, self._leaves, tuple(self.nodes_from(len(self._leaves))))
 
 
 def rebuild(

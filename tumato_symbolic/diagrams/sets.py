@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from math import prod
 from typing import TypeAlias
 
-from tumato_symbolic.diagrams.diagram import Diagram, Leaf, Node, Reference, rebuild
+from tumato_symbolic.diagrams.diagram import Diagram, Leaf, Reference, UniqueTable, rebuild
 
 NOTHING: Reference = 0
 EVERYTHING: Reference = 1
@@ -17,7 +17,7 @@ Cube: TypeAlias = tuple[tuple[int, tuple[int, ...]], ...]
 """The states in which the variables at some levels have one of some values: `(level, values)`, all ascending."""
 
 
-class Sets:
+class Sets(UniqueTable):
     """Sets over variables in a fixed order. A set is a reference; equal sets have equal references.
 
     `sizes` counts the values of every variable; variables that are missing in `order` are never tested. With more
@@ -25,27 +25,13 @@ class Sets:
     """
 
     def __init__(self, order: Sequence[int], sizes: Sequence[int], leaves: int = 2) -> None:
+        super().__init__(leaves, len(order))
         self.order = tuple(order)
         self.sizes = tuple(sizes[variable] for variable in self.order)
         self._untested = prod(sizes) // prod(self.sizes)
         self._depth = len(self.order)
-        self._levels = [self._depth] * leaves
-        self._below: list[tuple[Reference, ...]] = [()] * leaves
-        self._known: dict[Node, Reference] = {}
         self._chosen: dict[tuple[Reference, Reference, Reference], Reference] = {}
         self._counts: dict[Reference, int] = {NOTHING: 0, EVERYTHING: 1}
-
-    def node(self, level: int, below: tuple[Reference, ...]) -> Reference:
-        """The set that continues with `below[value]` for every value of the variable at `level`."""
-        if below.count(below[0]) == len(below):
-            return below[0]
-        key = (level, below)
-        found = self._known.get(key)
-        if found is None:
-            found = self._known[key] = len(self._levels)
-            self._levels.append(level)
-            self._below.append(below)
-        return found
 
     def take(
         self, diagram: Diagram[Leaf], roots: Iterable[Reference], leaves: Mapping[Leaf, Reference]
@@ -58,7 +44,7 @@ class Sets:
 
     def give(self, roots: Sequence[Reference], leaves: Sequence[Leaf]) -> tuple[Diagram[Leaf], tuple[Reference, ...]]:
         """A canonical diagram of functions; `leaves` are what the references from 2 on stand for."""
-        nodes = zip(self._levels[2 + len(leaves) :], self._below[2 + len(leaves) :], strict=True)
+        nodes = self.nodes_from(2 + len(leaves))
         moved = [(level, tuple([child - 2 for child in below])) for level, below in nodes]
         diagram = Diagram(self.order, tuple(leaves), tuple(moved))
         return rebuild(diagram, [root - 2 for root in roots])
