@@ -10,7 +10,7 @@ from tumato_symbolic.explain.conditions import Conditions
 from tumato_symbolic.explain.cubes import disjoint_cubes, set_of
 from tumato_symbolic.explain.elements import Element, Elements
 from tumato_symbolic.explain.minimize import minimal
-from tumato_symbolic.explain.plans import Plans, failing
+from tumato_symbolic.explain.plans import Plans
 from tumato_symbolic.semantics import State
 from tumato_symbolic.symbolic import Bdd
 
@@ -35,10 +35,11 @@ class Failing:
     no_plan: Bdd
 
 
-def failing_states(conditions: Conditions) -> Failing:
+def failing_states(plans: Plans) -> Failing:
     """All states that fail (`docs/semantics.md`, section 7)."""
+    conditions = plans.conditions
     stuck = conditions.stuck(conditions.everything)
-    return Failing(stuck, failing(conditions, conditions.everything, conditions.valid & ~stuck))
+    return Failing(stuck, plans.failing(conditions.everything, conditions.valid & ~stuck))
 
 
 def causes(plans: Plans, states: Failing) -> Iterator[Cause]:

@@ -40,23 +40,32 @@ class Plans:
         return self.failing(kept, self.conditions.encoding.state_cube(state)) != self.conditions.false
 
     def failing(self, kept: Elements, states: Bdd) -> Bdd:
-        """Those of some valid states that fail."""
-        parts = restricted(self.conditions.regions, states, self.conditions.false)
-        return self.conditions.manager.union(self._failing(active, kept, part) for active, part in parts.items())
+        """Those of some valid states that fail. What is not known is asked once, for all its regions."""
+        conditions, false, union = self.conditions, self.conditions.false, self.conditions.manager.union
+        sure, unknown = [], {}
+        for active, part in restricted(conditions.regions, states, false).items():
+            surely, left = self._remembered(active, kept, part)
+            sure.append(surely)
+            if left != false:
+                unknown[active] = left
+        if not unknown:
+            return union(sure)
+        found = failing(conditions, kept, union(conditions.regions[active] for active in unknown))
+        for active in unknown:
+            self._known[active].append((kept, found & conditions.regions[active]))
+        return union([*sure, found & union(unknown.values())])
 
-    def _failing(self, active: ActiveGoals, kept: Elements, states: Bdd) -> Bdd:
-        known = self._known.setdefault(active, [])
+    def _remembered(self, active: ActiveGoals, kept: Elements, states: Bdd) -> tuple[Bdd, Bdd]:
+        """Of some states of a region, those that are known to fail, and those of which it is not known."""
         surely, left = self.conditions.false, states
-        for asked, found in reversed(known):
+        for asked, found in reversed(self._known.setdefault(active, [])):
             if asked <= kept:
                 surely, left = surely | (left & found), left & ~found
             if asked >= kept:
                 left = left & found
             if left == self.conditions.false:
-                return surely
-        found = failing(self.conditions, kept, self.conditions.regions[active])
-        known.append((kept, found))
-        return states & found
+                break
+        return surely, left
 
 
 def restricted(regions: Regions, states: Bdd, false: Bdd) -> Regions:

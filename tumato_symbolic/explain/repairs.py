@@ -11,7 +11,7 @@ from tumato_symbolic.explain.conflicts import conflict_core
 from tumato_symbolic.explain.cores import core_without_plan, core_without_set, element_list, typical_state
 from tumato_symbolic.explain.elements import Element, ElementKind, Elements, without
 from tumato_symbolic.explain.explanation import Change, Explanation, Repair
-from tumato_symbolic.explain.plans import Plans, failing
+from tumato_symbolic.explain.plans import Plans
 from tumato_symbolic.explain.trial import trial
 from tumato_symbolic.explain.weaken import weakening
 from tumato_symbolic.explain.work import Work
@@ -88,7 +88,7 @@ class _Search:
 
     def __init__(self, plans: Plans, cores: Iterable[Elements]) -> None:
         self._plans = plans
-        self._conditions = conditions = plans.conditions
+        conditions = plans.conditions
         self._numbers = {element: number for number, element in enumerate(_droppable(conditions.elements))}
         penalties = [_PENALTIES[element.kind] for element in self._numbers]
         self._hitting = HittingSets(penalties, conditions.manager.context.seconds_left)
@@ -103,7 +103,7 @@ class _Search:
         elements = list(self._numbers)
         while self._rounds:
             self._rounds -= 1
-            self._conditions.manager.context.check()
+            self._plans.conditions.manager.context.check()
             candidate = self._hitting.smallest()
             if candidate is None:
                 self.complete = True
@@ -121,12 +121,12 @@ class _Search:
 
     def _missed_core(self, dropped: Elements) -> Elements | None:
         """A core without any dropped element; None where the specification without them is realizable."""
-        conditions = self._conditions
+        conditions = self._plans.conditions
         kept = conditions.everything - dropped
         stuck = conditions.stuck(kept)
         if stuck != conditions.false:
             return core_without_set(conditions, typical_state(conditions, stuck), kept)
-        helpless = failing(conditions, kept, conditions.valid)
+        helpless = self._plans.failing(kept, conditions.valid)
         if helpless != conditions.false:
             return core_without_plan(self._plans, typical_state(conditions, helpless), kept)
         outcome = trial(conditions, without(conditions.spec, dropped))

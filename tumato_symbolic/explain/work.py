@@ -32,7 +32,7 @@ class Work:
     @cached_property
     def failing(self) -> Failing:
         """The valid states that fail."""
-        return failing_states(self.conditions)
+        return failing_states(self.plans)
 
     @cached_property
     def plans(self) -> Plans:
