@@ -93,6 +93,16 @@ class Model:
         return walk.any_of(walk.all_of((executed[other], walk.any_of(ones))) for other, ones in others.items())
 
     @cached_property
+    def exclusive(self) -> list[tuple[int, int]]:
+        """The pairs of actions that exclude each other."""
+        return exclusive_pairs(self.spec)
+
+    @cached_property
+    def compatible(self) -> Function:
+        """No two actions of `A` exclude each other."""
+        return self.walk.negation(self.together(self.exclusive, self.chosen))
+
+    @cached_property
     def acting(self) -> Function:
         """`s` is decided, and the nominal effects of `π(s)` agree."""
         return self.walk.without(self.decided, self.together(disagreeing_pairs(self.spec), self.policy))
@@ -115,8 +125,7 @@ class Model:
         The one solution of `f(s, A) ⇔ s ∈ S and f(e(s), A \\ a)` for every effect `e` of every `a ∈ A`.
         """
         walk, before = self.walk, FALSE
-        exclusive = walk.negation(self.together(exclusive_pairs(self.spec), self.chosen))
-        found = walk.all_of((self.safe, exclusive))
+        found = walk.all_of((self.safe, self.compatible))
         while found != before:
             before = found
             for action, chosen in enumerate(self.chosen):
@@ -187,7 +196,7 @@ class Model:
             if action.preconditions:
                 executed = walk.all_of((self.decided, policy[number]))
                 yield f"the preconditions of {action.name} hold", walk.without(executed, self.preconditions(number))
-        conflict = walk.all_of((self.decided, self.together(exclusive_pairs(spec), policy)))
+        conflict = walk.all_of((self.decided, self.together(self.exclusive, policy)))
         yield "resources are controlled once, and nominal effects agree", conflict
         for rule in spec.reaction_rules:
             yield (
@@ -215,7 +224,7 @@ class Model:
         """`Ok(s, A)`."""
         spec, walk = self.spec, self.walk
         parts = [walk.select(chosen, (TRUE, self.preconditions(action))) for action, chosen in enumerate(self.chosen)]
-        parts.append(walk.negation(self.together(exclusive_pairs(spec), self.chosen)))
+        parts.append(self.compatible)
         parts += [self.formula(rule.formula, self.chosen) for rule in spec.reaction_rules]
         if self._ordering == "first":
             parts.append(walk.substitute(self.safe, self.successor(self.chosen)))
