@@ -130,6 +130,35 @@ def test_signals_end_the_child(number: int, raised: type[BaseException]) -> None
     assert context.known == "something"
 
 
+@pytest.mark.parametrize(("number", "raised"), [(signal.SIGINT, KeyboardInterrupt), (signal.SIGTERM, TerminatedError)])
+def test_what_is_being_read_when_a_signal_comes_is_known(
+    number: int, raised: type[BaseException], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A signal that comes between the last byte of a message and its end loses nothing."""
+    context, parent, read = Context(Limits(seconds=1000.0)), os.getpid(), os.read
+    sent: list[int] = []
+
+    def interrupted(file: int, size: int) -> bytes:
+        data = read(file, size)
+        if os.getpid() == parent and not sent:
+            sent.append(number)
+            os.kill(parent, number)
+        return data
+
+    def work() -> int:
+        context.learn("something")
+        return _for_ever()
+
+    monkeypatch.setattr(os, "read", interrupted)
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        with pytest.raises(raised):
+            supervised(work, context)
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert context.known == "something"
+
+
 def test_a_child_that_is_ended_while_it_writes_leaves_no_temporary_file(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

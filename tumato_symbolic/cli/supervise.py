@@ -141,7 +141,7 @@ class _Watch:
     _status: int | None = None
 
     def run(self, mask: set[int]) -> int:
-        """Wait for the exit code, with this signal mask: until then, and while a message is read, signals wait."""
+        """Wait for the exit code, with this signal mask: until then, and while messages are taken, signals wait."""
         line = console.ProgressLine(self.context)
         try:
             signal.pthread_sigmask(signal.SIG_SETMASK, mask)
@@ -223,16 +223,20 @@ class _Watch:
             data = os.read(self.messages, 2**20)
             self._open = bool(data)
             self._received += data
+            self._take_all(line)
         finally:
             signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+        return True
+
+    def _take_all(self, line: console.ProgressLine) -> None:
+        """Take every message that has been received whole."""
         while len(self._received) >= _HEAD:
             end = _HEAD + int.from_bytes(self._received[1:_HEAD], "big")
             if len(self._received) < end:
-                break
+                return
             kind, body = bytes(self._received[:1]), bytes(self._received[_HEAD:end])
             del self._received[:end]
             self._take(kind, body, line)
-        return True
 
     def _take(self, kind: bytes, body: bytes, line: console.ProgressLine) -> None:
         match kind:
