@@ -156,10 +156,12 @@ class Specification:
     actions: dict[str, Action] = field(default_factory=dict)
     reaction_rules: list[Located] = field(default_factory=list)
     state_rules: list[Located] = field(default_factory=list)
+    severities: list[int] = field(default_factory=list)  # of the state rules: 1 is the most severe
     assumptions: list[Located] = field(default_factory=list)
     goals: Goal | None = None
     bound: int | None = None  # L; None: runs of any length
     ordering: str | None = None
+    restoration: str | None = None  # None: one_step
 
 
 class Parser:
@@ -233,6 +235,7 @@ class Parser:
             title = self.expect(*titles, "ASSUMPTIONS", "GOALS", "CONFIG")
             self.need(title not in seen, f"there is a block {title} already")
             seen.add(title)
+            severity = 1
             if title == "GOALS":
                 spec.goals = self.goal_list(None)
                 self.nested(levels_of_goal(spec.goals))
@@ -249,10 +252,15 @@ class Parser:
                     self.action()
                 elif title == "CONFIG":
                     self.setting()
+                elif title == "STATE RULES" and self.accept("severity :"):
+                    self.need(self.next.strip("0") != "", "expected at least 1")
+                    severity = self.number()
                 else:
                     self.expect("assume :" if title == "ASSUMPTIONS" else "rule :")
                     rules = {"STATE RULES": spec.state_rules, "REACTION RULES": spec.reaction_rules}
                     rules.get(title, spec.assumptions).append(self.located_predicate())
+                    if title == "STATE RULES":
+                        spec.severities.append(severity)
             self.expect(title)
         return spec
 
@@ -272,11 +280,15 @@ class Parser:
         self.expect("as")
         self.spec.aliases[name], _ = self.located_predicate()
 
-    def setting(self) -> None:  # max_plan_length: N, effect_ordering: any
-        if self.expect("max_plan_length :", "effect_ordering :") == "max_plan_length :":
+    def setting(self) -> None:  # max_plan_length: N, effect_ordering: any, restoration: one_step
+        setting = self.expect("max_plan_length :", "effect_ordering :", "restoration :")
+        if setting == "max_plan_length :":
             self.need(self.spec.bound is None, "there is a `max_plan_length` already")
             self.need(self.next.strip("0") != "", "expected at least 1")
             self.spec.bound = self.number()
+        elif setting == "restoration :":
+            self.need(self.spec.restoration is None, "there is a `restoration` already")
+            self.spec.restoration = self.expect("one_step", "bounded", "fair")
         else:
             self.need(self.spec.ordering is None, "there is an `effect_ordering` already")
             self.spec.ordering = self.expect("any", "first")
@@ -1742,6 +1754,8 @@ def main(argv: list[str] | None = None) -> int:
 def judge_files(options: argparse.Namespace) -> int:
     """Read, judge, report."""
     spec = read_specification(Path(options.spec).read_bytes())
+    several = (spec.restoration or "one_step") != "one_step" or len(set(spec.severities)) > 1
+    need(not several, "`restoration` other than one_step, and more than one severity, are not supported yet")
     document = read_document(Path(options.policy).read_bytes())
     if document.get("Type") == "unrealizable":
         return judge_certificate_of_no(spec, document, options)

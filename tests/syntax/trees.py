@@ -17,6 +17,7 @@ RESERVED = frozenset({"true", "false", "none", "executing"})
 
 Part = TypeVar("Part")
 
+RESTORATIONS: tuple[Literal["one_step", "bounded", "fair"], ...] = ("one_step", "bounded", "fair")
 ORDERINGS: tuple[Literal["any", "first"], ...] = ("any", "first")
 
 words = st.one_of(st.sampled_from(SOFT), st.from_regex(r"[A-Za-z_][A-Za-z0-9_]{0,8}", fullmatch=True))
@@ -72,11 +73,13 @@ blocks = st.one_of(
     _some(names.map(ast.ResourceDeclaration)).map(ast.Resources),
     _some(st.builds(ast.ActionDeclaration, names, _some(fields))).map(ast.Actions),
     _some(predicates).map(ast.ReactionRules),
-    _some(predicates).map(ast.StateRules),
+    _some(predicates | st.integers(-5, 10**6).map(ast.Severity)).map(ast.StateRules),
     _some(predicates).map(ast.Assumptions),
     goal_lists.map(ast.Goals),
     _some(
-        st.one_of(st.integers(-5, 10**6).map(ast.MaxPlanLength), st.sampled_from(ORDERINGS).map(ast.EffectOrdering))
+        st.integers(-5, 10**6).map(ast.MaxPlanLength)
+        | st.sampled_from(ORDERINGS).map(ast.EffectOrdering)
+        | st.sampled_from(RESTORATIONS).map(ast.Restoration)
     ).map(ast.Config),
 )
 specifications = st.lists(blocks, max_size=4).map(lambda each: ast.Specification(tuple(each)))

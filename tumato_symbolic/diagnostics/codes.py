@@ -49,9 +49,10 @@ class Code(Enum):
     TUM307 = ("error", "effects that denote too many assignments")
     TUM308 = ("error", "predicates that are too large with their aliases expanded")
     TUM309 = ("error", "a duration out of range")
-    TUM310 = ("error", "a plan bound out of range")
+    TUM310 = ("error", "a plan bound or a severity out of range")
     TUM311 = ("error", "too many declarations")
     TUM312 = ("error", "no valid state")
+    TUM313 = ("error", "a setting that a command does not support")
 
     TUM321 = ("warning", "an unused resource")
     TUM322 = ("warning", "an unused alias")

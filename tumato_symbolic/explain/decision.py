@@ -21,6 +21,7 @@ from tumato_symbolic.semantics import (
     objections,
 )
 from tumato_symbolic.spec import ConditionalGoal, Goal, GoalList, Ordering, Rule, SimpleGoal, Spec
+from tumato_symbolic.spec.support import require_one_step
 
 Verdict: TypeAlias = Literal["forbidden", "misses", "costlier", "longer", "larger", "later", "as-good", "chosen"]
 
@@ -88,6 +89,7 @@ class Decisions(Mapping[State, ActionSet]):
 
 def why(spec: Spec, policy: Mapping[State, ActionSet], state: State, ordering: Ordering) -> Decision:
     """Why `policy` decides as it does in a valid state. Raises `KeyError` where it does not decide."""
+    require_one_step(spec, "why")
     chosen = policy[state]
     others = (judged(spec, policy, state, other, ordering) for other in candidates(spec, state) if other != chosen)
     return Decision(

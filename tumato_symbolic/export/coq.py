@@ -29,6 +29,7 @@ from tumato_symbolic.spec import (
     fold,
     fold_goal,
 )
+from tumato_symbolic.spec.support import require_one_step
 
 MOST_STATES = 30_000
 """Coq goes through all states, valid or not; so many take it about a minute (`proofs/coq/README.md`)."""
@@ -64,6 +65,7 @@ def export(policy: Policy, spec: Spec, ordering: Ordering) -> str:
     `UserError` where the policy does not fit the specification (`bind`), where it leaves a valid state undecided
     (TUM502), or where the specification has more than `MOST_STATES` states (TUM508).
     """
+    require_one_step(spec, "export-proof")
     rows = _rows(bind(policy, spec), spec)
     parts = [_HEAD, *_specification(spec), *_decisions(spec, rows), _THEOREM.format(ordering=ordering.capitalize())]
     return "\n".join(parts)

@@ -10,7 +10,15 @@ from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.diagrams import Diagram, Leaf, Reference, rebuild
 from tumato_symbolic.policy.policy import Policy
 from tumato_symbolic.policy.problems import MOST, show, way_out
-from tumato_symbolic.policy.records import Certificate, DecisionDiagram, RankedGoal, Table, Vocabulary
+from tumato_symbolic.policy.records import (
+    Certificate,
+    DecisionDiagram,
+    Deviation,
+    RankedGoal,
+    Restoring,
+    Table,
+    Vocabulary,
+)
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import Assignment, Spec
 
@@ -37,6 +45,12 @@ def made_for_less(policy: Policy, spec: Spec) -> bool:
     It was made for a weaker meaning of *safe*, and is no policy for this specification, unless the user says so.
     """
     return (policy.ordering, spec.ordering) == ("first", "any")
+
+
+def restores_less(policy: Policy, spec: Spec) -> bool:
+    """Whether a policy records a weaker way to restore safety than the specification means."""
+    strengths = ("fair", "bounded", "one_step")
+    return strengths.index(policy.restoration) < strengths.index(spec.restoration)
 
 
 def _problems(source: Vocabulary, target: Vocabulary, what: str) -> Iterator[Diagnostic]:
@@ -149,7 +163,18 @@ class Renumbering:
         """The ranks of the same states."""
         ranks, roots = self.diagram(certificate.ranks, [goal.root for goal in certificate.goals])
         kept = zip(certificate.goals, roots, strict=True)
-        return Certificate(ranks, tuple(RankedGoal(goal.bodies, goal.executed, root) for goal, root in kept))
+        goals = tuple(RankedGoal(goal.bodies, goal.executed, root) for goal, root in kept)
+        restoring = None if certificate.restoring is None else self.restoring(certificate.restoring)
+        return Certificate(ranks, goals, restoring)
+
+    def restoring(self, restoring: Restoring) -> Restoring:
+        """The efforts of the same states."""
+        efforts, (worst, nominal) = self.diagram(restoring.efforts, (restoring.worst, restoring.nominal))
+        deviations = (
+            Deviation(self.state(each.state), self.action_set(each.better), self.state(each.missed))
+            for each in restoring.deviations
+        )
+        return Restoring(efforts, worst, nominal, tuple(deviations))
 
     def diagram(
         self, diagram: Diagram[Leaf], roots: Sequence[Reference]

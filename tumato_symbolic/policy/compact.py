@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from tumato_symbolic.diagrams import Diagram, Reference, smallest
@@ -26,7 +27,8 @@ def minimized_ranks(
     """The same ranks in all `states`, a diagram in the same order and a root of it; elsewhere they mean nothing."""
     ranks, roots = smallest(certificate.ranks, [goal.root for goal in certificate.goals], sizes, states)
     goals = zip(certificate.goals, roots, strict=True)
-    return Certificate(ranks, tuple(RankedGoal(goal.bodies, goal.executed, root) for goal, root in goals))
+    ranked = tuple(RankedGoal(goal.bodies, goal.executed, root) for goal, root in goals)
+    return replace(certificate, ranks=ranks, goals=ranked)
 
 
 def minimized_layers(reason: NoPlan, sizes: Sequence[int], states: Reference) -> NoPlan:

@@ -10,7 +10,7 @@ from tumato_symbolic.policy.lookup import Decider, make_decider
 from tumato_symbolic.policy.read import policy_fields
 from tumato_symbolic.policy.records import Certificate, DecisionDiagram, Table, Vocabulary
 from tumato_symbolic.policy.text_input import read_text
-from tumato_symbolic.spec import Ordering
+from tumato_symbolic.spec import Ordering, Restoration
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,7 +19,8 @@ class Policy:
 
     `digest` identifies the meaning of the specification that the policy was made for; it, the effect ordering and
     the certificate are None in a policy that does not record them (such as one made by Tumato 2.0).
-    `certificate_problem` tells why a certificate that came with the policy was set aside.
+    `restoration` is how it was made to restore safety. `certificate_problem` tells why a certificate that came with
+    the policy was set aside.
     """
 
     vocabulary: Vocabulary
@@ -28,6 +29,7 @@ class Policy:
     digest: str | None = None
     certificate: Certificate | None = None
     certificate_problem: str | None = None
+    restoration: Restoration = "one_step"
     _decider: Decider | None = field(default=None, init=False, repr=False, compare=False)
 
     @classmethod

@@ -5,14 +5,16 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from tumato_symbolic.diagnostics import Code, Source, UserError
-from tumato_symbolic.diagnostics.wording import count, listed
-from tumato_symbolic.diagrams import Diagram, Node, Reference, rebuild
+from tumato_symbolic.diagnostics.wording import listed
+from tumato_symbolic.diagrams import Diagram, Reference, rebuild
 from tumato_symbolic.policy.objects import Row
 from tumato_symbolic.policy.problems import described, fault, show, way_out
+from tumato_symbolic.policy.read_diagrams import read_diagram
 from tumato_symbolic.policy.records import Certificate, DecisionDiagram, RankedGoal, Table, Vocabulary
+from tumato_symbolic.policy.restoring_file import read_restoring
 from tumato_symbolic.policy.shape import as_list, as_names, as_object, as_text, as_whole, member, parse_json, wrong
 from tumato_symbolic.semantics import ActionSet, State
-from tumato_symbolic.spec import Ordering
+from tumato_symbolic.spec import Ordering, Restoration
 
 FORMAT_VERSION = 1
 """The version of this project's own sections."""
@@ -30,6 +32,7 @@ class PolicyFields(NamedTuple):
     digest: str | None
     certificate: Certificate | None
     certificate_problem: str | None
+    restoration: Restoration
 
 
 def policy_fields(text: str, name: str) -> PolicyFields:
@@ -59,7 +62,8 @@ def fields_of(document: dict[str, Any]) -> PolicyFields:
     section = member(document, body, f"a policy of type {show(form)}")
     decisions = _table(section, vocabulary) if form == "policy" else _decision_diagram(section, vocabulary)
     certificate, problem = _certificate(document, vocabulary)
-    return PolicyFields(vocabulary, decisions, read_ordering(document), read_digest(document), certificate, problem)
+    ordering, restoration = read_ordering(document), read_restoration(document)
+    return PolicyFields(vocabulary, decisions, ordering, read_digest(document), certificate, problem, restoration)
 
 
 def check_version(document: dict[str, Any]) -> None:
@@ -84,6 +88,19 @@ def read_ordering(document: dict[str, Any]) -> Ordering | None:
             return "first"
         case value:
             raise wrong("`EffectOrdering`", '"any" or "first"', value)
+
+
+def read_restoration(document: dict[str, Any]) -> Restoration:
+    """The recorded way to restore safety: in one step where nothing is recorded."""
+    match document.get("Restoration", "one_step"):
+        case "one_step":
+            return "one_step"
+        case "bounded":
+            return "bounded"
+        case "fair":
+            return "fair"
+        case value:
+            raise wrong("`Restoration`", '"one_step", "bounded" or "fair"', value)
 
 
 def read_digest(document: dict[str, Any]) -> str | None:
@@ -212,48 +229,6 @@ def _contradiction(vocabulary: Vocabulary, state: State, first: int, second: int
     return fault(Code.TUM506, message, "keep one of the two rows")
 
 
-def read_diagram(
-    section: dict[str, Any], title: str, vocabulary: Vocabulary
-) -> tuple[tuple[int, ...], list[Any], tuple[Node, ...]]:
-    """Order, leaves (not empty, but unchecked) and nodes of the section called `title`."""
-    where = f"`{title}`"
-    numbers = {name: number for number, (name, _) in enumerate(vocabulary.variables)}
-    names = as_names(member(section, "Order", where), f"`{title}.Order`")
-    for name in names:
-        if name not in numbers:
-            message = f"{where} tests the unknown variable {show(name)}"
-            raise fault(Code.TUM503, message, way_out(name, numbers, "variables"))
-    order, sizes = tuple(numbers[name] for name in names), vocabulary.sizes
-    leaves = as_list(member(section, "Leaves", where), f"`{title}.Leaves`")
-    if not leaves:
-        raise fault(Code.TUM502, f"{where} has no leaves")
-    entries = as_list(member(section, "Nodes", where), f"`{title}.Nodes`")
-    return order, leaves, _nodes(entries, where, [sizes[variable] for variable in order], len(leaves))
-
-
-def _nodes(entries: list[Any], where: str, sizes: list[int], base: int) -> tuple[Node, ...]:
-    levels = [len(sizes)] * base
-    nodes: list[Node] = []
-    for number, entry in enumerate(entries, base):
-        here = f"node {number} of {where}"
-        pair = as_list(entry, here)
-        if len(pair) != 2:
-            parts = count(len(pair), "part")
-            raise fault(Code.TUM502, f"{here} has {parts}, expected a level and a list of references")
-        level = as_whole(pair[0], f"the level of {here}", len(sizes))
-        below = tuple(as_list(pair[1], f"the second part of {here}"))
-        if len(below) != sizes[level]:
-            found, values = count(len(below), "reference"), count(sizes[level], "value")
-            message = f"{here} has {found}, but its variable has {values}"
-            raise fault(Code.TUM502, message)
-        for child in below:
-            if levels[as_whole(child, f"a reference of {here}", number)] <= level:
-                raise fault(Code.TUM502, f"{here} leads to {child}, which is not at a deeper level")
-        nodes.append((level, below))
-        levels.append(level)
-    return tuple(nodes)
-
-
 def _decision_diagram(value: object, vocabulary: Vocabulary) -> DecisionDiagram:
     where = "`Diagram`"
     section = as_object(value, where)
@@ -307,4 +282,5 @@ def _ranks(section: dict[str, Any], vocabulary: Vocabulary) -> Certificate:
     found: Diagram[int | None] = Diagram(order, tuple(leaves), nodes)
     ranks, roots = rebuild(found, [goal.root for goal in goals])
     kept = zip(goals, roots, strict=True)
-    return Certificate(ranks, tuple(RankedGoal(goal.bodies, goal.executed, root) for goal, root in kept))
+    restoring = read_restoring(section["Restoring"], vocabulary) if "Restoring" in section else None
+    return Certificate(ranks, tuple(RankedGoal(goal.bodies, goal.executed, root) for goal, root in kept), restoring)

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from tumato_symbolic.diagrams import Diagram, Reference
-from tumato_symbolic.semantics import ActionSet, State
+from tumato_symbolic.semantics import ActionSet, Effort, State
 from tumato_symbolic.spec import Spec
 
 
@@ -65,8 +65,37 @@ class RankedGoal:
 
 
 @dataclass(frozen=True, slots=True)
+class Deviation:
+    """Why a state is not restored better: with the set `better` in it, the run from `missed` misses its goal."""
+
+    state: State
+    better: ActionSet
+    missed: State
+
+
+@dataclass(frozen=True, slots=True)
+class Restoring:
+    """How a policy restores safety in several steps.
+
+    `worst` leads to `w` of an unsafe state, (duration, steps), or to None where it is infinite; `nominal` to the sum
+    of (duration, 1) along its nominal run until it is restored, where `worst` is None (under `fair`). Elsewhere both
+    mean nothing.
+    """
+
+    efforts: Diagram[Effort | None]
+    worst: Reference
+    nominal: Reference
+    deviations: tuple[Deviation, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class Certificate:
-    """What a proof needs beside the policy: ranks of every safe state, per residual goal (`docs/certificate.md`)."""
+    """What a proof needs beside the policy (`docs/certificate.md`).
+
+    Ranks per residual goal, of every safe state; where safety may take several steps to restore, of every valid one,
+    and `restoring`.
+    """
 
     ranks: Diagram[int | None]
     goals: tuple[RankedGoal, ...]
+    restoring: Restoring | None = None

@@ -27,7 +27,8 @@ from tumato_symbolic.policy.unrealizable import (
     Violation,
 )
 from tumato_symbolic.policy.unrealizable_read import unrealizability_of
-from tumato_symbolic.policy.write import block, diagram_lines, variable_entries
+from tumato_symbolic.policy.write import variable_entries
+from tumato_symbolic.policy.write_diagrams import block, diagram_lines
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Spec
 

@@ -12,11 +12,11 @@ from tumato_symbolic.policy.problems import fault, show, way_out
 from tumato_symbolic.policy.read import (
     UNREALIZABLE,
     check_version,
-    read_diagram,
     read_digest,
     read_ordering,
     read_vocabulary,
 )
+from tumato_symbolic.policy.read_diagrams import read_diagram
 from tumato_symbolic.policy.records import RankedGoal, Vocabulary
 from tumato_symbolic.policy.shape import as_list, as_names, as_object, as_text, as_whole, member, wrong
 from tumato_symbolic.policy.unrealizable import (

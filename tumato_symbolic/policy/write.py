@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from json import dumps as _json
-from typing import Any
 
-from tumato_symbolic.diagrams import Diagram, rebuild
+from tumato_symbolic.diagrams import rebuild
 from tumato_symbolic.policy.convert import as_diagram
 from tumato_symbolic.policy.policy import Policy
 from tumato_symbolic.policy.read import FORMAT_VERSION
 from tumato_symbolic.policy.records import Certificate, DecisionDiagram, Table, Vocabulary
+from tumato_symbolic.policy.restoring_file import restoring_lines
 from tumato_symbolic.policy.shape import MAX_BYTES, too_large
+from tumato_symbolic.policy.write_diagrams import block, diagram_lines
 
 FRAMEWORK_VERSION = "0.0.0"
 """What policies of Tumato 2.0 carry as `PolicyFrameworkVersion`."""
-
-
-_LINE = 110
-"""Columns that the nodes of one line may take."""
 
 
 def fits_table(vocabulary: Vocabulary) -> bool:
@@ -49,6 +46,8 @@ def _lines(policy: Policy) -> Iterator[str]:
         yield f'  "SpecificationDigest": {_json(policy.digest)},'
     if policy.ordering is not None:
         yield f'  "EffectOrdering": "{policy.ordering}",'
+    if policy.restoration != "one_step":
+        yield f'  "Restoration": "{policy.restoration}",'
     yield from block('  "Actions": [', map(_json, vocabulary.actions), "  ],")
     yield from block('  "States": {', variable_entries(vocabulary), "  },")
     last = "" if policy.certificate is None else ","
@@ -59,20 +58,6 @@ def _lines(policy: Policy) -> Iterator[str]:
     if policy.certificate is not None:
         yield from _certificate(policy.certificate, vocabulary)
     yield "}"
-
-
-def block(opening: str, entries: Iterable[str], closing: str) -> Iterator[str]:
-    """Entries between brackets, one on every line, two columns deeper."""
-    yield opening
-    deeper = " " * (len(opening) - len(opening.lstrip()) + 2)
-    waiting: str | None = None
-    for entry in entries:
-        if waiting is not None:
-            yield f"{deeper}{waiting},"
-        waiting = entry
-    if waiting is not None:
-        yield f"{deeper}{waiting}"
-    yield closing
 
 
 def variable_entries(vocabulary: Vocabulary) -> Iterator[str]:
@@ -108,24 +93,7 @@ def _certificate(certificate: Certificate, vocabulary: Vocabulary) -> Iterator[s
         _json({"Bodies": goal.bodies, "Executed": goal.executed, "Root": root})
         for goal, root in zip(certificate.goals, roots, strict=True)
     ]
-    yield from block('    "Goals": [', goals, "    ]")
+    yield from block('    "Goals": [', goals, "    ]" if certificate.restoring is None else "    ],")
+    if certificate.restoring is not None:
+        yield from restoring_lines(certificate.restoring, vocabulary)
     yield "  }"
-
-
-def diagram_lines(diagram: Diagram[Any], vocabulary: Vocabulary) -> Iterator[str]:
-    """`Order`, `Leaves` and `Nodes`, with a comma behind."""
-    yield f'    "Order": {_json([vocabulary.variables[variable][0] for variable in diagram.order])},'
-    yield f'    "Leaves": {_json(diagram.leaves)},'
-    yield from block('    "Nodes": [', _packed(_json(node, separators=(",", ":")) for node in diagram.nodes), "    ],")
-
-
-def _packed(entries: Iterable[str]) -> Iterator[str]:
-    """Short entries, as many as fit together on a line."""
-    line = ""
-    for entry in entries:
-        if line and len(line) + len(entry) >= _LINE:
-            yield line
-            line = ""
-        line = f"{line},{entry}" if line else entry
-    if line:
-        yield line

@@ -4,6 +4,7 @@ from tumato_symbolic.semantics.exclusion import disagreeing_pairs, exclude_each_
 from tumato_symbolic.semantics.goals import ActiveGoals, Residual, active_goals, reached, residual_goal
 from tumato_symbolic.semantics.judge import Judgement, better_sets, judge
 from tumato_symbolic.semantics.partial import settled_truth
+from tumato_symbolic.semantics.restoration import AT_ONCE, Effort, Quality, Restorations, restored
 from tumato_symbolic.semantics.runs import Run, follow
 from tumato_symbolic.semantics.states import (
     NOTHING,
@@ -17,7 +18,9 @@ from tumato_symbolic.semantics.states import (
     holds,
     is_safe,
     is_valid,
+    level,
     named,
+    required_rules,
 )
 from tumato_symbolic.semantics.step import (
     Effectuation,
@@ -26,6 +29,8 @@ from tumato_symbolic.semantics.step import (
     allowed,
     allowed_sets,
     broken_rule,
+    first_broken,
+    next_states,
     nominal_agrees,
     objections,
     outcomes,
@@ -34,14 +39,18 @@ from tumato_symbolic.semantics.step import (
 )
 
 __all__ = [
+    "AT_ONCE",
     "NOTHING",
     "ActionSet",
     "ActiveGoals",
     "Effectuation",
+    "Effort",
     "Judgement",
     "Objection",
     "Outcome",
+    "Quality",
     "Residual",
+    "Restorations",
     "Run",
     "State",
     "action_names",
@@ -58,18 +67,23 @@ __all__ = [
     "exclude_each_other",
     "exclusive_groups",
     "exclusive_pairs",
+    "first_broken",
     "follow",
     "holds",
     "is_safe",
     "is_valid",
     "judge",
+    "level",
     "named",
+    "next_states",
     "nominal_agrees",
     "objections",
     "outcomes",
     "outcomes_in_turn",
     "reached",
+    "required_rules",
     "residual_goal",
+    "restored",
     "settled_truth",
     "successor",
 ]

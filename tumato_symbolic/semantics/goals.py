@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from tumato_symbolic.semantics.states import ActionSet, State, holds
+from tumato_symbolic.semantics.states import ActionSet, State, holds, is_safe
 from tumato_symbolic.spec import ConditionalGoal, Goal, SimpleGoal, Spec, executing_atoms
 
 ActiveGoals: TypeAlias = frozenset[int]
@@ -56,5 +56,7 @@ def residual_goal(spec: Spec, state: State, chosen: ActionSet) -> Residual:
 
 
 def reached(spec: Spec, goal: Residual, state: State) -> bool:
-    """Whether the residual goal holds in `state`."""
+    """Whether the residual goal is met in `state`: where safety may take several steps to restore, in safe ones."""
+    if spec.restores_stepwise and not is_safe(spec, state):
+        return False
     return all(holds(spec.bodies[body].formula, state, goal.executed) for body in goal.bodies)

@@ -1,30 +1,36 @@
-"""The judgement of a policy, one state at a time (`docs/semantics.md`, section 5)."""
+"""The judgement of a policy, one state at a time (`docs/semantics.md`, sections 5, 9 and 10)."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
+from tumato_symbolic.semantics.restoration import Restorations
 from tumato_symbolic.semantics.runs import Run, follow
 from tumato_symbolic.semantics.states import ActionSet, State, all_states, duration, is_safe, is_valid
-from tumato_symbolic.semantics.step import Objection, allowed_sets, objections
+from tumato_symbolic.semantics.step import Objection, allowed_sets, nominal_agrees, objections
 from tumato_symbolic.spec import Ordering, Spec
 
 
 @dataclass(frozen=True, slots=True)
 class Judgement:
-    """Where a policy falls short. It is sound, complete and minimal when all of these are empty."""
+    """Where a policy falls short. It is sound, complete and minimal when all of these are empty.
+
+    `not_restored` are unsafe states from where the way back to safety may never end: where safety may take several
+    steps to restore.
+    """
 
     missing: tuple[State, ...]
     not_allowed: tuple[tuple[State, Objection], ...]
     goal_missed: tuple[tuple[State, Run], ...]
     not_minimal: tuple[tuple[State, ActionSet], ...]
     longest_run: int
+    not_restored: tuple[State, ...] = ()
 
     @property
     def sound_and_complete(self) -> bool:
-        """Total, safe, and every run reaches its goal."""
-        return not (self.missing or self.not_allowed or self.goal_missed)
+        """Total, safe, restoring, and every run reaches its goal."""
+        return not (self.missing or self.not_allowed or self.not_restored or self.goal_missed)
 
     @property
     def minimal(self) -> bool:
@@ -50,12 +56,52 @@ def judge(spec: Spec, policy: Mapping[State, ActionSet], ordering: Ordering) -> 
         tuple((state, run) for state, run in runs if run.end != "goal"),
         tuple((state, best) for state, sets in cheaper if (best := next(sets, None)) is not None),
         max((run.steps for _, run in runs if run.end == "goal"), default=0),
+        tuple(_not_restored(spec, decided, ordering)) if spec.restores_stepwise else (),
     )
 
 
+def _not_restored(spec: Spec, policy: Mapping[State, ActionSet], ordering: Ordering) -> Iterator[State]:
+    """The unsafe states that the policy does not restore as it has to."""
+    restorations = Restorations(spec, policy, ordering)
+    for state, chosen in policy.items():
+        if not is_safe(spec, state) and nominal_agrees(spec, chosen) and restorations.quality(state, chosen) is None:
+            yield state
+
+
 def better_sets(spec: Spec, policy: Mapping[State, ActionSet], state: State, ordering: Ordering) -> Iterator[ActionSet]:
-    """The allowed sets of smaller duration than `policy[state]`, whose run, continued by `policy`, meets the goal."""
+    """The allowed sets that restore an unsafe state better than `policy[state]`, and serve as well.
+
+    In one step: those of smaller duration whose run, continued by `policy`, meets the goal. In several: those of better
+    quality with which its own run meets the goal, and so do the runs of all other states that meet theirs by `policy`.
+    """
+    if spec.restores_stepwise:
+        yield from _better_stepwise(spec, policy, state, ordering)
+        return
     cost = duration(spec, policy[state])
     for chosen in allowed_sets(spec, state, ordering):
         if duration(spec, chosen) < cost and follow(spec, policy, state, chosen).end == "goal":
             yield chosen
+
+
+def _better_stepwise(
+    spec: Spec, policy: Mapping[State, ActionSet], state: State, ordering: Ordering
+) -> Iterator[ActionSet]:
+    restorations, today = Restorations(spec, policy, ordering), policy[state]
+    now = restorations.quality(state, today) if nominal_agrees(spec, today) else None
+    for chosen in allowed_sets(spec, state, ordering):
+        found = restorations.quality(state, chosen)
+        if found is not None and (now is None or found < now) and _serves(spec, policy, state, chosen):
+            yield chosen
+
+
+def _serves(spec: Spec, policy: Mapping[State, ActionSet], state: State, chosen: ActionSet) -> bool:
+    """Whether, with `chosen` in `state`, its run meets the goal, and all other runs still do that do now."""
+    changed = {**policy, state: chosen}
+    others = (
+        other
+        for other, first in policy.items()
+        if other != state and nominal_agrees(spec, first) and follow(spec, policy, other, first).end == "goal"
+    )
+    return follow(spec, changed, state, chosen).end == "goal" and all(
+        follow(spec, changed, other, policy[other]).end == "goal" for other in others
+    )

@@ -7,7 +7,7 @@ from itertools import product
 from math import prod
 from typing import TypeAlias
 
-from tumato_symbolic.spec import And, Assignment, Constant, Executing, Formula, Iff, Is, Not, Or, Spec
+from tumato_symbolic.spec import And, Assignment, Constant, Executing, Formula, Iff, Is, Not, Or, Rule, Spec
 
 State: TypeAlias = tuple[int, ...]
 """One value number for every variable, in the order of declaration."""
@@ -63,6 +63,27 @@ def is_valid(spec: Spec, state: State) -> bool:
 def is_safe(spec: Spec, state: State) -> bool:
     """`state ∈ S`: it is valid and satisfies every state rule."""
     return is_valid(spec, state) and all(holds(rule.formula, state) for rule in spec.state_rules)
+
+
+def level(spec: Spec, state: State) -> int:
+    """How many tiers of state rules, the most severe first, a valid state satisfies whole (section 10)."""
+    tiers = spec.tiers
+    broken = (n for n, tier in enumerate(tiers) if not all(holds(rule.formula, state) for rule in tier))
+    return next(broken, len(tiers))
+
+
+def required_rules(spec: Spec, state: State) -> tuple[Rule, ...]:
+    """What every state that a step from `state` leads to has to satisfy: the assumptions and some state rules.
+
+    Of the state rules, those that hold in `state`, but for such as are milder than the severest tier that it breaks; in
+    a safe state that is all. Where safety is to be restored in one step, that whole tier as well (sections 9 and 10).
+    """
+    severities = [tier[0].severity for tier in spec.tiers if tier]
+    concerned = severities[: level(spec, state) + 1]
+    rules = (rule for rule in spec.state_rules if rule.severity in concerned)
+    if spec.restoration != "one_step":
+        rules = (rule for rule in rules if holds(rule.formula, state))
+    return (*spec.assumptions, *rules)
 
 
 def named(spec: Spec, state: State) -> dict[str, str]:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import combinations
 from typing import Literal, TypeAlias
 
-from tumato_symbolic.semantics.states import ActionSet, State, apply, holds, is_safe
+from tumato_symbolic.semantics.states import ActionSet, State, apply, holds, required_rules
 from tumato_symbolic.spec import Assignment, Ordering, Rule, Spec
 
 
@@ -106,23 +106,35 @@ def objections(spec: Spec, state: State, chosen: ActionSet, ordering: Ordering) 
     for rule in spec.reaction_rules:
         if not holds(rule.formula, state, chosen):
             yield Objection("reaction-rule", tuple(sorted(chosen)), rule)
+    required = required_rules(spec, state)
     for reached, way in outcomes_in_turn(spec, state, chosen, ordering):
-        if not is_safe(spec, reached):
-            yield Objection("unsafe", tuple(sorted(chosen)), broken_rule(spec, reached), way, reached)
+        broken = first_broken(required, reached)
+        if broken is not None:
+            yield Objection("unsafe", tuple(sorted(chosen)), broken, way, reached)
     if nominal_agrees(spec, chosen):
         end = successor(spec, state, chosen)
-        if not is_safe(spec, end):
-            yield Objection("nominal-unsafe", tuple(sorted(chosen)), broken_rule(spec, end), (), end)
+        broken = first_broken(required, end)
+        if broken is not None:
+            yield Objection("nominal-unsafe", tuple(sorted(chosen)), broken, (), end)
+
+
+def next_states(spec: Spec, state: State, chosen: ActionSet, ordering: Ordering) -> set[State]:
+    """`Next(s, A)`: every state in which the next decision may be taken; nominal effects must agree."""
+    return {*outcomes(spec, state, chosen, ordering), successor(spec, state, chosen)}
 
 
 def broken_rule(spec: Spec, state: State) -> Rule | None:
     """The first assumption or state rule that `state` breaks; None in a safe state."""
-    rules = (*spec.assumptions, *spec.state_rules)
+    return first_broken((*spec.assumptions, *spec.state_rules), state)
+
+
+def first_broken(rules: Iterable[Rule], state: State) -> Rule | None:
+    """The first of some rules that `state` breaks, if there is one."""
     return next((rule for rule in rules if not holds(rule.formula, state)), None)
 
 
 def allowed(spec: Spec, state: State, chosen: ActionSet, ordering: Ordering) -> bool:
-    """`Ok(s, A)`."""
+    """`Ok(s, A)`; where safety may be restored in several steps, `Keep(s, A)`."""
     return next(objections(spec, state, chosen, ordering), None) is None
 
 

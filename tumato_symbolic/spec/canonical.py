@@ -44,9 +44,9 @@ def digest(spec: Spec) -> str:
     """`sha256:…` of the meaning of a specification.
 
     Comments, layout, aliases, resources that nothing controls, and the order of rules, actions, resources, variables
-    and values do not matter; `effect_ordering` is left out, since policies record it themselves.
+    and values do not matter; `effect_ordering` and `restoration` are left out, since policies record them themselves.
     """
-    meaning = {
+    meaning: dict[str, Any] = {
         "version": _VERSION,
         "variables": {each.name: sorted(each.values) for each in spec.variables},
         "actions": {each.name: _action(spec, each) for each in spec.actions},
@@ -56,6 +56,8 @@ def digest(spec: Spec) -> str:
         "goals": None if spec.goals is None else _goal(spec, spec.goals),
         "max_plan_length": spec.max_plan_length,
     }
+    if len(spec.tiers) > 1:
+        meaning["severities"] = [_texts(spec, tier) for tier in spec.tiers]
     text = json.dumps(meaning, sort_keys=True, separators=(",", ":"), ensure_ascii=True)
     return f"sha256:{hashlib.sha256(text.encode('ascii')).hexdigest()}"
 

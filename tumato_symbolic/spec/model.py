@@ -10,6 +10,9 @@ from tumato_symbolic.spec.formula import Formula
 
 Ordering: TypeAlias = Literal["any", "first"]
 
+Restoration: TypeAlias = Literal["one_step", "bounded", "fair"]
+"""How safety is restored: in one step; in several, whatever happens; or in several, where nominal effects recur."""
+
 Assignment: TypeAlias = tuple[tuple[int, int], ...]
 """What an effect writes: pairs (variable, value), sorted by variable, each variable once. Empty: no change."""
 
@@ -25,11 +28,15 @@ class Variable:
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """A predicate that the user wrote: a rule, an assumption, or one comma-separated part of a precondition."""
+    """A predicate that the user wrote: a rule, an assumption, or one comma-separated part of a precondition.
+
+    `severity` is that of a state rule: 1, or more where it is milder; only the order of the numbers counts.
+    """
 
     formula: Formula
     text: str
     span: Span
+    severity: int = 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,7 +107,8 @@ class Spec:
     Variables, resources and actions are known by their position. `bodies` holds the goal bodies, each structure
     once (aliases expanded), so that two goals are the same exactly when their body numbers are. `max_plan_length`
     is None where plans are unbounded, `effect_ordering` is None where the text does not say.
-    `bound_span` is where the plan bound is set.
+    `bound_span` is where the plan bound is set. `restoration` is how safety is to be restored: what the text says,
+    or the command line in its place.
     """
 
     variables: tuple[Variable, ...]
@@ -114,6 +122,18 @@ class Spec:
     max_plan_length: int | None
     effect_ordering: Ordering | None
     bound_span: Span | None = field(default=None, compare=False)
+    restoration: Restoration = "one_step"
+
+    @property
+    def tiers(self) -> tuple[tuple[Rule, ...], ...]:
+        """The state rules by severity, the most severe first; one tier at least."""
+        severities = sorted({rule.severity for rule in self.state_rules}) or [1]
+        return tuple(tuple(rule for rule in self.state_rules if rule.severity == each) for each in severities)
+
+    @property
+    def restores_stepwise(self) -> bool:
+        """Whether the way back to safety may take more than one step: decisions in unsafe states then serve runs."""
+        return self.restoration != "one_step" or len({rule.severity for rule in self.state_rules}) > 1
 
     @property
     def ordering(self) -> Ordering:

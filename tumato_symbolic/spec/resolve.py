@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Note, Source, Span
 from tumato_symbolic.diagnostics.wording import quoted
 from tumato_symbolic.spec.actions import Actions
 from tumato_symbolic.spec.findings import Findings
 from tumato_symbolic.spec.formula import Formula
-from tumato_symbolic.spec.model import ConditionalGoal, Goal, GoalList, Ordering, Rule, SimpleGoal, Spec
+from tumato_symbolic.spec.model import ConditionalGoal, Goal, GoalList, Rule, SimpleGoal, Spec
 from tumato_symbolic.spec.names import Names, collect
 from tumato_symbolic.spec.predicates import Predicates
 from tumato_symbolic.syntax import Parsed, ast
 from tumato_symbolic.syntax.excerpts import Excerpts
 
 MAX_PLAN_LENGTH = 1_000_000_000
-"""The largest plan bound."""
+"""The largest plan bound, and the largest severity."""
 
 _TITLES = {
     ast.StateVector: "STATE VECTOR",
@@ -52,11 +52,11 @@ def resolve(parsed: Parsed, tree: ast.Specification, source: Source) -> Resoluti
     predicates = Predicates(names, Excerpts(source), findings, parsed.lost)
     actions = Actions(names, predicates, Excerpts(source), findings).resolve()
     reaction_rules = _rules(predicates, _of(tree, ast.ReactionRules), None)
-    state_rules = _rules(predicates, _of(tree, ast.StateRules), "a state rule")
+    state_rules = _state_rules(predicates, _of(tree, ast.StateRules), findings)
     assumptions = _rules(predicates, _of(tree, ast.Assumptions), "an assumption")
     goals = _Goals(predicates)
     goal_list = goals.outermost(_of(tree, ast.Goals))
-    bound, ordering = _settings(tree, findings)
+    settings = _settings(tree, findings)
     errors = bool(parsed.diagnostics) or any(each.severity == "error" for each in findings.diagnostics)
     spec = None
     if not errors:
@@ -69,10 +69,11 @@ def resolve(parsed: Parsed, tree: ast.Specification, source: Source) -> Resoluti
             assumptions,
             goal_list,
             tuple(goals.bodies.values()),
-            bound.value if bound else None,
-            ordering,
-            bound.span if bound else None,
+            None,
+            None,
         )
+        for setting in settings:
+            spec = _with_setting(spec, setting)
     return Resolution(spec, tuple(findings.diagnostics), names, frozenset(predicates.used_aliases))
 
 
@@ -120,11 +121,26 @@ def _rules(predicates: Predicates, blocks: Iterable[ast.Block], no_executing_in:
     found: list[Rule | None] = []
     for block in blocks:
         match block:
-            case ast.ReactionRules(rules) | ast.StateRules(rules) | ast.Assumptions(rules):
+            case ast.ReactionRules(rules) | ast.Assumptions(rules):
                 found.extend(predicates.rule(each, no_executing_in) for each in rules)
             case _:
                 pass
     return tuple(rule for rule in found if rule is not None)
+
+
+def _state_rules(predicates: Predicates, blocks: Iterable[ast.Block], findings: Findings) -> tuple[Rule, ...]:
+    found: list[Rule] = []
+    for block in blocks:
+        severity = 1
+        for each in block.rules if isinstance(block, ast.StateRules) else ():
+            if isinstance(each, ast.Severity):
+                severity = each.value
+                _check_number("severity", each, "1 is the most severe; only the order of the numbers counts", findings)
+                continue
+            rule = predicates.rule(each, "a state rule")
+            if rule is not None:
+                found.append(replace(rule, severity=severity))
+    return tuple(found)
 
 
 class _Goals:
@@ -161,29 +177,39 @@ class _Goals:
                 return GoalList(kind or "constraint", tuple(each for each in parts if each is not None), span)
 
 
-def _settings(tree: ast.Specification, findings: Findings) -> tuple[ast.MaxPlanLength | None, Ordering | None]:
-    bound: ast.MaxPlanLength | None = None
-    ordering: ast.EffectOrdering | None = None
+_SETTINGS: dict[type[ast.Setting], str] = {
+    ast.MaxPlanLength: "max_plan_length",
+    ast.EffectOrdering: "effect_ordering",
+    ast.Restoration: "restoration",
+}
+
+
+def _with_setting(spec: Spec, setting: ast.Setting) -> Spec:
+    match setting:
+        case ast.MaxPlanLength(value, span):
+            return replace(spec, max_plan_length=value, bound_span=span)
+        case ast.EffectOrdering(value):
+            return replace(spec, effect_ordering=value)
+        case ast.Restoration(value):
+            return replace(spec, restoration=value)
+
+
+def _settings(tree: ast.Specification, findings: Findings) -> list[ast.Setting]:
+    """What CONFIG says, each setting once."""
+    found: dict[type[ast.Setting], ast.Setting] = {}
     for block in tree.blocks:
         for setting in block.settings if isinstance(block, ast.Config) else ():
-            first = bound if isinstance(setting, ast.MaxPlanLength) else ordering
-            if first is not None:
-                name = "max_plan_length" if isinstance(setting, ast.MaxPlanLength) else "effect_ordering"
+            name, first = _SETTINGS[type(setting)], found.setdefault(type(setting), setting)
+            if first is not setting:
                 notes = (Note("it is set first here", first.span),)
                 findings.add(Code.TUM303, f"`{name}` is set twice", setting.span, "remove one", notes)
             elif isinstance(setting, ast.MaxPlanLength):
-                bound = setting
-                _check_bound(setting, findings)
-            else:
-                ordering = setting
-    return bound, ordering.value if ordering else None
+                help_ = "a plan has one step or more; leave the setting out for plans of any length"
+                _check_number(name, setting, help_, findings)
+    return list(found.values())
 
 
-def _check_bound(setting: ast.MaxPlanLength, findings: Findings) -> None:
+def _check_number(name: str, setting: ast.MaxPlanLength | ast.Severity, help_: str, findings: Findings) -> None:
     if not 1 <= setting.value <= MAX_PLAN_LENGTH:
-        findings.add(
-            Code.TUM310,
-            f"`max_plan_length` is {setting.value}; it has to be from 1 to {MAX_PLAN_LENGTH:,}",
-            setting.span,
-            "a plan has one step or more; leave the setting out for plans of any length",
-        )
+        message = f"`{name}` is {setting.value}; it has to be from 1 to {MAX_PLAN_LENGTH:,}"
+        findings.add(Code.TUM310, message, setting.span, help_)

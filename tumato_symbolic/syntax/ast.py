@@ -250,7 +250,15 @@ class EffectOrdering(Node):
     span: Span = NOWHERE
 
 
-Setting: TypeAlias = MaxPlanLength | EffectOrdering
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Restoration(Node):
+    """`restoration: one_step`, `bounded` or `fair`."""
+
+    value: Literal["one_step", "bounded", "fair"]
+    span: Span = NOWHERE
+
+
+Setting: TypeAlias = MaxPlanLength | EffectOrdering | Restoration
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -294,10 +302,18 @@ class ReactionRules(Node):
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Severity(Node):
+    """`severity: N`: how severe the state rules after it are."""
+
+    value: int
+    span: Span = NOWHERE
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class StateRules(Node):
     """`BEGIN STATE RULES`."""
 
-    rules: tuple[Predicate, ...]
+    rules: tuple[Predicate | Severity, ...]
     span: Span = NOWHERE
 
 

@@ -144,6 +144,17 @@ def effect_ordering(children: Children) -> ast.EffectOrdering:
     return ast.EffectOrdering("any" if children[-1].text == "any" else "first", _span(children))
 
 
+def restoration(children: Children) -> ast.Restoration:
+    value = children[-1].text
+    return ast.Restoration(
+        "bounded" if value == "bounded" else "fair" if value == "fair" else "one_step", _span(children)
+    )
+
+
+def severity(children: Children) -> ast.Severity:
+    return ast.Severity(int(children[-1].text), _span(children))
+
+
 def equivalence(children: Children) -> ast.Equivalence:
     left, right = _nodes(children)
     return ast.Equivalence(left, right, _span(children))

@@ -23,6 +23,8 @@ _FORMS = {
     "when": "write `when PREDICATE then goal: PREDICATE`",
     "max_plan_length": "write `max_plan_length: 5`",
     "effect_ordering": "write `effect_ordering: any` or `effect_ordering: first`",
+    "restoration": "write `restoration: one_step`, `restoration: bounded` or `restoration: fair`",
+    "severity": "write `severity: 1`",
 }
 _SYMBOLS = {"=": "is", "==": "is", "&": "AND", "&&": "AND", "|": "OR", "||": "OR", "!": "NOT", "->": "IF … THEN …"}
 _SYMBOLS |= {"=>": "IF … THEN …", "<->": "IFONLYIF", "<=>": "IFONLYIF", "!=": "NOT … is …", ";": ","}

@@ -34,7 +34,7 @@ _FOLLOWED_BY = {
 
 _RESTARTS = frozenset(
     {"BEGIN", "END", "state", "define", "resource", "action", "rule", "assume", "goal", "when"}
-    | {"max_plan_length", "effect_ordering", *_FOLLOWED_BY}
+    | {"severity", "max_plan_length", "effect_ordering", "restoration", *_FOLLOWED_BY}
 )
 """Words at which reading can go on after a mistake."""
 

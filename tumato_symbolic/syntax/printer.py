@@ -63,13 +63,17 @@ def _block(block: ast.Block) -> Iterator[str]:
         case ast.ReactionRules(rules):
             yield from _framed("REACTION RULES", (f"rule: {print_predicate(each)}" for each in rules))
         case ast.StateRules(rules):
-            yield from _framed("STATE RULES", (f"rule: {print_predicate(each)}" for each in rules))
+            yield from _framed("STATE RULES", (_state_rule(each) for each in rules))
         case ast.Assumptions(assumptions):
             yield from _framed("ASSUMPTIONS", (f"assume: {print_predicate(each)}" for each in assumptions))
         case ast.Goals(goals):
             yield from _goal(goals)
         case ast.Config(settings):
             yield from _framed("CONFIG", (_setting(each) for each in settings))
+
+
+def _state_rule(rule: ast.Predicate | ast.Severity) -> str:
+    return f"severity: {rule.value}" if isinstance(rule, ast.Severity) else f"rule: {print_predicate(rule)}"
 
 
 def _framed(title: str, lines: Iterable[str]) -> Iterator[str]:
@@ -128,3 +132,5 @@ def _setting(setting: ast.Setting) -> str:
             return f"max_plan_length: {value}"
         case ast.EffectOrdering(value):
             return f"effect_ordering: {value}"
+        case ast.Restoration(value):
+            return f"restoration: {value}"

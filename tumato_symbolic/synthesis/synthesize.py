@@ -26,6 +26,7 @@ from tumato_symbolic.policy import Policy, as_table
 from tumato_symbolic.semantics import count_states
 from tumato_symbolic.semantics.lint import no_valid_state
 from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.spec.support import require_one_step
 from tumato_symbolic.symbolic import Backend, Bdd, available_backend
 from tumato_symbolic.synthesis.certificate import policy_diagram
 from tumato_symbolic.synthesis.lint import lint
@@ -66,6 +67,7 @@ def synthesize(
     work; it is told the name of each stage, and learns what the outcome would be if a limit were met now. Without
     `certify` the answer no comes without its certificate. Raises `UserError` where no state is valid.
     """
+    require_one_step(spec, "synth")
     context = context or Context()
     try:
         problem = build_problem(spec, ordering or spec.ordering, backend or available_backend(), context)

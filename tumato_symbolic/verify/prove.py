@@ -13,6 +13,7 @@ from tumato_symbolic.policy import Policy
 from tumato_symbolic.policy.bind import bind, made_for_less
 from tumato_symbolic.semantics import all_states, count_states, is_valid
 from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.spec.support import require_one_step
 from tumato_symbolic.verify.closure import with_departure
 from tumato_symbolic.verify.decisions import LARGEST_TABLE, Decisions
 from tumato_symbolic.verify.provers import Prover, make_prover
@@ -57,6 +58,7 @@ def verify(
 
     Raises `UserError` when the names of the policy do not fit the specification, or no state is valid.
     """
+    require_one_step(spec, "verify")
     context, asked = context or Context(), _asked(properties)
     bound = bind(policy, spec)
     decisions = Decisions(spec, bound)

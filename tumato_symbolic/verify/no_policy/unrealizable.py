@@ -8,6 +8,7 @@ from tumato_symbolic.limits import Budget, Context, LimitReachedError
 from tumato_symbolic.policy.unrealizable import NoAllowedSet, NoPlan, Unrealizability
 from tumato_symbolic.policy.unrealizable_file import bind
 from tumato_symbolic.spec import Ordering, Spec, digest
+from tumato_symbolic.spec.support import require_one_step
 from tumato_symbolic.verify.by_z3.solver import UndecidedError
 from tumato_symbolic.verify.no_policy.allowed_step import AllowedStep, FalseClaimError
 from tumato_symbolic.verify.no_policy.conflict import check_conflict
@@ -40,6 +41,7 @@ def verify_unrealizable(
     *Refuted* says that the certificate is no proof, not that there is a policy. Raises `UserError` when the names of
     the certificate do not fit the specification.
     """
+    require_one_step(spec, "verify")
     context = context or Context()
     reason = bind(certificate, spec).reason
     judged: Ordering = ordering or certificate.ordering
