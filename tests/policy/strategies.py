@@ -6,11 +6,13 @@ from hypothesis import strategies as st
 from tumato_symbolic.diagnostics import Span
 from tumato_symbolic.diagrams import DiagramBuilder, rebuild
 from tumato_symbolic.policy import Certificate, DecisionDiagram, Policy, RankedGoal, Table, Vocabulary, as_diagram
+from tumato_symbolic.policy.records import Deviation, Restoring
 from tumato_symbolic.spec import Action, Spec, Variable
 
 NAMES = st.text('ab_Z9é "\\\n\x00\u2028🤖', max_size=4)
 QUICK = settings(max_examples=50, deadline=None)
 HERE = Span(1, 1, 1, 1)
+EFFORTS = ((0, 1), (1, 1), (10, 3))
 
 
 def vocabularies(names=NAMES):
@@ -39,7 +41,23 @@ def certificates(draw, vocabulary):
     roots = [builder.from_table(vocabulary.sizes, ranks, None) for ranks in draw(st.lists(ranks, max_size=3))]
     diagram, roots = rebuild(builder.finish(), roots)
     executed = draw(st.lists(st.sampled_from(vocabulary.actions), unique=True)) if vocabulary.actions else []
-    return Certificate(diagram, tuple(RankedGoal((f"S is v{root}",), tuple(sorted(executed)), root) for root in roots))
+    goals = tuple(RankedGoal((f"S is v{root}",), tuple(sorted(executed)), root) for root in roots)
+    return Certificate(diagram, goals, draw(st.none() | restorings(vocabulary)))
+
+
+@st.composite
+def restorings(draw, vocabulary):
+    """Efforts of some states, and some deviations, in canonical form."""
+    state = st.tuples(*(st.integers(0, size - 1) for size in vocabulary.sizes))
+    builder = DiagramBuilder(draw(st.permutations(range(len(vocabulary.variables)))), (None, *EFFORTS))
+    efforts = st.dictionaries(state, st.sampled_from([None, *EFFORTS]), max_size=8)
+    roots = [builder.from_table(vocabulary.sizes, draw(efforts), None) for _ in range(2)]
+    diagram, (worst, nominal) = rebuild(builder.finish(), roots)
+    chosen = (
+        st.frozensets(st.sampled_from(range(len(vocabulary.actions)))) if vocabulary.actions else st.just(frozenset())
+    )
+    deviations = draw(st.lists(st.builds(Deviation, state, chosen, state), max_size=2))
+    return Restoring(diagram, worst, nominal, tuple(deviations))
 
 
 @st.composite
@@ -54,6 +72,7 @@ def policies(draw, forms=("table", "diagram"), names=NAMES):
         draw(st.sampled_from([None, "any", "first"])),
         draw(st.none() | NAMES),
         draw(st.none() | certificates(vocabulary)),
+        restoration=draw(st.sampled_from(["one_step", "bounded", "fair"])),
     )
 
 

@@ -38,6 +38,16 @@ def effect_ordering(default: str) -> Any:  # noqa: ANN401
     )
 
 
+def restoration() -> Any:  # noqa: ANN401
+    """`--restoration`."""
+    return argument(
+        "--restoration",
+        choices=("one_step", "bounded", "fair"),
+        help="how unsafe states are left: in one step; in several, within a bound whatever happens; or in several, if "
+        "nominal effects happen again and again (default: the specification's, else one_step)",
+    )
+
+
 def timeout(default: str = "no limit") -> Any:  # noqa: ANN401
     """`--timeout`; `default` is how long a command takes at most by itself."""
     return argument(

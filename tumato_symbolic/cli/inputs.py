@@ -5,21 +5,26 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 
 from tumato_symbolic.cli.console import note, wants_colour
 from tumato_symbolic.cli.options import CommandOptions
 from tumato_symbolic.diagnostics import Diagnostic, Source, UserError, render
-from tumato_symbolic.spec import Spec, load
+from tumato_symbolic.spec import Restoration, Spec, load
 from tumato_symbolic.syntax import read_source
 
 
-def read_spec(path: str) -> tuple[Source, Spec, tuple[Diagnostic, ...]]:
-    """The text, the specification and its warnings. Raises `UserError` where it has errors."""
+def read_spec(path: str, restoration: Restoration | None = None) -> tuple[Source, Spec, tuple[Diagnostic, ...]]:
+    """The text, the specification and its warnings; `restoration` overrules what the text says of it.
+
+    Raises `UserError` where it has errors.
+    """
     source = read_source(path)
     loaded = load(source)
     if loaded.spec is None:
         raise UserError(loaded.diagnostics, source)
-    return source, loaded.spec, loaded.diagnostics
+    spec = loaded.spec if restoration is None else replace(loaded.spec, restoration=restoration)
+    return source, spec, loaded.diagnostics
 
 
 @contextmanager

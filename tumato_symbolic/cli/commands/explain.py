@@ -19,7 +19,7 @@ from tumato_symbolic.limits import Context
 
 if TYPE_CHECKING:
     from tumato_symbolic.report.explained import Explained
-    from tumato_symbolic.spec import Ordering
+    from tumato_symbolic.spec import Ordering, Restoration
 
 ABOUT = """\
 Say why there is no policy for a specification, and what would change that.
@@ -68,6 +68,7 @@ class Options(CommandOptions):
     timeout: float | None = arguments.timeout("60")
     memory: int | None = arguments.memory()
     effect_ordering: Ordering | None = arguments.effect_ordering("the specification's, else any")
+    restoration: Restoration | None = arguments.restoration()
     output_format: OutputFormat = arguments.output_format("json", "github", "sarif")
 
     own_seconds: ClassVar[float | None] = 58.0
@@ -91,7 +92,7 @@ def run(options: Options, context: Context) -> int:
     from tumato_symbolic.report.explained import Explained
 
     context.tell("reading the specification")
-    source, spec, warnings = read_spec(options.specs[0])
+    source, spec, warnings = read_spec(options.specs[0], options.restoration)
     show_warnings(warnings, source, options)
     every_cube = options.max_cubes is not None
     known = _Known(Explained(source, spec, Unexplained(), warnings, None, every_cube))

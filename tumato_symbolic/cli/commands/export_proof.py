@@ -14,7 +14,7 @@ from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.limits import Context
 
 if TYPE_CHECKING:
-    from tumato_symbolic.spec import Ordering
+    from tumato_symbolic.spec import Ordering, Restoration
 
 ABOUT = """\
 Write a policy and its specification as one Coq file: compiling it proves that the policy is sound, complete and
@@ -43,6 +43,7 @@ class Options(CommandOptions):
     effect_ordering: Ordering | None = arguments.effect_ordering(
         "any where the specification writes it, else what the policy records, else any"
     )
+    restoration: Restoration | None = arguments.restoration()
 
 
 def run(options: Options, context: Context) -> int:
@@ -54,7 +55,7 @@ def run(options: Options, context: Context) -> int:
     from tumato_symbolic.policy.saving import save_text
 
     context.tell("reading the specification")
-    source, spec, warnings = read_spec(options.specs[0])
+    source, spec, warnings = read_spec(options.specs[0], options.restoration)
     context.tell(f"reading {options.policy}")
     policy = Policy.load(options.policy)
     if options.effect_ordering is None and made_for_less(policy, spec):

@@ -13,7 +13,7 @@ from tumato_symbolic.limits import Context
 
 if TYPE_CHECKING:
     from tumato_symbolic.report.synthesized import Synthesized
-    from tumato_symbolic.spec import Ordering
+    from tumato_symbolic.spec import Ordering, Restoration
     from tumato_symbolic.verify import ProverName
 
 ABOUT = """\
@@ -43,6 +43,7 @@ class Options(CommandOptions):
         "standard error stream)",
     )
     effect_ordering: Ordering | None = arguments.effect_ordering("the specification's, else any")
+    restoration: Restoration | None = arguments.restoration()
     policy_format: Literal["auto", "table", "diagram"] = argument(
         "--policy-format",
         choices=("auto", "table", "diagram"),
@@ -77,7 +78,7 @@ def run(options: Options, context: Context) -> int:
     from tumato_symbolic.synthesis import Undecided
 
     context.tell("reading the specification")
-    source, spec, warnings = read_spec(options.specs[0])
+    source, spec, warnings = read_spec(options.specs[0], options.restoration)
     so_far = Synthesized(source, spec, Undecided("", None), None, warnings, options.output, False)
     context.learn(so_far)
     with errors_in(source):

@@ -15,7 +15,7 @@ from tumato_symbolic.limits import Context
 
 if TYPE_CHECKING:
     from tumato_symbolic.semantics import ActionSet
-    from tumato_symbolic.spec import Ordering, Spec
+    from tumato_symbolic.spec import Ordering, Restoration, Spec
 
 ABOUT = """\
 Say why a policy decides as it does in a state: which goal is active and why, the run to the goal, which other sets of
@@ -45,6 +45,7 @@ class Options(CommandOptions):
     effect_ordering: Ordering | None = arguments.effect_ordering(
         "the one that the policy records, else the specification's, else any"
     )
+    restoration: Restoration | None = arguments.restoration()
 
 
 def run(options: Options, context: Context) -> int:
@@ -56,7 +57,7 @@ def run(options: Options, context: Context) -> int:
     from tumato_symbolic.report.reasons import Place
 
     context.tell("reading the specification")
-    source, spec, _ = read_spec(options.specs[0])
+    source, spec, _ = read_spec(options.specs[0], options.restoration)
     context.tell(f"reading {options.policy}")
     policy = Policy.load(options.policy)
     with errors_in(source):
