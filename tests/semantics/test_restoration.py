@@ -7,7 +7,17 @@ import pytest
 from tumato_symbolic import parse, synthesize
 from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.policy import Policy
-from tumato_symbolic.semantics import NOTHING, Restorations, allowed, is_safe, judge, level, required_rules
+from tumato_symbolic.semantics import (
+    NOTHING,
+    ActionSet,
+    Restorations,
+    State,
+    allowed,
+    is_safe,
+    judge,
+    level,
+    required_rules,
+)
 from tumato_symbolic.spec import Restoration, Spec, digest
 from tumato_symbolic.verify import verify
 
@@ -52,8 +62,13 @@ def test_no_rule_breaks_that_was_not_broken() -> None:
 def test_the_worst_effort_is_over_all_outcomes_in_any_order() -> None:
     """One valve after the other takes (2, 2); both at once may take effect one at a time, which makes (3, 2)."""
     spec = restoring(VALVES, "bounded")
-    singly = {(0, 0): frozenset((0,)), (0, 1): frozenset((0,)), (1, 0): frozenset((1,)), (1, 1): NOTHING}
-    both = {**singly, (0, 0): frozenset((0, 1))}
+    singly: dict[State, ActionSet] = {
+        (0, 0): frozenset((0,)),
+        (0, 1): frozenset((0,)),
+        (1, 0): frozenset((1,)),
+        (1, 1): NOTHING,
+    }
+    both: dict[State, ActionSet] = {**singly, (0, 0): frozenset((0, 1))}
     assert Restorations(spec, singly, "any").worst == {(0, 0): (2, 2), (0, 1): (1, 1), (1, 0): (1, 1)}
     assert Restorations(spec, both, "any").worst[0, 0] == (3, 2)
     assert judge(spec, singly, "any").sound_and_complete
@@ -64,10 +79,10 @@ def test_the_worst_effort_is_over_all_outcomes_in_any_order() -> None:
 
 def test_what_may_change_nothing_restores_under_fair_only() -> None:
     """A stop that may do nothing is repeated: no number of steps is enough, and the nominal effect ends it."""
-    policy = {(0,): frozenset((0,)), (1,): NOTHING}
+    policy: dict[State, ActionSet] = {(0,): frozenset((0,)), (1,): NOTHING}
     assert judge(restoring(RETRY, "bounded"), policy, "any").not_restored == ((0,),)
     assert judge(restoring(RETRY, "fair"), policy, "any").sound_and_complete
-    idle = {(0,): NOTHING, (1,): NOTHING}
+    idle: dict[State, ActionSet] = {(0,): NOTHING, (1,): NOTHING}
     assert judge(restoring(RETRY, "fair"), idle, "any").not_restored == ((0,),)
 
 

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 from tumato_symbolic.explain.near_misses import candidates
+from tumato_symbolic.explain.way_to_safety import RestoringFrom, WayToSafety
 from tumato_symbolic.policy import Policy, UndecidedState
 from tumato_symbolic.semantics import (
     ActionSet,
     Objection,
+    Quality,
     Run,
     State,
     duration,
@@ -18,12 +20,14 @@ from tumato_symbolic.semantics import (
     holds,
     is_safe,
     named,
+    nominal_agrees,
     objections,
 )
 from tumato_symbolic.spec import ConditionalGoal, Goal, GoalList, Ordering, Rule, SimpleGoal, Spec
-from tumato_symbolic.spec.support import require_one_step
 
-Verdict: TypeAlias = Literal["forbidden", "misses", "costlier", "longer", "larger", "later", "as-good", "chosen"]
+Verdict: TypeAlias = Literal[
+    "forbidden", "misses", "endless", "costlier", "longer", "larger", "later", "as-good", "chosen"
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +48,8 @@ class Other:
 
     `forbidden`: the objection says why. `misses`: its run, continued by the policy, does not meet the goal. The others
     say by what it is less preferred (`docs/semantics.md`, section 6); `as-good`: by nothing in this state alone.
+    Where safety may take several steps to restore, `quality` is how well the set does that; `endless`: that may never
+    end.
     """
 
     chosen: ActionSet
@@ -51,11 +57,16 @@ class Other:
     duration: int
     objection: Objection | None = None
     run: Run | None = None
+    quality: Quality | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Decision:
-    """A decision with all that explains it. `broken` are the state rules that the state breaks."""
+    """A decision with all that explains it. `broken` are the state rules that the state breaks.
+
+    `way` leads from an unsafe state back to safety, where that may take several steps, and `quality` is how well the
+    decision does that; None where it may never end.
+    """
 
     state: State
     chosen: ActionSet
@@ -64,6 +75,8 @@ class Decision:
     goals: tuple[GoalNote, ...]
     run: Run
     others: tuple[Other, ...]
+    way: WayToSafety | None = None
+    quality: Quality | None = None
 
 
 class Decisions(Mapping[State, ActionSet]):
@@ -89,9 +102,10 @@ class Decisions(Mapping[State, ActionSet]):
 
 def why(spec: Spec, policy: Mapping[State, ActionSet], state: State, ordering: Ordering) -> Decision:
     """Why `policy` decides as it does in a valid state. Raises `KeyError` where it does not decide."""
-    require_one_step(spec, "why")
     chosen = policy[state]
     others = (judged(spec, policy, state, other, ordering) for other in candidates(spec, state) if other != chosen)
+    restoring = RestoringFrom(spec, policy, ordering)
+    stepwise = spec.restores_stepwise and not is_safe(spec, state)
     return Decision(
         state,
         chosen,
@@ -100,6 +114,8 @@ def why(spec: Spec, policy: Mapping[State, ActionSet], state: State, ordering: O
         tuple(goal_notes(spec, state)),
         follow(spec, policy, state, chosen),
         tuple(others),
+        restoring.way(state) if stepwise else None,
+        restoring.quality(state, chosen) if stepwise and nominal_agrees(spec, chosen) else None,
     )
 
 
@@ -110,21 +126,34 @@ def judged(spec: Spec, policy: Mapping[State, ActionSet], state: State, other: A
     if objection is not None:
         return Other(other, "forbidden", cost, objection)
     run = follow(spec, policy, state, other)
+    ours, theirs = (_quality(spec, policy, state, each, ordering) for each in (chosen, other))
+    found = Other(other, "as-good", cost, run=run, quality=theirs if spec.restores_stepwise else None)
     if other == chosen:
-        return Other(other, "chosen", cost, run=run)
+        return replace(found, verdict="chosen")
+    if theirs is None:
+        return replace(found, verdict="endless")
     if run.end != "goal":
-        return Other(other, "misses", cost, run=run)
-    ours = follow(spec, policy, state, chosen)
-    reasons: list[tuple[Verdict, int, int]] = [
-        ("longer", ours.steps, run.steps),
-        ("larger", len(chosen), len(other)),
-    ]
-    if not is_safe(spec, state):
-        reasons.insert(0, ("costlier", duration(spec, chosen), cost))
-    for verdict, mine, theirs in reasons:
-        if mine != theirs:
-            return Other(other, verdict if mine < theirs else "as-good", cost, run=run)
-    return Other(other, "later" if sorted(chosen) < sorted(other) else "as-good", cost, run=run)
+        return replace(found, verdict="misses")
+    verdicts: tuple[Verdict, ...] = ("costlier", "longer", "larger", "later")
+    mine = ours or _WORST, follow(spec, policy, state, chosen).steps, len(chosen), sorted(chosen)
+    its = theirs, run.steps, len(other), sorted(other)
+    differs = next(n for n, (one, another) in enumerate(zip(mine, its, strict=True)) if one != another)
+    return replace(found, verdict=verdicts[differs]) if mine < its else found
+
+
+_WORST: Quality = (3, (0, 0))
+"""After all that restores anything."""
+
+
+def _quality(
+    spec: Spec, policy: Mapping[State, ActionSet], state: State, chosen: ActionSet, ordering: Ordering
+) -> Quality | None:
+    """How well a set restores a state: by its duration in one step, and all alike in a safe state."""
+    if is_safe(spec, state):
+        return 0, (0, 0)
+    if spec.restores_stepwise:
+        return RestoringFrom(spec, policy, ordering).quality(state, chosen)
+    return 0, (duration(spec, chosen), 1)
 
 
 def goal_notes(spec: Spec, state: State) -> Iterator[GoalNote]:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from tumato_symbolic.explain.decision import Decision, GoalNote, Other
 from tumato_symbolic.report.layout import count, enumeration
-from tumato_symbolic.report.reasons import Place, objection_text
-from tumato_symbolic.semantics import Run, action_names, named
+from tumato_symbolic.report.reasons import Place, broken_here, objection_text, story
+from tumato_symbolic.semantics import Quality, Run, State, action_names, level, named
 from tumato_symbolic.spec import Spec
 
 _LISTED = 6
@@ -30,7 +30,7 @@ def as_text(done: Decided) -> str:
     cost = f" (duration {decision.duration})" if decision.broken else ""
     parts = [f"In {place.state(decision.state)}\n{done.policy} decides: {place.actions(decision.chosen)}{cost}."]
     if decision.broken:
-        parts.append(f"The state is unsafe: it breaks {enumeration([place.rule(rule) for rule in decision.broken])}.")
+        parts.append("\n".join(_unsafe(place, decision)))
     parts.append("\n".join(_goals(place, decision)))
     parts.append("\n".join(_run(place, decision.run)))
     if done.asked is not None:
@@ -38,6 +38,33 @@ def as_text(done: Decided) -> str:
     else:
         parts += _others(place, decision)
     return "\n\n".join(parts)
+
+
+def _unsafe(place: Place, decision: Decision) -> Iterator[str]:
+    spec = place.spec
+    yield f"The state is unsafe: it breaks {enumeration([place.rule(rule) for rule in decision.broken])}."
+    if len(spec.tiers) > 1:
+        here = level(spec, decision.state)
+        yield f"Its level is {here} of {len(spec.tiers)}: rules of severity {spec.tiers[here][0].severity} come first."
+    if not spec.restores_stepwise:
+        return
+    way = decision.way
+    if way is None:
+        yield "The policy may never restore safety from here."
+        return
+    time = f"{count(way.effort[1], 'step')}, duration {way.effort[0]}"
+    if way.bounded:
+        yield f"Safety is restored in at most {time}, whatever happens. The worst case:"
+    else:
+        yield f"Safety is restored in {time}, if every effect is the nominal one; else the policy tries again:"
+    for number, step in enumerate(way.steps, 1):
+        happens = "all nominal effects" if step.outcome is None else story(place, step.outcome) or "no effect"
+        yield f"  {number}. {place.actions(step.chosen)}: {happens}; {_after(place, step.after)}"
+
+
+def _after(place: Place, state: State) -> str:
+    broken = broken_here(place, state)
+    return f"still {broken}" if broken else "safe"
 
 
 def _goals(place: Place, decision: Decision) -> Iterator[str]:
@@ -101,6 +128,10 @@ def _sentence(place: Place, decision: Decision, other: Other) -> str:
             return objection_text(place, other.objection).replace("\n", "\n  ")
         case "misses" if other.run is not None:
             return f"its run does not meet the goal ({_ENDS[other.run.end].lower()})"
+        case "endless":
+            return "it may never restore safety"
+        case "costlier" if other.quality is not None and decision.quality is not None:
+            return f"it restores safety in {_effort(other.quality)} rather than {_effort(decision.quality)}"
         case "costlier":
             return f"it takes longer to restore safety: {other.duration} rather than {decision.duration}"
         case "longer":
@@ -113,6 +144,12 @@ def _sentence(place: Place, decision: Decision, other: Other) -> str:
             return "it is what the policy decides"
         case _:
             return f"it would do here, in {count(steps, 'step')}; the decision is made for runs of other goals, too"
+
+
+def _effort(quality: Quality) -> str:
+    kind, (duration, steps) = quality
+    time = f"{count(steps, 'step')}, duration {duration},"
+    return {0: time, 1: f"at most {time}"}.get(kind, f"{time} if effects are nominal,").rstrip(",")
 
 
 def as_json(done: Decided) -> dict[str, object]:
@@ -135,8 +172,18 @@ def as_json(done: Decided) -> dict[str, object]:
             for note in decision.goals
         ],
         "run": _run_json(spec, decision.run),
+        **({"restoring": _way_json(spec, decision)} if spec.restores_stepwise and decision.broken else {}),
         "others": [_other_json(done, other) for other in ([done.asked] if done.asked else decision.others)],
     }
+
+
+def _way_json(spec: Spec, decision: Decision) -> dict[str, object]:
+    way = decision.way
+    found: dict[str, object] = {"level": level(spec, decision.state), "levels": len(spec.tiers), "bounded": None}
+    if way is None:
+        return found
+    steps = [{"actions": list(action_names(spec, step.chosen)), "state": named(spec, step.after)} for step in way.steps]
+    return {**found, "bounded": way.bounded, "duration": way.effort[0], "steps": steps}
 
 
 def _run_json(spec: Spec, run: Run) -> dict[str, object]:
