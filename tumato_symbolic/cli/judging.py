@@ -18,7 +18,7 @@ from tumato_symbolic.verify.result import stopped
 if TYPE_CHECKING:
     from tumato_symbolic.policy.unrealizable import Unrealizability
     from tumato_symbolic.report.unrealizable import Disproved
-    from tumato_symbolic.spec import Ordering
+    from tumato_symbolic.spec import Ordering, Restoration
     from tumato_symbolic.verify import ProverName, UnrealizabilityVerdict, Verification
 
     Judged: TypeAlias = Verified | Disproved
@@ -26,9 +26,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Criteria:
-    """What a claim is held to: the ordering (None: its own), the properties, who proves them, and its certificate."""
+    """What a claim is held to: ordering and restoration (None: its own, the specification's), properties, who proves
+    them, and its certificate.
+    """
 
     ordering: Ordering | None
+    restoration: Restoration | None
     properties: tuple[str, ...]
     prover: ProverName
     strict: bool
@@ -47,7 +50,7 @@ def judge(
     Raises `UserError` where the specification cannot be used, or the claim does not fit it.
     """
     context.tell("reading the specification")
-    source, spec, warnings = read_spec(spec_path)
+    source, spec, warnings = read_spec(spec_path, criteria.restoration)
     started = time.perf_counter()
 
     def verified(found: object) -> Verified:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, ClassVar
 
 from tumato_symbolic.cli import arguments
@@ -15,6 +15,7 @@ from tumato_symbolic.limits import Context
 
 if TYPE_CHECKING:
     from tumato_symbolic.report.checked import Checked
+    from tumato_symbolic.spec import Restoration
 
 ABOUT = """\
 Look for mistakes in specifications without solving them: syntax, names, effects, and what is surely unmeant.
@@ -35,6 +36,7 @@ class Options(CommandOptions):
     """What may be typed after `check`."""
 
     specs: tuple[str, ...] = arguments.specs("+", "specifications, .tum files")
+    restoration: Restoration | None = arguments.restoration()
     timeout: float | None = arguments.timeout()
     memory: int | None = arguments.memory()
     output_format: OutputFormat = arguments.output_format("json", "github")
@@ -47,7 +49,7 @@ def run(options: Options, context: Context) -> int:
     files: list[Checked] = []
     for path in options.specs:
         context.tell(f"reading {path}")
-        files.append(_check(path))
+        files.append(_check(path, options.restoration))
         context.learn(tuple(files))
     return _report(files, options)
 
@@ -74,7 +76,7 @@ def _report(files: Sequence[Checked], options: Options, undecided: str | None = 
     return USAGE if any(file.failed for file in files) else YES
 
 
-def _check(path: str) -> Checked:
+def _check(path: str, restoration: Restoration | None) -> Checked:
     from tumato_symbolic.diagnostics import UserError
     from tumato_symbolic.report.checked import Checked
     from tumato_symbolic.semantics.lint import lint
@@ -91,4 +93,5 @@ def _check(path: str) -> Checked:
 
         other = misplaced(path)
         return Checked(path, source, None, loaded.diagnostics if other is None else (other,))
-    return Checked(path, source, loaded.spec, (*loaded.diagnostics, *lint(loaded.spec)))
+    spec = loaded.spec if restoration is None else replace(loaded.spec, restoration=restoration)
+    return Checked(path, source, spec, (*loaded.diagnostics, *lint(spec)))

@@ -14,7 +14,7 @@ from tumato_symbolic.limits import Context
 if TYPE_CHECKING:
     from tumato_symbolic.cli.judging import Judged
     from tumato_symbolic.report.folder import Folder
-    from tumato_symbolic.spec import Ordering
+    from tumato_symbolic.spec import Ordering, Restoration
     from tumato_symbolic.verify import ProverName
 
 PROPERTIES = ("total", "safe", "goals", "minimal")
@@ -73,6 +73,7 @@ class Options(CommandOptions):
     effect_ordering: Ordering | None = arguments.effect_ordering(
         "the one that the policy records, else the specification's, else any"
     )
+    restoration: Restoration | None = arguments.restoration()
     require_all: bool = argument(
         "--require-all",
         action="store_true",
@@ -108,7 +109,9 @@ def run(options: Options, context: Context) -> int:
     from tumato_symbolic.cli.output import show_profile
     from tumato_symbolic.policy.claim import load_claim
 
-    criteria = Criteria(options.effect_ordering, options.properties, options.prover, options.strict)
+    criteria = Criteria(
+        options.effect_ordering, options.restoration, options.properties, options.prover, options.strict
+    )
     jobs = wanted_jobs(options.jobs)
     if options.specs:
         context.tell(f"reading {options.policy}")
