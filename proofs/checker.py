@@ -1,20 +1,23 @@
 #!/usr/bin/env python3
 """Judge a policy against a specification by the explicit meaning. One file; nothing but Python (3.9 or newer).
 
-    python3 checker.py policy.json spec.tum [--effect-ordering any|first] [--strict]
+    python3 checker.py policy.json spec.tum [--strict]
+        [--effect-ordering any|first] [--restoration one_step|bounded|fair]
 
 It is written from docs/semantics.md, language.md, policy.md and certificate.md and shares no code with the package: a
 second opinion that can be read in one sitting. It looks at every valid state (of at most 2,000,000 states) and judges
-four properties of the policy, be it a table or a diagram:
+these properties of the policy, be it a table or a diagram:
 
-    total    every valid state has a decision
-    safe     every decision is allowed: Ok(s, A)
-    goals    every nominal run reaches the active goals within the bound
-    minimal  where safety is restored, no cheaper allowed set would do as well
+    total      every valid state has a decision
+    safe       every decision is allowed: Ok(s, A), or Keep(s, A) where safety may take several steps to restore
+    restoring  every unsafe state is restored; asked only where that may take several steps, or rules have severities
+    goals      every nominal run reaches the active goals within the bound
+    minimal    where safety is restored, no better allowed set would do as well
 
-Exit codes: 0 all hold; 1 one fails; 2 unreadable input, or a specification with errors; 3 too large to look at every
-state; 70 this program is broken. A certificate (ranks) is judged as well: one that is wrong, or stale (made for another
-specification), counts only with `--strict`; one that is absent or incomplete never does.
+Exit codes: 0 all hold; 1 one fails; 2 unreadable input, or a specification with errors; 3 no verdict (too large to look
+at every state, or a kind of claim that is not known); 70 this program is broken. A certificate (ranks, efforts) is
+judged as well: one that is wrong, or stale (made for another specification), counts only with `--strict`; one that is
+absent or incomplete never does.
 
 Not judged: whether the specification says what was meant.
 """
@@ -43,6 +46,8 @@ Formula = tuple[Any, ...]  # see section 2
 Located = tuple[Formula, int]  # a formula and the line on which it begins
 Effect = dict[int, str]  # an assignment: the new value by the position of its variable
 Residual = tuple[frozenset[Formula], ActionSet]  # goal bodies, and those of their actions that are executed first
+Required = tuple[int, ...]  # the numbers of the state rules that a step has to keep
+Effort = tuple[int, int]  # the duration and the number of steps of what it takes to restore safety
 
 LARGEST = 2_000_000  # so many states, sets or outcomes in one state, assignments of one set of effects are looked at
 
@@ -51,6 +56,8 @@ MOST_BYTES, MOST_FILE_BYTES, MOST_DIGITS, MOST_LEVELS = 500_000, 256 * 2**20, 18
 MOST_VARIABLES, MOST_VALUES, MOST_ACTIONS, LARGEST_NUMBER = 1_000, 10_000, 1_000, 1_000_000_000
 MOST_TERMS, MOST_TERMS_IN_ALL, MOST_OUTCOMES = 100_000, 1_000_000, 10_000
 
+RESTORATIONS = ("one_step", "bounded", "fair")  # each is weaker than the one before it
+
 
 class Unreadable(Exception):
     """Input that cannot be judged: exit code 2."""
@@ -58,6 +65,10 @@ class Unreadable(Exception):
 
 class TooLarge(Exception):
     """Input that would take too long: exit code 3."""
+
+
+class NotKnown(Exception):
+    """A kind of claim that cannot be judged here: exit code 3."""
 
 
 class Refuted(Exception):
@@ -162,6 +173,11 @@ class Specification:
     bound: int | None = None  # L; None: runs of any length
     ordering: str | None = None
     restoration: str | None = None  # None: one_step
+
+    def tiers(self) -> list[list[Located]]:
+        """The state rules by severity, the most severe first."""
+        numbered = list(enumerate(self.state_rules))
+        return [[rule for n, rule in numbered if self.severities[n] == each] for each in sorted(set(self.severities))]
 
 
 class Parser:
@@ -288,7 +304,7 @@ class Parser:
             self.spec.bound = self.number()
         elif setting == "restoration :":
             self.need(self.spec.restoration is None, "there is a `restoration` already")
-            self.spec.restoration = self.expect("one_step", "bounded", "fair")
+            self.spec.restoration = self.expect(*RESTORATIONS)
         else:
             self.need(self.spec.ordering is None, "there is an `effect_ordering` already")
             self.spec.ordering = self.expect("any", "first")
@@ -609,17 +625,26 @@ def truth(formula: Formula, state: State, executed: ActionSet, open_actions: Act
 
 
 # ----------------------------------------------------------------------------------------------------------------------
-# 4. States (docs/semantics.md, section 1), and what may be executed together (section 3).
+# 4. States (docs/semantics.md, section 1), and what may be executed together (sections 3, 9 and 10).
 
 
 class World:
-    """A specification under one effect ordering."""
+    """A specification under one effect ordering and one way to restore safety.
 
-    def __init__(self, spec: Specification, ordering: str) -> None:
+    A *tier* is the state rules of one severity. Decisions are *stepwise* where restoring may take more than one step:
+    several because it is said so, or one for each tier.
+    """
+
+    def __init__(self, spec: Specification, ordering: str, restoration: str = "one_step") -> None:
         self.spec = spec
         self.ordering = ordering
-        self.known: dict[State, bool] = {}  # whether a state is safe
-        self.answers: dict[tuple[State, ActionSet], bool] = {}  # of `stays_safe`
+        self.restoration = restoration
+        self.tiers = spec.tiers()
+        self.stepwise = restoration != "one_step" or len(self.tiers) > 1
+        self.all_rules: Required = tuple(range(len(spec.state_rules)))
+        self.known: dict[Required, dict[State, bool]] = {}  # of `meets`
+        self.levels: dict[State, int] = {}
+        self.answers: dict[tuple[State, ActionSet, Required], bool] = {}  # of `stays_within`
 
     @cached_property
     def valid(self) -> list[State]:
@@ -642,9 +667,40 @@ class World:
 
     def is_safe(self, state: State) -> bool:
         """Whether a state is valid and satisfies all state rules."""
-        if state not in self.known:
-            self.known[state] = self.is_valid(state) and self.broken(self.spec.state_rules, state) is None
-        return self.known[state]
+        return self.meets(self.all_rules, state)
+
+    def meets(self, required: Required, state: State) -> bool:
+        """Whether a state is valid and satisfies the state rules of these numbers."""
+        known = self.known.setdefault(required, {})
+        if state not in known:
+            rules = [self.spec.state_rules[number] for number in required]
+            known[state] = self.is_valid(state) and self.broken(rules, state) is None
+        return known[state]
+
+    def level(self, state: State) -> int:
+        """How many tiers, the most severe first, a state satisfies before the first that it does not."""
+        if state not in self.levels:
+            broken = (number for number, tier in enumerate(self.tiers) if self.broken(tier, state) is not None)
+            self.levels[state] = next(broken, len(self.tiers))
+        return self.levels[state]
+
+    def required(self, state: State) -> Required:
+        """The state rules that hold wherever a step from a valid state may lead.
+
+        Those of the tiers that the state satisfies and of the first that it does not; in several steps, of these only
+        such as hold in the state already. In a safe state that is all of them.
+        """
+        if not self.stepwise or self.is_safe(state):
+            return self.all_rules
+        mildest = sorted(set(self.spec.severities))[self.level(state)]
+        rules = [number for number in self.all_rules if self.spec.severities[number] <= mildest]
+        if self.restoration != "one_step":
+            rules = [number for number in rules if holds(self.spec.state_rules[number][0], state)]
+        return tuple(rules)
+
+    def restored(self, state: State, after: State) -> bool:
+        """Whether a state satisfies a tier more than an earlier one; with one tier, whether it is safe."""
+        return self.is_valid(after) and self.level(after) > self.level(state)
 
     def broken(self, rules: list[Located], state: State, executed: ActionSet = frozenset()) -> int | None:
         """The line of the first rule that does not hold."""
@@ -692,17 +748,23 @@ class World:
                     if self.ordering == "any":
                         waiting.append((after, rest, [*way, after]))
 
-    def stays_safe(self, state: State, chosen: ActionSet) -> bool:
-        """Whether every outcome is safe, of a set that is not empty. Answers are kept: orders have states in common."""
-        if (state, chosen) not in self.answers:
+    def next_states(self, state: State, chosen: ActionSet) -> set[State]:
+        """`Next(s, A)`: every state in which the next decision may be taken."""
+        return {self.successor(state, chosen), *(after for after, _ in self.outcomes(state, chosen))}
+
+    def stays_within(self, state: State, chosen: ActionSet, required: Required) -> bool:
+        """Whether every outcome keeps the rules, of a set that is not empty. Answers are kept: orders share states."""
+        asked = state, chosen, required
+        if asked not in self.answers:
             within_limit(len(self.answers), "outcomes of sets of actions")
             rests = {name: chosen - {name} if self.ordering == "any" else frozenset() for name in chosen}
             after = ((self.apply(state, effect), rests[name]) for name in chosen for effect in self.effects(name))
-            self.answers[state, chosen] = all(self.is_safe(there) and self.stays_safe(there, r) for there, r in after)
-        return self.answers[state, chosen]
+            kept = (self.meets(required, there) and self.stays_within(there, rest, required) for there, rest in after)
+            self.answers[asked] = all(kept)
+        return self.answers[asked]
 
     def objection(self, state: State, chosen: ActionSet) -> str | None:
-        """Why `Ok(s, A)` is false, or None where it is true: the six conditions of section 3, in their order."""
+        """Why `Ok(s, A)` (or `Keep(s, A)`) is false, or None where it is true: the conditions of section 3 in order."""
         if len(self.answers) > LARGEST // 2:
             self.answers.clear()
         actions = [self.spec.actions[name] for name in sorted(chosen)]
@@ -718,13 +780,15 @@ class World:
         line = self.broken(self.spec.reaction_rules, state, chosen)
         if line is not None:
             return f"a reaction rule is broken: {self.quote(line)}"
-        for after, way in self.outcomes(state, chosen) if not (chosen and self.stays_safe(state, chosen)) else ():
-            if not self.is_safe(after):
+        required = self.required(state)
+        within = bool(chosen) and self.stays_within(state, chosen, required)
+        for after, way in self.outcomes(state, chosen) if not within else ():
+            if not self.meets(required, after):
                 there = "; the effects lead to " + ", then ".join(map(self.show, way[1:])) if chosen else ""
-                return f"an outcome {self.fault(after)}{there}"
+                return f"an outcome {self.fault(required, after)}{there}"
         after = self.successor(state, chosen)
-        if not self.is_safe(after):
-            return f"the nominal successor {self.show(after)} {self.fault(after)}"
+        if not self.meets(required, after):
+            return f"the nominal successor {self.show(after)} {self.fault(required, after)}"
         return None
 
     def duration(self, chosen: ActionSet) -> int:
@@ -758,7 +822,7 @@ class World:
             and len(held) == len(set(held))
             and self.agree(chosen)
             and all(truth(rule, state, chosen, others) is not False for rule, _ in self.spec.reaction_rules)
-            and self.stays_safe(state, chosen)
+            and self.stays_within(state, chosen, self.required(state))
         )
 
     def steps(self, state: State) -> Iterator[tuple[ActionSet, State]]:
@@ -780,12 +844,13 @@ class World:
     def quote(self, line: int) -> str:
         return f"line {line}: `{self.spec.lines[line - 1].strip()}`"
 
-    def fault(self, state: State) -> str:
-        """What a state breaks that is not safe."""
+    def fault(self, required: Required, state: State) -> str:
+        """What a state breaks that does not meet what is required."""
         line = self.broken(self.spec.assumptions, state)
         if line is not None:
             return f"breaks the assumption at {self.quote(line)}"
-        return f"breaks the state rule at {self.quote(self.broken(self.spec.state_rules, state) or 0)}"
+        rules = [self.spec.state_rules[number] for number in required]
+        return f"breaks the state rule at {self.quote(self.broken(rules, state) or 0)}"
 
     # Goals (docs/semantics.md, section 4).
 
@@ -812,16 +877,16 @@ class World:
         bodies = self.active_goals(state)
         return bodies, actions_in(bodies) & chosen
 
+    def reached(self, goal: Residual, state: State) -> bool:
+        """Whether every body of a residual goal holds; where decisions are stepwise, in a safe state."""
+        bodies, executed = goal
+        counts = not self.stepwise or self.is_safe(state)
+        return counts and all(holds(body, state, executed) for body in bodies)
+
 
 def actions_in(bodies: Iterable[Formula]) -> ActionSet:
     """The actions that goal bodies speak of."""
     return frozenset(atom[1] for body in bodies for atom in atoms(body) if atom[0] == "executing")
-
-
-def reached(goal: Residual, state: State) -> bool:
-    """Whether every body of a residual goal holds."""
-    bodies, executed = goal
-    return all(holds(body, state, executed) for body in bodies)
 
 
 # ----------------------------------------------------------------------------------------------------------------------
@@ -833,7 +898,6 @@ class Policy:
     """What is decided in a state, if anything; `States` and `Certificate` are needed again for the ranks."""
 
     decide: Callable[[State], ActionSet | None]
-    ordering: str | None
     document: dict[str, Any]
 
 
@@ -863,9 +927,9 @@ def read_policy(document: dict[str, Any], spec: Specification) -> Policy:
     read_header(document, spec)
     if document.get("Type") == "policy-diagram":
         need("Policy" not in document, "a policy of type `policy-diagram` has no `Policy`")
-        return Policy(read_diagram_policy(document, spec), document.get("EffectOrdering"), document)
+        return Policy(read_diagram_policy(document, spec), document)
     need(document.get("Type") == "policy" and "Diagram" not in document, "the policy is not of type `policy`")
-    return Policy(read_table(document, spec).get, document.get("EffectOrdering"), document)
+    return Policy(read_table(document, spec).get, document)
 
 
 def read_header(document: dict[str, Any], spec: Specification) -> None:
@@ -875,6 +939,7 @@ def read_header(document: dict[str, Any], spec: Specification) -> None:
     for key in ("PolicyFrameworkVersion", "SpecificationDigest"):
         need(is_texts([document.get(key, "")]), f"`{key}` is a text")
     need(document.get("EffectOrdering", "any") in ("any", "first"), "`EffectOrdering` is `any` or `first`")
+    need(document.setdefault("Restoration", "one_step") in RESTORATIONS, "`Restoration` is one_step, bounded or fair")
     actions: Any = document.get("Actions")
     need(is_names(actions), "`Actions` is a list of different names")
     need(set(actions) == set(spec.actions), "the actions of the file are not those of the specification")
@@ -1018,7 +1083,75 @@ def is_number(value: Any) -> bool:
 
 
 # ----------------------------------------------------------------------------------------------------------------------
-# 6. The judgement (docs/semantics.md, section 5).
+# 6. The judgement (docs/semantics.md, sections 5, 9 and 10).
+
+
+class Restoring:
+    """How a policy restores the unsafe states that it decides. `worst` is `w`, without the states where it is infinite.
+
+    `open` are the states after a decision that are not restored yet: where all of them have an effort, so has it.
+    """
+
+    def __init__(self, world: World, decided: dict[State, ActionSet]) -> None:
+        self.world, self.decided = world, decided
+        unsafe = [(state, chosen) for state, chosen in decided.items() if not world.is_safe(state)]
+        self.open = {state: self.open_after(state, chosen) for state, chosen in unsafe if world.agree(chosen)}
+        self.worst: dict[State, Effort] = {}
+        left = {state: len(after) for state, after in self.open.items()}
+        before: dict[State, list[State]] = {}
+        for state, after in self.open.items():
+            for each in after:
+                before.setdefault(each, []).append(state)
+        ready = [state for state, count in left.items() if not count]
+        for state in ready:
+            self.worst[state] = self.worst_of(decided[state], self.open[state])
+            for earlier in before.get(state, ()):
+                left[earlier] -= 1
+                if not left[earlier]:
+                    ready.append(earlier)
+
+    def open_after(self, state: State, chosen: ActionSet) -> set[State]:
+        """Those of `Next(s, A)` where the state is not restored yet."""
+        return {after for after in self.world.next_states(state, chosen) if not self.world.restored(state, after)}
+
+    def longer(self, chosen: ActionSet, effort: Effort) -> Effort:
+        """One step more."""
+        return effort[0] + self.world.duration(chosen), effort[1] + 1
+
+    def worst_of(self, chosen: ActionSet, after: set[State]) -> Effort:
+        """`w` of a set after which these states, which all have an effort, are not restored yet."""
+        return self.longer(chosen, max((self.worst[each] for each in after), default=(0, 0)))
+
+    def quality(self, state: State, chosen: ActionSet) -> tuple[int, Effort] | None:
+        """How well a set restores, the smaller the better: in one step 0, whatever happens 1, nominally (fair) 2."""
+        after = self.open_after(state, chosen)
+        if after <= self.worst.keys():
+            return (1 if after else 0), self.worst_of(chosen, after)
+        nominal = self.nominal(state, chosen) if self.world.restoration == "fair" else None
+        return None if nominal is None else (2, nominal)
+
+    def nominal(self, state: State, chosen: ActionSet) -> Effort | None:
+        """The effort of the nominal run until the state is restored, with this set in it; None: it never is."""
+        effort, here, seen = (0, 0), state, set[State]()
+        following: ActionSet | None = chosen
+        while following is not None and self.world.agree(following) and here not in seen:
+            seen.add(here)
+            effort, here = self.longer(following, effort), self.world.successor(here, following)
+            if self.world.restored(state, here):
+                return effort
+            following = self.decided.get(here)
+        return None
+
+    def endless(self, state: State) -> list[State]:
+        """States one after another that are never restored: nominal ones where that is what has to end (fair)."""
+        way = [state]
+        while way[-1] in self.open and way[-1] not in way[:-1]:
+            here = way[-1]
+            after = self.open[here] - self.worst.keys()
+            way.append(
+                self.world.successor(here, self.decided[here]) if self.world.restoration == "fair" else min(after)
+            )
+        return way
 
 
 class Judge:
@@ -1034,6 +1167,7 @@ class Judge:
         agreeing = {state: chosen for state, chosen in self.decided.items() if world.agree(chosen)}
         self.after = {state: world.successor(state, chosen) for state, chosen in agreeing.items()}
         self.steps: dict[Residual, dict[State, int | None]] = {}
+        self.rivals_of: dict[State, list[ActionSet]] = {}
         self.missing = [state for state in world.valid if state not in self.decided]
 
     def departure(self) -> tuple[State, State] | None:
@@ -1051,17 +1185,30 @@ class Judge:
 
     def verdicts(self) -> dict[str, tuple[list[State], Callable[[State], str]]]:
         """For each property the states in which it fails, and the function that tells why in one of them."""
+        found = {"total": (self.missing, self.undecided), "safe": (list(self.objections), self.refused)}
+        if self.world.stepwise:
+            found["restoring"] = [state for state in self.restoring.open if self.quality(state) is None], self.endless
         return {
-            "total": (self.missing, self.undecided),
-            "safe": (list(self.objections), self.refused),
+            **found,
             "goals": ([state for state in self.allowed if not self.serves(state, self.decided[state])], self.missed),
             "minimal": ([state for state in self.decided if self.cheaper(state) is not None], self.dearer),
         }
 
+    @cached_property
+    def restoring(self) -> Restoring:
+        """How the policy restores."""
+        return Restoring(self.world, self.decided)
+
+    def quality(self, state: State) -> tuple[int, Effort] | None:
+        """How well the policy restores an unsafe state that it decides."""
+        return self.restoring.quality(state, self.decided[state]) if state in self.after else None
+
     def cheaper(self, state: State) -> ActionSet | None:
-        """For an unsafe state a cheaper allowed set that serves as well, if there is one."""
+        """For an unsafe state a cheaper (stepwise: better) allowed set that serves as well, if there is one."""
         if self.world.is_safe(state):
             return None
+        if self.world.stepwise:
+            return next((chosen for chosen in self.rivals(state) if not self.losers(state, chosen)), None)
         sets = self.world.allowed_sets(state, self.world.duration(self.decided[state]))
         return next((chosen for chosen in sets if self.serves(state, chosen)), None)
 
@@ -1076,7 +1223,7 @@ class Judge:
         way: list[State] = []
         here: State | None = state
         while here is not None and here not in known:
-            if reached(goal, here):
+            if self.world.reached(goal, here):
                 known[here] = 0
             else:
                 known[here] = None  # and it stays so where the run comes back here
@@ -1088,7 +1235,56 @@ class Judge:
             known[earlier] = left
         return known[state]
 
+    # Where decisions are stepwise, unsafe states serve each other: a better set may take another one's goal.
+
+    def rivals(self, state: State) -> list[ActionSet]:
+        """The allowed sets that restore an unsafe state better than its decision, and with which its run serves it."""
+        if state not in self.rivals_of:
+            now = self.quality(state)
+            below = self.world.duration(self.decided[state]) if now is not None and now[0] == 0 else math.inf
+            found = self.rivals_of[state] = []
+            for chosen in self.world.allowed_sets(state, below):
+                quality = self.restoring.quality(state, chosen)
+                better = quality is not None and (now is None or quality < now)
+                if better and self.run(state, chosen, {state: chosen}) is not None:
+                    found.append(chosen)
+        return self.rivals_of[state]
+
+    def losers(self, state: State, chosen: ActionSet) -> list[State]:
+        """The other states whose runs reach their goals by the policy, and not with this set in an unsafe state."""
+        changed = {state: chosen}
+        return [each for each in self.passing.get(state, ()) if self.run(each, self.decided[each], changed) is None]
+
+    @cached_property
+    def passing(self) -> dict[State, list[State]]:
+        """For an unsafe state the others whose runs pass through it and then reach their goals."""
+        found: dict[State, list[State]] = {}
+        for start in self.after:
+            for here in self.run(start, self.decided[start], {}) or ():
+                if here != start and not self.world.is_safe(here):
+                    found.setdefault(here, []).append(start)
+        return found
+
+    def run(self, start: State, first: ActionSet, changed: dict[State, ActionSet]) -> list[State] | None:
+        """The states after `start` and before the goal, of the run that begins with a set; None: it fails.
+
+        It goes on with the policy, but for what is changed.
+        """
+        goal, way, seen = self.world.residual_goal(start, first), list[State](), set[State]()
+        here: State | None = self.world.successor(start, first)
+        while here is not None and not self.world.reached(goal, here):
+            way.append(here)
+            if here in seen or len(way) == self.world.spec.bound:
+                return None
+            seen.add(here)
+            here = self.world.successor(here, changed[here]) if here in changed else self.after.get(here)
+        return None if here is None else way
+
     # Witnesses in words.
+
+    def endless(self, state: State) -> str:
+        way = ", then ".join(map(self.world.show, self.restoring.endless(state)[1:]))
+        return f"{self.decision(state)}: it need never be restored; it may lead to {way}"
 
     def decision(self, state: State) -> str:
         return f"in {self.world.show(state)} the decision is {self.world.show_set(self.decided[state])}"
@@ -1110,7 +1306,7 @@ class Judge:
     def missed(self, state: State) -> str:
         goal = self.world.residual_goal(state, self.decided[state])
         way, here = [state], self.after.get(state)
-        while here is not None and here not in way[1:] and not reached(goal, here):
+        while here is not None and here not in way[1:] and not self.world.reached(goal, here):
             way.append(here)
             here = self.after.get(here)
         if here is None:
@@ -1141,6 +1337,7 @@ def text_of(formula: Formula, spec: Specification) -> str:
 # 7. The certificate (docs/certificate.md, docs/policy.md): for every residual goal a diagram with the ranks of the safe
 #    states. It is wrong when a rank is 0 where the goal does not hold, is otherwise not larger than that of the
 #    successor, or is not below L in the first successor of a state that owes the goal; incomplete where ranks miss.
+#    With a section `Restoring`, the ranks are those of all valid states, and the efforts have to be right.
 
 
 def judge_certificate(judge: Judge, document: dict[str, Any]) -> tuple[str, str]:
@@ -1150,11 +1347,13 @@ def judge_certificate(judge: Judge, document: dict[str, Any]) -> tuple[str, str]
     if document.get("SpecificationDigest") != digest(judge.world.spec):
         return "stale", "it was made for another specification, or says for none"
     try:
+        restoring = read_restoring(judge.world, document)
         ranks = read_ranks(judge.world, document)
         for goal, rank in ranks.items():
             for state, own in rank.items():
                 check_rank(judge, goal, rank, state, own)
         missing = [check_bound(judge, state, ranks) for state in judge.allowed]
+        missing.append(check_restoring(judge, restoring) if judge.world.stepwise else "")
     except (Unreadable, Refuted) as problem:
         return "wrong", str(problem)
     first = next((why for why in missing if why), "")
@@ -1162,7 +1361,7 @@ def judge_certificate(judge: Judge, document: dict[str, Any]) -> tuple[str, str]
 
 
 def read_ranks(world: World, document: dict[str, Any]) -> dict[Residual, dict[State, int | None]]:
-    """The ranks of all safe states, by residual goal."""
+    """The ranks of all safe states, by residual goal; of all valid ones where it is said how they are restored."""
     section = document["Certificate"]
     diagram = Diagram(section, document["States"], world.spec)
     need(diagram.is_of_numbers(), "`Leaves` are not different numbers")
@@ -1173,7 +1372,8 @@ def read_ranks(world: World, document: dict[str, Any]) -> dict[Residual, dict[St
         need(goal[1] == set(entry["Executed"]), "`Executed` has an action of which the goal does not speak")
         need(goal not in ranks, f"it ranks {entry['Bodies']} twice")
         root = diagram.reference(entry.get("Root"))
-        ranks[goal] = {state: diagram.value(root, state) for state in world.safe}
+        ranked = world.valid if world.stepwise and "Restoring" in section else world.safe
+        ranks[goal] = {state: diagram.value(root, state) for state in ranked}
     return ranks
 
 
@@ -1207,10 +1407,76 @@ def check_bound(judge: Judge, state: State, ranks: dict[Residual, dict[State, in
 def check_rank(judge: Judge, goal: Residual, rank: dict[State, Any], state: State, own: int | None) -> None:
     """One rank: 0 where the goal holds, otherwise larger than that of the successor; None claims nothing."""
     if own == 0:
-        need(reached(goal, state), f"the rank of {judge.world.show(state)} is 0, but the goal does not hold there")
+        need(
+            judge.world.reached(goal, state),
+            f"the rank of {judge.world.show(state)} is 0, but the goal does not hold there",
+        )
     elif own is not None:
         following = rank.get(judge.after.get(state, ()))  # an unsafe successor has no rank
         need(following is not None and following < own, f"the rank {own} of {judge.world.show(state)} does not fall")
+
+
+@dataclass
+class Restorings:
+    """The section `Restoring`: the claimed efforts, and why some states are not restored better."""
+
+    diagram: Diagram
+    worst: int
+    nominal: int
+    deviations: list[tuple[State, ActionSet, State]]  # a state, a better set, and whose run would miss its goal
+
+    def effort(self, root: int, state: State) -> Effort | None:
+        """The claimed effort of a state."""
+        leaf = self.diagram.value(root, state)
+        return None if leaf is None else (leaf[0], leaf[1])
+
+
+def read_restoring(world: World, document: dict[str, Any]) -> Restorings | None:
+    """The section `Restoring` where there is one; what is wrong in its form counts under every restoration."""
+    need(isinstance(document["Certificate"], dict), "`Certificate` is an object")
+    section: Any = document["Certificate"].get("Restoring")
+    if "Restoring" not in document["Certificate"]:
+        return None
+    diagram = Diagram(section, document["States"], world.spec)
+    pairs = [leaf for leaf in diagram.leaves if leaf is not None]
+    fits = all(isinstance(leaf, list) and len(leaf) == 2 and all(map(is_number, leaf)) for leaf in pairs)
+    need(fits and len(set(map(str, diagram.leaves))) == len(diagram.leaves), "`Leaves` are not different efforts")
+    deviations = [
+        (
+            read_state(entry, "State", world.spec),
+            read_actions(entry, "Better", world.spec),
+            read_state(entry, "Missed", world.spec),
+        )
+        for entry in read_objects(section, "Deviations")
+    ]
+    worst, nominal = (diagram.reference(section.get(root)) for root in ("Worst", "Nominal"))
+    return Restorings(diagram, worst, nominal, deviations)
+
+
+def check_restoring(judge: Judge, claimed: Restorings | None) -> str:
+    """Refuse an effort that is not that of the policy, and a deviation that is none; tell what is missing."""
+    if claimed is None:
+        return "it does not say how safety is restored"
+    world, true = judge.world, judge.restoring
+    unsafe = [state for state in judge.decided if not world.is_safe(state)]
+    for state in unsafe:
+        worst = true.worst.get(state)
+        claim = claimed.effort(claimed.worst, state)
+        need(claim == worst, f"the worst effort of {world.show(state)} is {worst}, not {claim}")
+        if worst is None and world.restoration == "fair":
+            nominal, claim = true.nominal(state, judge.decided[state]), claimed.effort(claimed.nominal, state)
+            need(claim == nominal, f"the nominal effort of {world.show(state)} is {nominal}, not {claim}")
+    for state, better, missed in claimed.deviations:
+        need(
+            state in unsafe, f"{world.show(state)} is listed as a deviation, and is not an unsafe state that is decided"
+        )
+        shown = f"{world.show_set(better)} in {world.show(state)}"
+        need(better in judge.rivals(state), f"{shown} is not better, or does not serve the state itself")
+        need(missed in judge.losers(state, better), f"with {shown}, {world.show(missed)} does not lose its goal")
+    listed = {(state, better) for state, better, _ in claimed.deviations}
+    others = ((state, better) for state in unsafe for better in judge.rivals(state) if (state, better) not in listed)
+    found = next(others, None)
+    return "" if found is None else f"{world.show_set(found[1])} in {world.show(found[0])} is better, and is not listed"
 
 
 def bodies_of(goal: Goal | None) -> set[Formula]:
@@ -1232,6 +1498,8 @@ def digest(spec: Specification) -> str:
         "goals": meaning_of_goal(spec, spec.goals) if spec.goals is not None and spec.goals.members else None,
         "max_plan_length": spec.bound,
     }
+    if len(spec.tiers()) > 1:
+        meaning["severities"] = [texts_of(spec, tier) for tier in spec.tiers()]
     text = json.dumps(meaning, sort_keys=True, separators=(",", ":"))
     return "sha256:" + hashlib.sha256(text.encode()).hexdigest()
 
@@ -1279,8 +1547,16 @@ def judge_no(world: World, document: dict[str, Any]) -> str:
         return check_no_allowed_set(world, reason)
     if kind == "no-plan":
         return check_no_plan(world, reason, document["States"])
-    need(kind == "conflict", "`Kind` is `no-allowed-set`, `no-plan` or `conflict`")
+    if kind == "no-restoration":
+        raise NotKnown("certificates that safety is never restored are not known yet")
+    need(kind == "conflict", "`Kind` is `no-allowed-set`, `no-restoration`, `no-plan` or `conflict`")
     return check_conflict(world, reason, document["States"])
+
+
+def check_in_safe_states(world: World, states: Iterable[State], kind: str) -> None:
+    """Runs from safe states stay in safe ones, so nothing of unsafe ones is needed; of others, too much is claimed."""
+    if world.stepwise and not all(map(world.is_safe, states)):
+        raise NotKnown(f"a certificate `{kind}` of unsafe states, where decisions are stepwise, is not known yet")
 
 
 def check_decides(world: World, state: State) -> None:
@@ -1434,10 +1710,12 @@ def unviolated(world: World, state: State, cube: Cube) -> str:
     if cube.kind == "unsafe":
         return safe_outcome(world, state, cube)
     if cube.kind == "idle":
-        return "" if settled and not cube.executed and not world.is_safe(state) else "doing nothing may be allowed"
+        idle = settled and not cube.executed
+        return "" if idle and not world.meets(world.required(state), state) else "doing nothing may be allowed"
     if not settled or not world.agree(cube.executed):
         return "there is not one nominal successor"
-    return "" if not world.is_safe(world.successor(state, cube.executed)) else "the nominal successor is safe"
+    kept = world.meets(world.required(state), world.successor(state, cube.executed))
+    return "the nominal successor is safe" if kept else ""
 
 
 def kept_rule(world: World, state: State, cube: Cube) -> str:
@@ -1460,8 +1738,8 @@ def kept_rule(world: World, state: State, cube: Cube) -> str:
 
 
 def safe_outcome(world: World, state: State, cube: Cube) -> str:
-    """Why the effects of an `Outcome` do not lead to a state that is not safe, or cannot happen in all sets."""
-    names = [name for name, _ in cube.outcome]
+    """Why the effects of an `Outcome` break no rule that has to be kept, or cannot happen in all sets."""
+    names, required = [name for name, _ in cube.outcome], world.required(state)
     if not names or len(set(names)) < len(names) or not cube.executed.issuperset(names):
         return "its effects are not those of different actions that all sets execute"
     if world.ordering == "first" and len(names) > 1:
@@ -1470,7 +1748,7 @@ def safe_outcome(world: World, state: State, cube: Cube) -> str:
         if effect not in world.effects(name):
             return f"`{name}` does not have the effect"
         state = world.apply(state, effect)
-    return "" if not world.is_safe(state) else f"{world.show(state)} is safe"
+    return f"{world.show(state)} is safe" if world.meets(required, state) else ""
 
 
 # No plan: whatever residual goal `State` can owe, the layers R_1, …, R_n hold all runs of allowed steps that owe it
@@ -1490,6 +1768,7 @@ def check_no_plan(world: World, reason: dict[str, Any], states: Numbered) -> str
         need(layers != [], "there is a goal without layers")
         goals.append((read_goal(entry, world.spec), layers))
     check_decides(world, start)
+    check_in_safe_states(world, [start], "no-plan")
     check_first_steps(world, start, diagram, goals)
     for state in world.safe:
         check_layers(world, state, diagram, goals)
@@ -1516,7 +1795,7 @@ def check_layers(world: World, state: State, diagram: Diagram, goals: list[Layer
     held: list[tuple[Residual, int, list[int]]] = []
     for goal, layers in goals:
         number = next((place for place, root in enumerate(layers, 1) if diagram.value(root, state)), 0)
-        if number and reached(goal, state):
+        if number and world.reached(goal, state):
             raise Refuted(f"the state {world.show(state)} of layer {number} meets {goal_text(world, goal)}")
         bound = world.spec.bound
         if number and (number < len(layers) or bound is None or number < bound):
@@ -1587,6 +1866,7 @@ def check_conflict(world: World, reason: dict[str, Any], states: Numbered) -> st
     conflict = Conflict(world, reason, states)
     for state, _ in conflict.choices:
         check_decides(world, state)
+    check_in_safe_states(world, [state for state, _ in conflict.choices], "conflict")
     for state, options in conflict.choices:
         check_options(world, conflict, state, options)
     clauses = [clause_of(world, conflict, number) for number in range(len(conflict.cuts))]
@@ -1609,7 +1889,7 @@ def check_options(world: World, conflict: Conflict, state: State, options: list[
 def check_distances(world: World, conflict: Conflict, state: State) -> None:
     """The distance is 0 where a goal is met, and no step makes it smaller by more than one."""
     for goal, members in conflict.members.items():
-        met = next((each for each in members if reached(each, state)), None)
+        met = next((each for each in members if world.reached(each, state)), None)
         if met is not None and conflict.distance(goal, state) != 0:
             raise Refuted(f"{world.show(state)} meets {goal_text(world, met)}, and its distance is not 0")
     for chosen, after in world.steps(state):
@@ -1735,6 +2015,7 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("policy")
     parser.add_argument("spec")
     parser.add_argument("--effect-ordering", choices=("any", "first"))
+    parser.add_argument("--restoration", choices=RESTORATIONS)
     parser.add_argument("--strict", action="store_true", help="a wrong or stale certificate makes the verdict no")
     options = parser.parse_args(argv)
     recursion_limit = sys.getrecursionlimit()
@@ -1744,7 +2025,7 @@ def main(argv: list[str] | None = None) -> int:
     except (Unreadable, OSError, UnicodeDecodeError, RecursionError) as problem:
         print(f"cannot be judged: {problem}", file=sys.stderr)
         return 2
-    except TooLarge as problem:
+    except (TooLarge, NotKnown) as problem:
         print(f"no verdict: {problem}", file=sys.stderr)
         return 3
     finally:
@@ -1754,8 +2035,6 @@ def main(argv: list[str] | None = None) -> int:
 def judge_files(options: argparse.Namespace) -> int:
     """Read, judge, report."""
     spec = read_specification(Path(options.spec).read_bytes())
-    several = (spec.restoration or "one_step") != "one_step" or len(set(spec.severities)) > 1
-    need(not several, "`restoration` other than one_step, and more than one severity, are not supported yet")
     document = read_document(Path(options.policy).read_bytes())
     if document.get("Type") == "unrealizable":
         return judge_certificate_of_no(spec, document, options)
@@ -1763,15 +2042,20 @@ def judge_files(options: argparse.Namespace) -> int:
 
 
 def judge_policy(spec: Specification, policy: Policy, options: argparse.Namespace) -> int:
-    """The ordering is the command line's, else the specification's, else `any`."""
+    """Ordering and restoration are the command line's, else the specification's, else `any` and `one_step`."""
     ordering = options.effect_ordering or spec.ordering or "any"
-    world = World(spec, ordering)
+    restoration = options.restoration or spec.restoration or "one_step"
+    world = World(spec, ordering, restoration)
     judge = Judge(world, policy.decide)
     valid, unsafe = counted(len(world.valid), "valid state"), len(world.valid) - len(world.safe)
-    print(f"{valid}: {len(world.safe)} safe, {unsafe} unsafe; effect ordering {ordering}")
+    print(f"{valid}: {len(world.safe)} safe, {unsafe} unsafe; {shown_settings(world)}")
     right = True
-    if options.effect_ordering is None and policy.ordering == "first" and ordering == "any":
+    if options.effect_ordering is None and policy.document.get("EffectOrdering") == "first" and ordering == "any":
         print("ordering FAILS: the policy was made for `first`, but the specification means `any`")
+        right = False
+    made_for = policy.document["Restoration"]
+    if options.restoration is None and weaker(made_for, restoration):
+        print(f"restoration FAILS: the policy was made for `{made_for}`, but the specification means `{restoration}`")
         right = False
     for name, (states, reason) in judge.verdicts().items():
         print(f"{name:8} " + (f"FAILS in {counted(len(states), 'state')}: {reason(states[0])}" if states else "holds"))
@@ -1783,18 +2067,38 @@ def judge_policy(spec: Specification, policy: Policy, options: argparse.Namespac
     return 0 if right else 1
 
 
+def weaker(restoration: str, other: str) -> bool:
+    """Whether a way to restore safety asks for less than another one."""
+    return RESTORATIONS.index(restoration) > RESTORATIONS.index(other)
+
+
+def shown_settings(world: World) -> str:
+    """The ordering, and the restoration where it is not `one_step`."""
+    restoration = "" if world.restoration == "one_step" else f"; restoration {world.restoration}"
+    return f"effect ordering {world.ordering}{restoration}"
+
+
 def judge_certificate_of_no(spec: Specification, document: dict[str, Any], options: argparse.Namespace) -> int:
-    """The ordering is the command line's, else the certificate's; `any` proves nothing where `first` is written."""
+    """Ordering and restoration are the command line's, else the certificate's.
+
+    `any` proves nothing where `first` is written, and a restoration nothing where a weaker one is meant.
+    """
     read_header(document, spec)
     need({"SpecificationDigest", "EffectOrdering"} <= set(document), "the digest or the ordering is missing")
     ordering = options.effect_ordering or document["EffectOrdering"]
-    print(f"effect ordering {ordering}")
+    restoration, meant = options.restoration or document["Restoration"], spec.restoration or "one_step"
+    world = World(spec, ordering, restoration)
+    print(shown_settings(world))
     shown = why = ""
     if options.effect_ordering is None and (ordering, spec.ordering) == ("any", "first"):
         why = "it speaks of `any`, but the specification writes `first`, under which more sets are allowed"
+    elif options.restoration is None and weaker(meant, restoration):
+        why = (
+            f"it speaks of `{restoration}`, but the specification means `{meant}`, under which more policies are right"
+        )
     else:
         try:
-            shown = judge_no(World(spec, ordering), document)
+            shown = judge_no(world, document)
         except Refuted as problem:
             why = str(problem)
     print(f"unrealizable FAILS: {why}" if why else f"unrealizable holds: {shown}")

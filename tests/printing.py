@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from random import Random
 
 from tumato_symbolic.spec import (
@@ -95,7 +95,7 @@ def print_spec(spec: Spec, random: Random, alias_probability: float = 0.0) -> st
         _block("RESOURCES", [f"  resource {name}" for name in spec.resources]) if spec.resources else [],
         _block("ACTIONS", [line for action in spec.actions for line in _action(spec, action, text, names)]),
         _block("REACTION RULES", [f"  rule: {text(rule.formula)}" for rule in spec.reaction_rules]),
-        _block("STATE RULES", [f"  rule: {text(rule.formula)}" for rule in spec.state_rules]),
+        _block("STATE RULES", list(_state_rules(spec, text))),
         _block("ASSUMPTIONS", [f"  assume: {text(rule.formula)}" for rule in spec.assumptions]),
         _goal_list(spec, spec.goals, text, "") if spec.goals is not None else [],
         _config(spec),
@@ -105,6 +105,15 @@ def print_spec(spec: Spec, random: Random, alias_probability: float = 0.0) -> st
 
 def _block(title: str, lines: list[str]) -> list[str]:
     return [f"BEGIN {title}", *lines, f"END {title}"]
+
+
+def _state_rules(spec: Spec, text: Callable[[Formula], str]) -> Iterator[str]:
+    severity = 1
+    for rule in spec.state_rules:
+        if rule.severity != severity:
+            severity = rule.severity
+            yield f"  severity: {severity}"
+        yield f"  rule: {text(rule.formula)}"
 
 
 def _action(spec: Spec, action: Action, text: Callable[[Formula], str], names: Names) -> list[str]:
@@ -141,4 +150,6 @@ def _config(spec: Spec) -> list[str]:
         lines.append(f"  max_plan_length: {spec.max_plan_length}")
     if spec.effect_ordering is not None:
         lines.append(f"  effect_ordering: {spec.effect_ordering}")
+    if spec.restoration != "one_step":
+        lines.append(f"  restoration: {spec.restoration}")
     return _block("CONFIG", lines) if lines else []

@@ -44,6 +44,7 @@ def failing(judgement: Judgement) -> dict[str, int]:
     counts = {
         "total": len(judgement.missing),
         "safe": len(judgement.not_allowed),
+        "restoring": len(judgement.not_restored),
         "goals": len(judgement.goal_missed),
         "minimal": len(judgement.not_minimal),
     }

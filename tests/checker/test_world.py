@@ -64,7 +64,7 @@ def test_allowed_sets(ordering: Ordering) -> None:
                     ends = {named(spec, end) for end in literal.outcomes(spec, state, chosen, ordering)}
                     assert {end for end, _ in own.outcomes(named(spec, state), each)} == ends
                     inside = [named(spec, end) for end in literal.states(spec) if literal.safe(spec, end)]
-                    assert own.stays_safe(named(spec, state), each) == (ends <= set(inside))
+                    assert own.stays_within(named(spec, state), each, own.all_rules) == (ends <= set(inside))
 
 
 def test_what_grows_no_further() -> None:
@@ -85,7 +85,7 @@ def test_what_grows_no_further() -> None:
                 for rule, _ in own.spec.reaction_rules
             )
             kinds = set(literal.broken(spec, state, chosen, "any")) & {"resource", "nominal-conflict"}
-            fine = not kinds and not hopeless and (not each or own.stays_safe(here, each))
+            fine = not kinds and not hopeless and (not each or own.stays_within(here, each, own.required(here)))
             takes = duration(spec, chosen)
             assert own.may_grow(here, each, others, takes + 1) == fine
             assert not own.may_grow(here, each, others, takes)

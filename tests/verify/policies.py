@@ -100,15 +100,19 @@ def dressed(spec: Spec, rows: Rows, random: Random) -> Policy:
 
 
 def exact_ranks(spec: Spec, rows: Rows, ordering: Ordering) -> Ranks:
-    """The ranks of the safe states, for every residual goal of the policy and of the allowed sets of unsafe states."""
+    """The ranks of the safe states, for every residual goal of the policy and of the allowed sets of unsafe states.
+
+    Where safety may take several steps to restore, those of all valid states.
+    """
     valid = [state for state in all_states(spec) if is_valid(spec, state)]
     goals = {residual_goal(spec, state, rows[state]): None for state in valid if state in rows}
     for state in valid:
         if not is_safe(spec, state):
             goals.update((residual_goal(spec, state, chosen), None) for chosen in allowed_sets(spec, state, ordering))
-    safe = [state for state in valid if is_safe(spec, state)]
+    ranked = [state for state in valid if spec.restores_stepwise or is_safe(spec, state)]
     return {
-        goal: {state: rank for state in safe if (rank := _rank(spec, rows, goal, state)) is not None} for goal in goals
+        goal: {state: rank for state in ranked if (rank := _rank(spec, rows, goal, state)) is not None}
+        for goal in goals
     }
 
 

@@ -1,0 +1,260 @@
+"""Restoring in several steps, and by severity, by the stand-alone checker: known answers, files, digests."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from random import Random
+from typing import Any
+
+import pytest
+
+from tests.checker.refusals import assert_proved, assert_refuted, certificate, spec_text
+from tests.checker.standalone import Answer, ask, checker
+from tests.checker.stepwise import claiming, stepwise_spec, true_claims
+from tests.printing import print_spec
+from tests.semantics.test_restoration import EDGE, RETRY, VALVES
+from tumato_symbolic import parse
+from tumato_symbolic.policy import dumps, policy_from_rows
+from tumato_symbolic.semantics import NOTHING
+from tumato_symbolic.spec import Spec, digest
+
+OVERRIDE = """
+BEGIN STATE VECTOR state P can be s, t, x, y END STATE VECTOR
+BEGIN RESOURCES resource R END RESOURCES
+BEGIN ACTIONS
+action to_t duration: 1 controlled resources: R preconditions: P is s nominal effects: P is t
+action to_x duration: 1 controlled resources: R preconditions: P is t nominal effects: P is x
+action to_y duration: 2 controlled resources: R preconditions: P is t nominal effects: P is y
+END ACTIONS
+BEGIN STATE RULES rule: P is x OR P is y END STATE RULES
+BEGIN GOALS goal type: priority when P is s then goal: P is y END GOALS
+BEGIN CONFIG restoration: bounded END CONFIG
+"""
+TO_T, TO_X, TO_Y = (frozenset((number,)) for number in range(3))
+TO_EACH = {(0,): TO_T, (1,): TO_Y, (2,): NOTHING, (3,): NOTHING}
+CLOSE_A, CLOSE_B = frozenset((0,)), frozenset((1,))
+SINGLY = {(0, 0): CLOSE_A, (0, 1): CLOSE_A, (1, 0): CLOSE_B, (1, 1): NOTHING}
+
+
+def with_truth(text: str, rows: Any) -> str:
+    """A policy with all that is true of it."""
+    spec = parse(text)
+    return dumps(claiming(spec, rows, true_claims(spec, rows, "any"), "any"))
+
+
+def verdict(answer: Answer, name: str) -> str:
+    """The line about a property, or about something else."""
+    return next(line for line in answer.out.splitlines() if line.startswith(name))
+
+
+def test_a_state_that_is_restored_worse_for_another_one(tmp_path: Path) -> None:
+    """(t) goes to y for the sake of (s); the set that would be better is the one deviation."""
+    policy = with_truth(OVERRIDE, TO_EACH)
+    assert json.loads(policy)["Certificate"]["Restoring"]["Deviations"] == [
+        {"State": {"P": "t"}, "Better": ["to_x"], "Missed": {"P": "s"}}
+    ]
+    answer = ask(tmp_path, policy, OVERRIDE, "--strict")
+    assert (answer.code, verdict(answer, "certificate")) == (0, "certificate: right"), answer
+    assert "; restoration bounded\n" in answer.out
+    answer = ask(tmp_path, with_truth(OVERRIDE, {**TO_EACH, (1,): TO_X}), OVERRIDE)
+    assert answer.failing == {"goals": 1}
+    free = OVERRIDE.replace("goal: P is y", "goal: P is x OR P is y")
+    answer = ask(tmp_path, with_truth(free, TO_EACH), free)
+    assert answer.failing == {"minimal": 1}
+    assert verdict(answer, "certificate").startswith("certificate: incomplete: {to_x} (duration 1) in (P t) is better")
+
+
+def test_one_valve_after_the_other(tmp_path: Path) -> None:
+    """Several steps where they are meant, or asked for; one otherwise."""
+    bounded = VALVES + "BEGIN CONFIG restoration: bounded END CONFIG"
+    assert ask(tmp_path, with_truth(bounded, SINGLY), bounded, "--strict").code == 0
+    both = {**SINGLY, (0, 0): CLOSE_A | CLOSE_B}
+    assert ask(tmp_path, with_truth(bounded, both), bounded).failing == {"minimal": 1}
+    policy = dumps(policy_from_rows(parse(VALVES), SINGLY))
+    assert ask(tmp_path, policy, bounded).code == 0
+    assert ask(tmp_path, policy, VALVES, "--restoration", "fair").code == 0
+    answer = ask(tmp_path, policy, VALVES)
+    assert answer.failing == {"safe": 1}
+
+
+def test_what_never_ends(tmp_path: Path) -> None:
+    """A stop that may do nothing restores nothing whatever happens; nothing at all does not nominally either."""
+    stop = {(0,): CLOSE_A, (1,): NOTHING}
+    policy = dumps(policy_from_rows(parse(RETRY), stop))
+    answer = ask(tmp_path, policy, RETRY, "--restoration", "bounded")
+    assert answer.failing == {"restoring": 1}
+    assert verdict(answer, "restoring").endswith("it need never be restored; it may lead to (M on)")
+    assert ask(tmp_path, policy, RETRY, "--restoration", "fair").code == 0
+    idle = dumps(policy_from_rows(parse(RETRY), {**stop, (0,): NOTHING}))
+    answer = ask(tmp_path, idle, RETRY, "--restoration", "fair")
+    assert answer.failing == {"restoring": 1, "goals": 1, "minimal": 1}
+
+
+@pytest.mark.parametrize(("place", "arm", "fits"), [(1, 1, False), (1, 2, True), (2, 1, False), (3, 9, True)])
+def test_severe_rules_first(place: int, arm: int, fits: bool, tmp_path: Path) -> None:
+    """Off the edge with the arm out, where the edge is the more severe of the two."""
+    text = EDGE.format(place, arm)
+    rows = {(0, 0): CLOSE_A, (0, 1): CLOSE_A, (1, 0): CLOSE_B, (1, 1): NOTHING}
+    answer = ask(tmp_path, dumps(policy_from_rows(parse(text), rows)), text)
+    assert (answer.code == 0) == fits, answer
+    assert ("restoring" in answer.out) == (place != arm)
+
+
+def test_digests() -> None:
+    """The same as the package's, whatever the severities and the restoration."""
+    found = set()
+    for seed in range(30):
+        spec = stepwise_spec(seed, "fair", 1 + seed % 3)
+        own = checker.read_specification(print_spec(spec, Random(seed)).encode())
+        assert checker.digest(own) == digest(spec)
+        found.add(len(spec.tiers))
+    assert found == {1, 2, 3}
+    for severities in ((1, 1), (1, 2), (3, 9), (2, 1)):
+        text = EDGE.format(*severities)
+        assert checker.digest(checker.read_specification(text.encode())) == digest(parse(text))
+
+
+@pytest.mark.parametrize("made_for", ["one_step", "bounded", "fair"])
+@pytest.mark.parametrize("meant", ["one_step", "bounded", "fair"])
+def test_what_a_policy_was_made_for(made_for: str, meant: str, tmp_path: Path) -> None:
+    """A weaker restoration than is meant is refused for that alone, unless the command line says what to judge by."""
+    text = VALVES.replace("rule: B is closed", "")
+    rows = {state: NOTHING if state[0] else CLOSE_A for state in SINGLY}
+    policy = policy_from_rows(parse(text), rows)
+    restoration = checker.Parser(f"BEGIN CONFIG restoration: {made_for} END CONFIG").specification().restoration
+    written = dumps(replace(policy, restoration=restoration))
+    strengths = ("fair", "bounded", "one_step")
+    answer = ask(tmp_path, written, f"{text} BEGIN CONFIG restoration: {meant} END CONFIG")
+    refused = strengths.index(made_for) < strengths.index(meant)
+    assert answer.code == int(refused), answer
+    wanted = f"restoration FAILS: the policy was made for `{made_for}`, but the specification means `{meant}`\n"
+    assert (wanted in answer.out) == refused == ("FAILS" in answer.out)
+    assert ask(tmp_path, written, text, "--restoration", meant).code == 0
+
+
+def test_recorded_restorations_are_known_words(tmp_path: Path) -> None:
+    """Anything else is no policy file."""
+    policy = with_truth(OVERRIDE, TO_EACH)
+    for wrong in ('"any"', "null", "1", "[]"):
+        answer = ask(tmp_path, policy.replace('"Restoration": "bounded"', f'"Restoration": {wrong}'), OVERRIDE)
+        assert (answer.code, answer.out) == (2, ""), wrong
+
+
+def set_at(*path: Any) -> Callable[[dict[str, Any]], None]:
+    """A change of a section: the last of these becomes the value to which the others lead."""
+
+    def change(section: Any) -> None:
+        for key in path[:-2]:
+            section = section[key]
+        section[path[-2]] = path[-1]
+
+    return change
+
+
+WRONG_FORMS = {
+    "no root": set_at("Worst", 99),
+    "a root that is no number": set_at("Nominal", None),
+    "a leaf that is no pair": set_at("Leaves", 1, [1]),
+    "a leaf of texts": set_at("Leaves", 1, ["1", 1]),
+    "a negative leaf": set_at("Leaves", 1, [-1, 1]),
+    "a leaf of truth values": set_at("Leaves", 1, [True, 1]),
+    "a leaf that is a number": set_at("Leaves", 1, 7),
+    "a leaf twice": set_at("Leaves", 1, None),
+    "no list of deviations": set_at("Deviations", {}),
+    "no deviation": set_at("Deviations", [[]]),
+    "an unknown action": set_at("Deviations", 0, "Better", ["to_z"]),
+    "an unknown value": set_at("Deviations", 0, "State", "P", "z"),
+    "no state": set_at("Deviations", 0, "Missed", {}),
+}
+
+
+@pytest.mark.parametrize("name", WRONG_FORMS)
+def test_sections_that_have_not_the_form(name: str, tmp_path: Path) -> None:
+    """The certificate is wrong, also where the section is not looked at; the policy is judged all the same."""
+    document = json.loads(with_truth(OVERRIDE, TO_EACH))
+    WRONG_FORMS[name](document["Certificate"]["Restoring"])
+    for restoration, code in (("bounded", 0), ("one_step", 1)):
+        answer = ask(tmp_path, json.dumps(document), OVERRIDE, "--restoration", restoration)
+        assert answer.code == code
+        assert "certificate: WRONG" in answer.out, answer
+
+
+def test_without_the_section(tmp_path: Path) -> None:
+    """Incomplete: what the ranks say of unsafe states is then nothing. In one step nothing is missing."""
+    document = json.loads(with_truth(OVERRIDE, TO_EACH))
+    del document["Certificate"]["Restoring"]
+    answer = ask(tmp_path, json.dumps(document), OVERRIDE, "--strict")
+    assert answer.code == 0
+    assert verdict(answer, "certificate").startswith("certificate: incomplete: ")
+    document["Certificate"]["Leaves"] = [number + 5 for number in range(len(document["Certificate"]["Leaves"]))]
+    document["Certificate"]["Goals"] = []
+    assert "certificate: incomplete" in ask(tmp_path, json.dumps(document), OVERRIDE).out
+
+
+def no_set(state: Any, *cubes: Any) -> dict[str, Any]:
+    """A certificate that no set is allowed in a state; cubes are (executed, idle, violation)."""
+    entries = [{"Executed": list(x), "Idle": list(i), "Violation": v} for x, i, v in cubes]
+    return {"Kind": "no-allowed-set", "State": state, "Cubes": entries or None}
+
+
+def asked_no(folder: Path, text: str, reason: dict[str, Any], *options: str, made_for: str = "one_step") -> Answer:
+    """What is said of a certificate that there is no policy, made for a restoration."""
+    document = json.loads(certificate(text, reason)) | {"Restoration": made_for}
+    return ask(folder, json.dumps(document), text, *options)
+
+
+def test_no_allowed_set_by_severity(tmp_path: Path) -> None:
+    """In one step from the edge with the arm in: nothing is allowed if the arm counts as much."""
+    retreat = {"Kind": "unsafe", "Outcome": [{"Action": "retreat", "Effect": {"Place": "floor", "Arm": "out"}}]}
+    fold = {"Kind": "precondition", "Actions": ["fold"]}
+    cubes = ((["fold"], [], fold), (["retreat"], ["fold"], retreat), ([], ["fold", "retreat"], {"Kind": "idle"}))
+    reason = no_set({"Place": "edge", "Arm": "in"}, *cubes)
+    for each in (reason, no_set(reason["State"])):
+        assert_proved(asked_no(tmp_path, EDGE.format(1, 1), each))
+        assert asked_no(tmp_path, EDGE.format(1, 2), each).code == 1
+    assert_refuted(asked_no(tmp_path, EDGE.format(1, 2), reason), "is safe")
+    answer = asked_no(tmp_path, EDGE.format(1, 1), reason, "--restoration", "bounded")
+    assert_refuted(answer, "doing nothing may be allowed")
+
+
+def test_what_a_certificate_of_no_was_made_for(tmp_path: Path) -> None:
+    """One for a weaker restoration proves the same of a stronger one, and not the other way round."""
+    text = VALVES + "BEGIN REACTION RULES rule: executing close_a rule: NOT executing close_a END REACTION RULES "
+    reason = no_set({"A": "open", "B": "open"})
+    for made_for in ("one_step", "bounded", "fair"):
+        assert_proved(asked_no(tmp_path, text, reason, made_for=made_for))
+    fair = f"{text} BEGIN CONFIG restoration: fair END CONFIG"
+    assert_proved(asked_no(tmp_path, fair, reason, made_for="fair"))
+    for made_for in ("one_step", "bounded"):
+        assert_refuted(asked_no(tmp_path, fair, reason, made_for=made_for), "but the specification means `fair`")
+        assert_proved(asked_no(tmp_path, fair, reason, "--restoration", "bounded", made_for=made_for))
+
+
+def test_no_verdict_on_what_is_not_known(tmp_path: Path) -> None:
+    """Plans of unsafe states, where restoring may take several steps, are not judged; those of safe ones are."""
+    rules = "BEGIN STATE RULES rule: NOT P is a END STATE RULES BEGIN GOALS goal type: priority goal: P is d END GOALS"
+    text = spec_text("abcd", "ab bc cb", rules)
+    diagram = {"Order": ["P"], "Leaves": [False, True], "Nodes": [[0, [0, 1, 1, 0]]]}
+    goals = [{"Bodies": ["P is d"], "Executed": [], "Layers": [2]}]
+    for start, code in (("a", 3), ("b", 0), ("c", 0)):
+        reason = {"Kind": "no-plan", "State": {"P": start}, **diagram, "Goals": goals}
+        assert_proved(asked_no(tmp_path, text, reason))
+        for restoration in ("bounded", "fair"):
+            answer = asked_no(tmp_path, text, reason, "--restoration", restoration)
+            assert answer.code == code, answer
+            assert ("not known yet" in answer.err) == (code == 3)
+
+
+def test_worlds_know_levels(tmp_path: Path) -> None:
+    """Levels, and what a step has to keep: of milder rules nothing while a severe one is broken."""
+    spec: Spec = parse(EDGE.format(1, 2))
+    for restoration, required in (("one_step", (0,)), ("bounded", ())):
+        world = checker.World(checker.read_specification(EDGE.format(1, 2).encode()), "any", restoration)
+        assert [world.level(state) for state in (("edge", "in"), ("floor", "out"), ("floor", "in"))] == [0, 1, 2]
+        assert world.required(("edge", "in")) == required
+        assert world.required(("floor", "in")) == (0, 1)
+        assert world.required(("floor", "out")) == ((0, 1) if restoration == "one_step" else (0,))
+    assert len(spec.tiers) == 2
