@@ -1,0 +1,75 @@
+"""Questions in words. Each is asked of all states or sets, so that an answer says what holds and what does not."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from tests.conformance.roles import Decider, Judge, Stepper
+from tests.conformance.world import BOTH, Decisions, world
+from tumato_symbolic.semantics import ActionSet, State, all_states
+from tumato_symbolic.spec import Ordering
+
+
+class Asked:
+    """The states and steps of a specification as one engine has them."""
+
+    def __init__(self, engine: Stepper, text: str, ordering: Ordering = "any") -> None:
+        self.engine, self.world = engine, world(text, ordering)
+
+    def valid(self) -> str:
+        """All valid states."""
+        return self._states(lambda state: self.engine.valid(self.world, state))
+
+    def safe(self) -> str:
+        """All safe states."""
+        return self._states(lambda state: self.engine.safe(self.world, state))
+
+    def allowed(self, state: str) -> list[str]:
+        """All allowed sets in a state, the small ones first, then as declared."""
+        return [self.world.names(chosen) for chosen in self.world.sets() if self._is_allowed(state, chosen)]
+
+    def allows(self, state: str, actions: str) -> bool:
+        """Whether one set is allowed."""
+        return self._is_allowed(state, self.world.actions(actions))
+
+    def leads(self, state: str, actions: str) -> str:
+        """The nominal successor."""
+        return self.world.words(self.engine.successor(self.world, self.world.state(state), self.world.actions(actions)))
+
+    def meets(self, state: str, actions: str = "") -> str:
+        """All states that satisfy the residual goal of a state with its first set."""
+        here, chosen = self.world.state(state), self.world.actions(actions)
+        return self._states(lambda there: self.engine.meets(self.world, here, chosen, there))
+
+    def _is_allowed(self, state: str, chosen: ActionSet) -> bool:
+        return self.engine.allowed(self.world, self.world.state(state), chosen)
+
+    def _states(self, test: Callable[[State], bool]) -> str:
+        return " ".join(self.world.words(state) for state in all_states(self.world.spec) if test(state))
+
+
+def under_both(engine: Stepper, text: str) -> Iterator[Asked]:
+    """A specification under either effect ordering."""
+    return (Asked(engine, text, ordering) for ordering in BOTH)
+
+
+def faults(judge: Judge, text: str, decisions: Decisions, ordering: Ordering = "any") -> set[str]:
+    """The properties that a policy in words does not have."""
+    asked = world(text, ordering)
+    return judge.faults(asked, asked.rows(decisions))
+
+
+def policy(decider: Decider, text: str, ordering: Ordering = "any") -> dict[str, str]:
+    """The policy of a realizable specification in words."""
+    asked = world(text, ordering)
+    answer = decider.answer(asked)
+    assert answer.policy is not None, answer.failures
+    return asked.decisions(answer.policy)
+
+
+def failures(decider: Decider, text: str, ordering: Ordering = "any") -> dict[str, str]:
+    """The failing states by kind; nothing where there is a policy."""
+    asked = world(text, ordering)
+    answer = decider.answer(asked)
+    assert (answer.policy is None) == bool(answer.failures)
+    return {kind: " ".join(map(asked.words, sorted(states))) for kind, states in answer.failures.items()}

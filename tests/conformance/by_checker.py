@@ -1,0 +1,81 @@
+"""The stand-alone checker, which reads the text by itself."""
+
+from __future__ import annotations
+
+from functools import cache
+from json import loads
+from typing import Any
+
+from tests.checker.standalone import checker
+from tests.conformance.roles import Rows
+from tests.conformance.world import World
+from tumato_symbolic.policy.unrealizable import Unrealizability
+from tumato_symbolic.policy.unrealizable_file import dumps
+from tumato_symbolic.semantics import ActionSet, State
+from tumato_symbolic.spec import Ordering
+
+
+class Checker:
+    """`proofs/checker.py`."""
+
+    name = "checker"
+
+    def refuses(self, text: str) -> bool:
+        """When it is read, or its valid states are listed."""
+        try:
+            checker.World(checker.read_specification(text.encode()), "any").valid  # noqa: B018 - a lazy attribute
+        except checker.Unreadable:
+            return True
+        return False
+
+    def valid(self, world: World, state: State) -> bool:
+        """`World.is_valid`."""
+        return bool(_own(world.text, world.ordering).is_valid(_values(world, state)))
+
+    def safe(self, world: World, state: State) -> bool:
+        """`World.is_safe`."""
+        return bool(_own(world.text, world.ordering).is_safe(_values(world, state)))
+
+    def allowed(self, world: World, state: State, chosen: ActionSet) -> bool:
+        """`World.objection`, which `World.allowed_sets` has to agree with."""
+        own, here, each = _own(world.text, world.ordering), _values(world, state), _names(world, chosen)
+        found = own.objection(here, each) is None
+        assert (each in set(own.allowed_sets(here))) == found, "its search differs"
+        return found
+
+    def successor(self, world: World, state: State, chosen: ActionSet) -> State:
+        """`World.successor`."""
+        after = _own(world.text, world.ordering).successor(_values(world, state), _names(world, chosen))
+        return tuple(v.values.index(value) for v, value in zip(world.spec.variables, after, strict=True))
+
+    def meets(self, world: World, state: State, chosen: ActionSet, there: State) -> bool:
+        """`reached`."""
+        goal = _own(world.text, world.ordering).residual_goal(_values(world, state), _names(world, chosen))
+        return bool(checker.reached(goal, _values(world, there)))
+
+    def faults(self, world: World, rows: Rows) -> set[str]:
+        """`Judge.verdicts`."""
+        decisions = {_values(world, state): _names(world, chosen) for state, chosen in rows.items()}
+        judge = checker.Judge(_own(world.text, world.ordering), decisions.get)
+        return {name for name, (states, _) in judge.verdicts().items() if states}
+
+    def believes(self, world: World, certificate: Unrealizability) -> bool:
+        """`judge_no`."""
+        try:
+            checker.judge_no(_own(world.text, world.ordering), loads(dumps(certificate)))
+        except checker.Refuted:
+            return False
+        return True
+
+
+@cache
+def _own(text: str, ordering: Ordering) -> Any:
+    return checker.World(checker.read_specification(text.encode()), ordering)
+
+
+def _values(world: World, state: State) -> tuple[str, ...]:
+    return tuple(v.values[value] for v, value in zip(world.spec.variables, state, strict=True))
+
+
+def _names(world: World, chosen: ActionSet) -> frozenset[str]:
+    return frozenset(world.spec.actions[number].name for number in chosen)

@@ -1,0 +1,160 @@
+"""The checker in Coq, of which proofs/coq/Correct.v proves that it means what Semantics.v says."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from tests.conformance.roles import Rows
+from tests.conformance.world import World
+from tests.export.compiler import COQC, SOURCES
+from tumato_symbolic.export import coq
+from tumato_symbolic.semantics import ActionSet, State, is_valid
+from tumato_symbolic.spec import Ordering, Spec
+
+TOPLEVEL = shutil.which("coqtop") if COQC else None
+
+_NEEDED = ("Semantics", "Checker")
+_HEAD = "From Coq Require Import Bool List NArith. From Tumato Require Import Semantics Checker. Import ListNotations."
+
+
+class Coq:
+    """`proofs/coq/Checker.v`, asked in one session of Coq's toplevel."""
+
+    name = "coq"
+
+    def __init__(self) -> None:
+        self._session: Session | None = None
+        self._modules: dict[Spec, str] = {}
+
+    def valid(self, world: World, state: State) -> bool:
+        """`assumed`."""
+        return self._truth(f"assumed {self._spec(world)} {_list(state)}")
+
+    def safe(self, world: World, state: State) -> bool:
+        """`keeps_rules`."""
+        return self._truth(f"keeps_rules {self._spec(world)} {_list(state)}")
+
+    def allowed(self, world: World, state: State, chosen: ActionSet) -> bool:
+        """`is_ok`."""
+        return self._truth(f"{self._ok(world)} {_list(state)} {_list(sorted(chosen))}")
+
+    def successor(self, world: World, state: State, chosen: ActionSet) -> State:
+        """`delta`."""
+        found = self._ask(f"delta {self._spec(world)} {_list(state)} {_list(sorted(chosen))}")
+        return tuple(map(int, re.findall(r"\d+", found)))
+
+    def meets(self, world: World, state: State, chosen: ActionSet, there: State) -> bool:
+        """Whether all that `active` lists holds."""
+        bodies = f"active {self._spec(world)} {_list(state)}"
+        return self._truth(f"forallb (holds {_list(there)} {_list(sorted(chosen))}) ({bodies})")
+
+    def faults(self, world: World, rows: Rows) -> set[str]:
+        """The parts of `check`, which has to agree with them."""
+        decided = {state: chosen for state, chosen in rows.items() if is_valid(world.spec, state)}
+        spec, order, table = self._spec(world), _order(world.ordering), self._table(world.spec, decided)
+        safe, fuel = f"(keeps_rules {spec})", f"(length (all_states (sizes {spec})))"
+        policy = f"(policy_of {table})"
+        pairs = _list(f"({_list(state)}, {_list(sorted(chosen))})" for state, chosen in decided.items())
+        serves = f"serves {spec} {policy} {fuel} (fst p) (snd p)"
+        better = f"no_better {spec} {order} {safe} {policy} {fuel} (fst p) (snd p)"
+        parts = {
+            "total": f"forallb (fun s => negb (assumed {spec} s) || (match lookup {table} s with Some (Some _) => true"
+            f" | _ => false end)) (all_states (sizes {spec}))",
+            "safe": f"forallb (fun p => {self._ok(world)} (fst p) (snd p)) {pairs}",
+            "goals": f"forallb (fun p => negb ({self._ok(world)} (fst p) (snd p)) || {serves}) {pairs}",
+            "minimal": f"forallb (fun p => {safe} (fst p) || {better}) {pairs}",
+        }
+        found = {name for name, question in parts.items() if not self._truth(question)}
+        assert self._truth(f"check {spec} {order} {table}") == (not found)
+        return found
+
+    def _ok(self, world: World) -> str:
+        return f"is_ok {self._spec(world)} {_order(world.ordering)} (keeps_rules {self._spec(world)})"
+
+    def _spec(self, world: World) -> str:
+        if world.spec not in self._modules:
+            self._modules[world.spec] = self._module(coq._specification(world.spec))
+        return f"{self._modules[world.spec]}.spec"
+
+    def _table(self, spec: Spec, rows: Rows) -> str:
+        return f"{self._module(coq._decisions(spec, dict(rows)))}.decisions"
+
+    def _module(self, lines: Iterator[str]) -> str:
+        self._session = self._session or Session()
+        return self._session.define("\n".join(lines))
+
+    def _truth(self, question: str) -> bool:
+        found = self._ask(question)
+        assert found in ("true", "false"), found
+        return found == "true"
+
+    def _ask(self, question: str) -> str:
+        assert self._session is not None, "a specification comes first"
+        return self._session.ask(question)
+
+
+class Session:
+    """Coq's toplevel with the two files that compute."""
+
+    def __init__(self) -> None:
+        self._folder = TemporaryDirectory()
+        folder = Path(self._folder.name)
+        for name in _NEEDED:
+            shutil.copy(SOURCES / f"{name}.v", folder)
+            subprocess.run([str(COQC), "-q", "-R", ".", "Tumato", f"{name}.v"], cwd=folder, check=True)
+        self._process = subprocess.Popen(
+            [str(TOPLEVEL), "-q", "-R", ".", "Tumato"],
+            cwd=folder,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+        )
+        self._count = 0
+        self._write(_HEAD)
+
+    def define(self, text: str) -> str:
+        """A module with some definitions; its name."""
+        self._count += 1
+        self._write(f"Module M{self._count}.\n{text}\nEnd M{self._count}.")
+        return f"M{self._count}"
+
+    def ask(self, question: str) -> str:
+        """What a term is. Coq answers an error with nothing, so a second answer follows each."""
+        self._write(f"Eval vm_compute in ({question}).\nEval vm_compute in tt.")
+        assert self._process.stdout is not None
+        found = ""
+        while "= tt" not in found:
+            line = self._process.stdout.readline()
+            assert line, "Coq has ended"
+            found += line
+        self._process.stdout.readline()
+        match = re.search(r"= (.*?)\s+: ", found.partition("= tt")[0], re.DOTALL)
+        assert match is not None, f"Coq does not understand: {question}"
+        return " ".join(match[1].split())
+
+    def _write(self, text: str) -> None:
+        assert self._process.stdin is not None
+        self._process.stdin.write(f"{text}\n")
+        self._process.stdin.flush()
+
+    def close(self) -> None:
+        """End it."""
+        assert self._process.stdin is not None and self._process.stdout is not None
+        self._process.stdin.close()
+        self._process.stdout.close()
+        self._process.wait()
+        self._folder.cleanup()
+
+
+def _order(ordering: Ordering) -> str:
+    return ordering.capitalize()
+
+
+def _list(numbers: Iterable[object]) -> str:
+    return f"[{'; '.join(map(str, numbers))}]"

@@ -1,0 +1,170 @@
+"""The tests of every section can fail: with a bug planted in an engine, the test of the rule that it breaks does."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from importlib import import_module
+from typing import Any
+
+import pytest
+
+from tests.checker.standalone import checker
+from tests.conformance import by_checker, rules, world
+from tests.conformance import test_1_states as states
+from tests.conformance import test_2_actions as actions
+from tests.conformance import test_3_steps as steps
+from tests.conformance import test_4_goals as goals
+from tests.conformance import test_5_policies as policies
+from tests.conformance import test_6_preferences as preferences
+from tests.conformance import test_7_none as none
+from tests.conformance import test_8_paper as paper
+from tests.conformance.by_checker import Checker
+from tests.conformance.by_coq import Coq
+from tests.conformance.by_python import Z3, Bdd, Explicit, Prover
+from tumato_symbolic.export import coq
+from tumato_symbolic.game import routing
+from tumato_symbolic.semantics import goals as explicit_goals
+from tumato_symbolic.spec import Action, GoalList
+from tumato_symbolic.symbolic import goals as symbolic_goals
+from tumato_symbolic.symbolic import steps as symbolic_steps
+from tumato_symbolic.symbolic.encoding import Encoding, Group
+from tumato_symbolic.symbolic.manager import Bdd as Set
+from tumato_symbolic.verify.by_states import prover as states_prover
+from tumato_symbolic.verify.by_states import steps as states_steps
+from tumato_symbolic.verify.by_walk.goals import WalkGoals
+from tumato_symbolic.verify.by_z3 import frame, prover
+from tumato_symbolic.verify.by_z3.choice import Choice
+
+explicit_judge = import_module("tumato_symbolic.semantics.judge")
+refutations = import_module("tumato_symbolic.verify.no_policy.unrealizable")
+
+
+@dataclass(frozen=True)
+class Bug:
+    """A bug, and the test of a rule that an engine with it fails; `change` puts one thing for another."""
+
+    rule: str
+    what: str
+    engine: Callable[[], Any]
+    home: Any
+    name: str
+    change: Callable[[Any], Any]
+    test: Callable[[Any], None]
+
+
+def _walk_every_member(walk: Any) -> Any:
+    def planted(goal: Any, state: Any) -> Any:
+        return walk(replace(goal, kind="constraint") if isinstance(goal, GoalList) else goal, state)
+
+    return planted
+
+
+def _again(_: Any) -> Any:
+    def planted(encoding: Encoding, group: Group, following: Set) -> Set:
+        parts = [encoding.executing(a) & encoding.after_every_effect(a, following) for a in group.actions]
+        return encoding.manager.union([encoding.idle(group), *parts])
+
+    return planted
+
+
+def _one_step_more(serves: Any) -> Any:
+    def planted(judge: Any, state: Any, chosen: Any) -> bool:
+        bound = judge.world.spec.bound
+        judge.world.spec.bound = None if bound is None else bound + 1
+        try:
+            return bool(serves(judge, state, chosen))
+        finally:
+            judge.world.spec.bound = bound
+
+    return planted
+
+
+def _last_declared(_: Any) -> Any:
+    def planted(encoding: Encoding, relation: Set) -> Set:
+        for action in range(len(encoding.spec.actions)):
+            with_it = relation & encoding.executing(action)
+            relation = with_it | (relation & ~encoding.manager.exists(encoding.all_choice_bits, with_it))
+        return relation
+
+    return planted
+
+
+def _longest(duration: Any) -> Any:
+    return lambda spec, chosen: max((duration(spec, frozenset((action,))) for action in chosen), default=0)
+
+
+def _no_coq_rules(written: Any) -> Any:
+    return lambda spec: written(replace(spec, reaction_rules=()))
+
+
+BUGS = (
+    Bug("1.2", "no assumption counts", Z3, frame, "valid_term", lambda _: lambda spec, place: True,
+        states.test_a_state_is_valid_when_every_assumption_holds),
+    Bug("1.3", "invalid states are safe", Checker, checker.World, "is_safe",
+        lambda _: lambda world, state: world.broken(world.spec.state_rules, state) is None,
+        states.test_a_state_is_safe_when_it_is_valid_and_every_state_rule_holds),
+    Bug("2.5", "alternatives never happen", lambda: Prover("walk", "walk"), Action, "effects",
+        lambda _: property(lambda action: (action.nominal,)), actions.test_an_action_may_take_any_of_its_effects),
+    Bug("3.2", "resources are shared", lambda: Prover("states", "explicit"), states_steps.Steps, "may_be_together",
+        lambda _: lambda steps, chosen: True, steps.test_no_two_actions_control_the_same_resource),
+    Bug("3.4", "no reaction rule counts", Coq, coq, "_specification", _no_coq_rules,
+        steps.test_every_reaction_rule_holds),
+    Bug("3.7", "an action takes effect again", lambda: Bdd("autoref"), symbolic_steps, "_after_effect_of", _again,
+        steps.test_an_action_takes_effect_at_most_once),
+    Bug("3.8", "`first` is taken for `any`", Z3, prover, "prove_safe",
+        lambda prove: lambda frame, _: prove(frame, "any"),
+        steps.test_effects_come_one_after_the_other_under_any_and_one_alone_under_first),
+    Bug("3.10", "the search forgets the nominal successor", Z3, Choice, "conditions",
+        lambda conditions: lambda choice: conditions(choice)[:-1],
+        steps.test_all_nominal_effects_at_once_lead_to_a_safe_state),
+    Bug("4.4", "a priority list goes on", Explicit, explicit_goals, "_walk", _walk_every_member,
+        goals.test_a_priority_list_stops_after_the_first_that_was_entered),
+    Bug("4.7", "nothing is ever executed", lambda: Bdd("autoref"), symbolic_goals, "settle",
+        lambda settle: lambda body, _: settle(body, frozenset()),
+        goals.test_executing_speaks_of_the_first_set_and_the_rest_of_the_state_reached),
+    Bug("4.7", "no residual goal holds", lambda: Prover("walk", "walk"), WalkGoals, "reached",
+        lambda _: lambda goals, residual: 0,
+        goals.test_executing_speaks_of_the_first_set_and_the_rest_of_the_state_reached),
+    Bug("5.4", "one step too many is in time", Checker, checker.Judge, "serves", _one_step_more,
+        lambda engine: policies.test_a_run_has_at_most_as_many_steps_as_the_bound(engine, 2, True)),
+    Bug("5.6", "every cheaper set serves", Explicit, explicit_judge, "better_sets",
+        lambda _: lambda spec, policy, state, ordering: iter((frozenset(),)),
+        lambda engine: policies.test_no_cheaper_set_would_serve(engine, "any")),
+    Bug("5.7", "the longest duration counts", lambda: Prover("states", "explicit"), states_steps, "duration", _longest,
+        lambda engine: policies.test_durations_of_a_set_add_up(engine, 4, "left right")),
+    Bug("6.1", "more actions are as good", lambda: Bdd("autoref"), routing, "preferred", _last_declared,
+        preferences.test_then_the_fewest_actions_then_what_is_declared_first),
+    Bug("7.1", "cubes are believed", Checker, checker, "check_no_allowed_set", lambda _: lambda world, reason: "",
+        lambda engine: none.test_the_answer_no_is_believed_where_it_is_so(engine, "no-allowed-set")),
+    Bug("7.3", "conflicts are believed", Z3, refutations, "check_conflict", lambda _: lambda reason, step: 1,
+        lambda engine: none.test_the_answer_no_is_believed_where_it_is_so(engine, "conflict")),
+    Bug("8.2", "every set takes equally long", lambda: Prover("states", "explicit"), states_prover, "duration",
+        lambda _: lambda spec, chosen: 1, paper.test_stopping_the_conveyor_is_the_minimum),
+)  # fmt: skip
+
+
+@pytest.fixture(autouse=True)
+def nothing_is_remembered() -> None:
+    """What was read and found before a bug was planted is found anew."""
+    world.world.cache_clear()
+    by_checker._own.cache_clear()
+
+
+@pytest.mark.parametrize("bug", BUGS, ids=lambda bug: f"{bug.rule} {bug.what}")
+def test_a_planted_bug_is_noticed(bug: Bug, monkeypatch: pytest.MonkeyPatch) -> None:
+    """By a test that an engine without it passes."""
+    engine = bug.engine()
+    if engine.name in rules.MISSING:
+        return
+    bug.test(engine)
+    monkeypatch.setattr(bug.home, bug.name, bug.change(getattr(bug.home, bug.name)))
+    with pytest.raises((AssertionError, RuntimeError)):
+        bug.test(bug.engine())
+
+
+def test_bugs_are_planted_in_every_section_and_engine() -> None:
+    """At least one each; the backends of dd share their code."""
+    assert {bug.rule.partition(".")[0] for bug in BUGS} == {number.partition(".")[0] for number in rules.RULES}
+    assert {bug.engine().name for bug in BUGS} >= {engine.name for engine in rules.ENGINES} - {"bdd-cudd"}
+    assert {bug.rule for bug in BUGS} <= set(rules.RULES)
