@@ -49,9 +49,9 @@ class Checker:
         return tuple(v.values.index(value) for v, value in zip(world.spec.variables, after, strict=True))
 
     def meets(self, world: World, state: State, chosen: ActionSet, there: State) -> bool:
-        """`reached`."""
-        goal = _own(world.text, world.ordering).residual_goal(_values(world, state), _names(world, chosen))
-        return bool(checker.reached(goal, _values(world, there)))
+        """`World.reached`."""
+        own = _own(world.text, world.ordering)
+        return bool(own.reached(own.residual_goal(_values(world, state), _names(world, chosen)), _values(world, there)))
 
     def faults(self, world: World, rows: Rows) -> set[str]:
         """`Judge.verdicts`."""
