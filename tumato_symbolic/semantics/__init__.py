@@ -36,6 +36,7 @@ from tumato_symbolic.semantics.step import (
     outcomes,
     outcomes_in_turn,
     successor,
+    takes_effect,
 )
 
 __all__ = [
@@ -86,4 +87,5 @@ __all__ = [
     "restored",
     "settled_truth",
     "successor",
+    "takes_effect",
 ]

@@ -137,8 +137,9 @@ class Model:
         """Condition 5: every outcome of `A` in `s` is safe. Speaks of sets without conflicts only."""
         walk = self.walk
         then = self.safe_from_here if self._ordering == "any" else self.safe
-        effects = (walk.select(chosen, (TRUE, self.after(action, then))) for action, chosen in enumerate(self.chosen))
-        return walk.all_of((walk.any_of((*self.chosen, self.safe)), *effects))
+        actions = [(action, self.chosen[action]) for action, each in enumerate(self.spec.actions) if each.effects]
+        effects = (walk.select(chosen, (TRUE, self.after(action, then))) for action, chosen in actions)
+        return walk.all_of((walk.any_of((*(chosen for _, chosen in actions), self.safe)), *effects))
 
     def successor(self, executed: Sequence[Function]) -> dict[int, Function]:
         """`δ`: the next value of every variable that may change, where the nominal effects agree."""
