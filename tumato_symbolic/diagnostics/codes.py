@@ -69,6 +69,7 @@ class Code(Enum):
     TUM401 = ("error", "states without an allowed set of actions")
     TUM402 = ("error", "states without a plan")
     TUM403 = ("error", "goals that conflict")
+    TUM404 = ("error", "unsafe states from which safety is not restored")
 
     TUM501 = ("error", "a policy that cannot be read")
     TUM502 = ("error", "a policy of the wrong shape")

@@ -74,7 +74,8 @@ class Conditions:
         """The step relation when only these elements are kept."""
         valid = self.encoding.domain() & self._all_of(kept, "assumption")
         allowed = self.allowed(kept)
-        return Steps(self.encoding, self.ordering, valid, valid & self._all_of(kept, "state-rule"), allowed, allowed)
+        safe = valid & self._all_of(kept, "state-rule")
+        return Steps(self.encoding, self.ordering, valid, safe, allowed, allowed, (valid, safe))
 
     def changed(self, element: Element, rule: Rule) -> Conditions:
         """The same with another predicate in the place of a rule or a precondition; the rest is not computed again."""
@@ -164,17 +165,13 @@ class Conditions:
         return nobody | somebody
 
     def _relevant_alternatives(self, element: Element) -> Elements:
-        """The alternatives that do something else than the nominal effect to what a rule speaks of.
-
-        Without nominal effects also those that write anything: it is by them that the action has effects.
-        """
+        """The alternatives that do something else than the nominal effect to what a rule speaks of."""
         speaks_of = variables_of(_rule(self.spec, element).formula)
         return frozenset(
             Element("alternative", number, part)
             for number, action in enumerate(self.spec.actions)
             for part, entry in enumerate(action.alternatives)
             if any(_on(outcome, speaks_of) != _on(action.nominal, speaks_of) for outcome in entry.outcomes)
-            or (not action.nominal and any(entry.outcomes))
         )
 
     def formula(self, formula: Formula) -> Bdd:

@@ -1,5 +1,6 @@
 """The game that a policy plays: steps, targets, the fixpoints over them, and how well a policy does."""
 
+from tumato_symbolic.game.alone import Alone, alone
 from tumato_symbolic.game.fixpoints import (
     ClosedLoop,
     Layers,
@@ -12,14 +13,19 @@ from tumato_symbolic.game.fixpoints import (
 )
 from tumato_symbolic.game.judging import Evaluation, Judge, in_time, winning
 from tumato_symbolic.game.problem import Problem, build_problem
+from tumato_symbolic.game.restoration import Restoration, Restorer
 from tumato_symbolic.game.routing import own_region_policy, route, shortest_decisions
 
 __all__ = [
+    "Alone",
     "ClosedLoop",
     "Evaluation",
     "Judge",
     "Layers",
     "Problem",
+    "Restoration",
+    "Restorer",
+    "alone",
     "attractor",
     "build_problem",
     "by_any_step",

@@ -60,9 +60,10 @@ def preimage(problem: Problem, relation: Bdd) -> Callable[[Bdd], Bdd]:
     return lambda target: manager.union(pairs & manager.cofactor(target, effect) for effect, pairs in cofactors)
 
 
-def distances(problem: Problem) -> tuple[Layers, ...]:
-    """How far every safe state is from each target when any allowed steps may be taken."""
-    step, within = by_any_step(problem, problem.steps.allowed), problem.steps.safe
+def distances(problem: Problem, pairs: Bdd | None = None) -> tuple[Layers, ...]:
+    """How far every state is from each target by some pairs; safe states by any allowed ones, where none are given."""
+    step = by_any_step(problem, problem.steps.allowed if pairs is None else pairs)
+    within = problem.steps.safe if pairs is None else problem.steps.valid
     return tuple(attractor(problem, target.states, step, within, problem.last_layer) for target in problem.targets)
 
 

@@ -8,6 +8,7 @@ from functools import cached_property
 
 from tumato_symbolic.game.fixpoints import ClosedLoop, Layers, attractor, closed_loop, preimage
 from tumato_symbolic.game.problem import Problem
+from tumato_symbolic.game.restoration import Restoration, Restorer
 from tumato_symbolic.symbolic import Bdd
 
 
@@ -16,12 +17,14 @@ class Evaluation:
     """What a policy achieves.
 
     `ranks[k]` are the exact layers of target `k` under the policy; `failing` the valid states that have no good
-    decision: safe ones whose run misses what they owe, and unsafe ones where no allowed set serves.
+    decision: safe ones whose run misses what they owe, and unsafe ones where no allowed set serves. `restoration` is
+    what is decided in unsafe states, where safety may take several steps to restore.
     """
 
     closed_loop: ClosedLoop
     ranks: tuple[Layers, ...]
     failing: Bdd
+    restoration: Restoration | None = None
 
 
 def in_time(problem: Problem, ranks: Sequence[Layers]) -> list[Layers]:
@@ -46,6 +49,10 @@ class Judge:
         self.problem = problem
 
     @cached_property
+    def _restorer(self) -> Restorer:
+        return Restorer(self.problem)
+
+    @cached_property
     def _restoring(self) -> list[Callable[[Bdd], Bdd]]:
         """For every target, which pairs in unsafe states owe it and lead into a set."""
         pairs = self.problem.steps.allowed & self.problem.steps.unsafe
@@ -57,6 +64,11 @@ class Judge:
         found, steps = closed_loop(problem, policy), problem.steps
         ranks = tuple(attractor(problem, t.states, found.predecessor, steps.safe, None) for t in problem.targets)
         near = [union(layers) for layers in in_time(problem, ranks)]
+        if problem.spec.restores_stepwise:
+            restoration = self._restorer.restore(ranks)
+            safe = union(found.predecessor(*pair) for pair in zip(found.owing, near, strict=True))
+            failing = (steps.safe & ~safe) | restoration.undecided
+            return Evaluation(found, ranks, failing, restoration)
         safe = union(found.predecessor(*pair) for pair in zip(found.owing, near, strict=True))
         return Evaluation(found, ranks, steps.valid & ~(safe | union(map(self._restored, range(len(near)), near))))
 
@@ -66,6 +78,8 @@ class Judge:
         Targets are tried in the order of `suspects`, a permutation of their numbers; one that fails moves to the front.
         """
         problem, steps = self.problem, self.problem.steps
+        if problem.spec.restores_stepwise:
+            return self.evaluate(found.policy).failing == problem.false
         restored = problem.false
         for place, number in enumerate(suspects):
             target, owing = problem.targets[number], found.owing[number]

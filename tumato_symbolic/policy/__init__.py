@@ -5,15 +5,25 @@ from tumato_symbolic.policy.convert import as_diagram, as_table, count_defined, 
 from tumato_symbolic.policy.files import load, loads, save
 from tumato_symbolic.policy.lookup import UndecidedState
 from tumato_symbolic.policy.policy import Policy
-from tumato_symbolic.policy.records import Certificate, DecisionDiagram, RankedGoal, Table, Vocabulary
+from tumato_symbolic.policy.records import (
+    Certificate,
+    DecisionDiagram,
+    Deviation,
+    RankedGoal,
+    Restoring,
+    Table,
+    Vocabulary,
+)
 from tumato_symbolic.policy.states import parse_assignments, parse_state
 from tumato_symbolic.policy.write import dumps, fits_table
 
 __all__ = [
     "Certificate",
     "DecisionDiagram",
+    "Deviation",
     "Policy",
     "RankedGoal",
+    "Restoring",
     "Table",
     "UndecidedState",
     "Vocabulary",

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from tumato_symbolic.diagrams import Diagram, Reference, smallest
-from tumato_symbolic.policy.records import Certificate, DecisionDiagram, RankedGoal
+from tumato_symbolic.policy.records import Certificate, DecisionDiagram, RankedGoal, Restoring
 
 if TYPE_CHECKING:
     from tumato_symbolic.policy.unrealizable import NoPlan
@@ -29,6 +29,14 @@ def minimized_ranks(
     goals = zip(certificate.goals, roots, strict=True)
     ranked = tuple(RankedGoal(goal.bodies, goal.executed, root) for goal, root in goals)
     return replace(certificate, ranks=ranks, goals=ranked)
+
+
+def minimized_restoring(
+    restoring: Restoring, sizes: Sequence[int], states: tuple[Diagram[bool], Reference]
+) -> Restoring:
+    """The same efforts in all `states`, a diagram in the same order and a root of it; elsewhere they mean nothing."""
+    efforts, (worst, nominal) = smallest(restoring.efforts, (restoring.worst, restoring.nominal), sizes, states)
+    return replace(restoring, efforts=efforts, worst=worst, nominal=nominal)
 
 
 def minimized_layers(reason: NoPlan, sizes: Sequence[int], states: Reference) -> NoPlan:

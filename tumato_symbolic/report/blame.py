@@ -76,6 +76,10 @@ def _blamed(place: Place, reason: Reason) -> str:
 
 _HEADLINES = {
     "no-allowed-set": ("no set of actions is allowed in this state", "no set of actions is allowed in these {} states"),
+    "no-restoration": (
+        "safety cannot be restored from this state",
+        "safety cannot be restored from these {} states",
+    ),
     "no-plan": ("this state has no plan", "these {} states have no plan"),
     "conflict": (
         "this state has a plan, but none that a policy can follow",

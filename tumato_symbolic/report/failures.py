@@ -14,6 +14,7 @@ from tumato_symbolic.synthesis.outcome import Failure, FailureKind
 
 FAILURE_CODES: Final[dict[FailureKind, Code]] = {
     "no-allowed-set": Code.TUM401,
+    "no-restoration": Code.TUM404,
     "no-plan": Code.TUM402,
     "conflict": Code.TUM403,
 }
@@ -27,6 +28,8 @@ def failure_text(place: Place, failure: Failure, ordering: Ordering) -> str:
     match failure.kind:
         case "no-allowed-set":
             lines = _no_allowed_set(place, failure, ordering)
+        case "no-restoration":
+            lines = _no_restoration(place, failure)
         case "no-plan":
             lines = _no_plan(place, failure)
         case "conflict":
@@ -38,6 +41,7 @@ def failure_line(place: Place, failure: Failure) -> str:
     """One kind of failure in short: how many states, and one of them."""
     what = {
         "no-allowed-set": "no allowed set of actions",
+        "no-restoration": "no way back to safety",
         "no-plan": "allowed sets, but no plan",
         "conflict": "a plan each, but no policy serves them together",
     }[failure.kind]
@@ -56,6 +60,20 @@ def _no_allowed_set(place: Place, failure: Failure, ordering: Ordering) -> list[
         *_head(place, failure, "no allowed set of actions"),
         "The sets that come nearest, and what speaks against them:",
         *(indent(reason, "  ") for reason in why_no_set(place, failure.example, ordering)),
+        "Give the robot an action for such states, or exclude what cannot happen with `assume:`.",
+    ]
+
+
+def _no_restoration(place: Place, failure: Failure) -> list[str]:
+    if place.spec.restoration == "fair":
+        meaning = (
+            "Whatever is executed there without breaking another rule, its nominal effects never lead back to safety."
+        )
+    else:
+        meaning = "Whatever is executed there without breaking another rule, some outcomes never lead back to safety."
+    return [
+        *_head(place, failure, "no way back to safety"),
+        meaning,
         "Give the robot an action for such states, or exclude what cannot happen with `assume:`.",
     ]
 

@@ -1,6 +1,6 @@
 """Sets of states and steps as BDDs; the only room that knows dd."""
 
-from tumato_symbolic.symbolic.choose import lasting, preferred
+from tumato_symbolic.symbolic.choose import by_duration, lasting, preferred
 from tumato_symbolic.symbolic.encoding import Encoding, encode
 from tumato_symbolic.symbolic.extract import Extractor
 from tumato_symbolic.symbolic.goals import Regions, Target, never_entered, regions, targets
@@ -18,6 +18,7 @@ __all__ = [
     "Target",
     "available_backend",
     "build_steps",
+    "by_duration",
     "compatible_sets",
     "encode",
     "lasting",

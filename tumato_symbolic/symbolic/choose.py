@@ -69,6 +69,22 @@ def _by_size(encoding: Encoding) -> list[Bdd]:
     return sizes
 
 
+def by_duration(encoding: Encoding, choices: Bdd) -> dict[int, Bdd]:
+    """Sets of actions by the sum of their durations, the smallest first."""
+    manager, spec = encoding.manager, encoding.spec
+    sums = {0: choices}
+    for group in encoding.groups:
+        following: dict[int, Bdd] = {}
+        for so_far, some in sums.items():
+            parts = [(so_far, encoding.idle(group))]
+            parts += [(so_far + spec.actions[action].duration, encoding.executing(action)) for action in group.actions]
+            for longer, part in parts:
+                if (lasting_so := some & part) != manager.false:
+                    following[longer] = following.get(longer, manager.false) | lasting_so
+        sums = following
+    return dict(sorted(sums.items()))
+
+
 def lasting(encoding: Encoding, total: int) -> Bdd:
     """The sets of actions whose durations sum up to `total`."""
     manager, spec = encoding.manager, encoding.spec

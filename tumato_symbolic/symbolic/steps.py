@@ -7,6 +7,8 @@ is composed group by group (`docs/semantics.md`, section 3).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import accumulate, pairwise
+from operator import and_
 
 from tumato_symbolic.semantics import exclude_each_other
 from tumato_symbolic.spec import Assignment, Ordering
@@ -19,7 +21,8 @@ class Steps:
     """The step relation of a specification.
 
     `valid` and `safe` are sets of states; `candidates` relates valid states to sets of actions that satisfy conditions
-    1 to 3 of section 3, and `allowed` is `Ok(s, A)`.
+    1 to 3 of section 3, and `allowed` is `Ok(s, A)`, or `Keep(s, A)` where safety may take several steps to restore.
+    `tiers` has `S_0` to `S_m`, from the valid states to the safe ones (section 10).
     """
 
     encoding: Encoding
@@ -28,6 +31,7 @@ class Steps:
     safe: Bdd
     candidates: Bdd
     allowed: Bdd
+    tiers: tuple[Bdd, ...]
 
     @property
     def unsafe(self) -> Bdd:
@@ -101,7 +105,10 @@ def build_steps(encoding: Encoding, ordering: Ordering, within: Bdd | None = Non
     domain = encoding.domain()
     valid = domain & encoding.all_of(rule.formula for rule in spec.assumptions)
     valid = valid if within is None else valid & within
-    safe = valid & encoding.all_of(rule.formula for rule in spec.state_rules)
+    tiers = tuple(
+        accumulate((encoding.all_of(rule.formula for rule in tier) for tier in spec.tiers), and_, initial=valid)
+    )
+    safe = tiers[-1]
     compatible = compatible_sets(encoding)
     applicable = manager.intersection(
         ~encoding.executing(number) | encoding.all_of(rule.formula for rule in action.preconditions)
@@ -109,8 +116,31 @@ def build_steps(encoding: Encoding, ordering: Ordering, within: Bdd | None = Non
     )
     candidates = valid & compatible & applicable
     allowed = candidates & encoding.all_of(rule.formula for rule in spec.reaction_rules)
-    allowed = allowed & staying_in(encoding, ordering, safe, compatible, allowed)
-    return Steps(encoding, ordering, valid, safe, candidates, allowed)
+    if spec.restores_stepwise:
+        allowed = _keeping(encoding, ordering, tiers, compatible, allowed)
+    else:
+        allowed = allowed & staying_in(encoding, ordering, safe, compatible, allowed)
+    return Steps(encoding, ordering, valid, safe, candidates, allowed, tiers)
+
+
+def _keeping(encoding: Encoding, ordering: Ordering, tiers: tuple[Bdd, ...], compatible: Bdd, asked: Bdd) -> Bdd:
+    """Those of the pairs asked about after which all rules hold that have to (sections 9 and 10)."""
+    spec, false = encoding.spec, encoding.manager.false
+
+    def into(target: Bdd, pairs: Bdd) -> Bdd:
+        return pairs & staying_in(encoding, ordering, target, compatible, pairs)
+
+    kept = into(tiers[-1], asked & tiers[-1])
+    for tier, (lower, upper) in zip(spec.tiers, pairwise(tiers), strict=True):
+        here = asked & lower & ~upper
+        if here == false:
+            continue
+        here = into(upper if spec.restoration == "one_step" else lower, here)
+        for rule in tier if spec.restoration != "one_step" else ():
+            holds = encoding.domain() & encoding.formula(rule.formula)
+            here = (here & ~holds) | into(holds, here & holds)
+        kept = kept | here
+    return kept
 
 
 def staying_in(encoding: Encoding, ordering: Ordering, safe: Bdd, among: Bdd, asked: Bdd | None = None) -> Bdd:
@@ -119,7 +149,7 @@ def staying_in(encoding: Encoding, ordering: Ordering, safe: Bdd, among: Bdd, as
     Right for compatible sets only, and for the pairs that are `asked` about (None: all); `among` holds the compatible
     sets, and may hold others, if that is smaller.
     """
-    somebody = ~encoding.manager.intersection(_without_effect(encoding, group) for group in encoding.groups)
+    somebody = ~encoding.manager.intersection(encoding.idle(group) for group in encoding.groups)
     asked = somebody if asked is None else asked & somebody
     if ordering == "first":
         found = _after_any_first_effect(encoding, safe & among, asked) & nominal_predecessor(encoding, safe)
@@ -184,12 +214,6 @@ def _after_any_first_effect(encoding: Encoding, stays_safe: Bdd, asked: Bdd) -> 
             break
         asked = asked & _after_effect_of(encoding, group, stays_safe)
     return asked
-
-
-def _without_effect(encoding: Encoding, group: Group) -> Bdd:
-    """The choices by which a group adds no outcome: it is idle, or its action has no effects."""
-    actions = (action for action in group.actions if not encoding.spec.actions[action].effects)
-    return encoding.manager.union([encoding.idle(group), *map(encoding.executing, actions)])
 
 
 def _after_effect_of(encoding: Encoding, group: Group, following: Bdd) -> Bdd:

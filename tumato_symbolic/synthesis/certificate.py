@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
-from tumato_symbolic.diagrams import DiagramBuilder
-from tumato_symbolic.game import Layers, Problem
-from tumato_symbolic.policy import Certificate, DecisionDiagram, Policy, RankedGoal, Vocabulary
-from tumato_symbolic.policy.compact import minimized_decisions, minimized_ranks
-from tumato_symbolic.semantics import Residual, action_names
+from tumato_symbolic.diagrams import Diagram, DiagramBuilder, Reference
+from tumato_symbolic.game import Layers, Problem, Restoration
+from tumato_symbolic.policy import Certificate, DecisionDiagram, Policy, RankedGoal, Restoring, Vocabulary
+from tumato_symbolic.policy.compact import minimized_decisions, minimized_ranks, minimized_restoring
+from tumato_symbolic.semantics import Effort, Residual, action_names
 from tumato_symbolic.spec import Spec, canonical_text, digest
 from tumato_symbolic.symbolic import Bdd, Extractor
 
@@ -19,10 +20,13 @@ def goal_names(spec: Spec, residual: Residual) -> tuple[tuple[str, ...], tuple[s
     return tuple(bodies), tuple(sorted(action_names(spec, residual.executed)))
 
 
-def policy_diagram(problem: Problem, policy: Bdd, ranks: Sequence[Layers]) -> Policy:
+def policy_diagram(
+    problem: Problem, policy: Bdd, ranks: Sequence[Layers], restoration: Restoration | None = None
+) -> Policy:
     """A policy that is defined in every valid state, with its certificate; `ranks` must be exact.
 
-    What its diagrams say of other states is free, and chosen so that they are small.
+    `restoration` is how the policy restores safety, where that may take several steps; `ranks` then are of all valid
+    states. What its diagrams say of other states is free, and chosen so that they are small.
     """
     encoding, steps = problem.encoding, problem.steps
     builder: DiagramBuilder[bool] = DiagramBuilder(encoding.order, (False, True))
@@ -32,15 +36,39 @@ def policy_diagram(problem: Problem, policy: Bdd, ranks: Sequence[Layers]) -> Po
         for action in range(len(problem.spec.actions))
     ]
     defined = extract.function([(True, steps.valid)])
-    safe = extract.function([(True, steps.safe)])
+    ranked = extract.function([(True, steps.safe if restoration is None else steps.valid)])
+    unsafe = extract.function([(True, steps.unsafe)]) if restoration is not None else defined
     found, vocabulary = builder.finish(), Vocabulary.of(problem.spec)
     return Policy(
         vocabulary,
         minimized_decisions(DecisionDiagram(found, tuple(roots), defined), vocabulary.sizes),
         steps.ordering,
         digest(problem.spec),
-        minimized_ranks(certificate(problem, policy, ranks), vocabulary.sizes, (found, safe)),
+        _with_restoring(
+            problem,
+            minimized_ranks(certificate(problem, policy, ranks), vocabulary.sizes, (found, ranked)),
+            restoration,
+            (found, unsafe),
+        ),
+        restoration=problem.spec.restoration,
     )
+
+
+def _with_restoring(
+    problem: Problem,
+    ranks: Certificate,
+    restoration: Restoration | None,
+    states: tuple[Diagram[bool], Reference],
+) -> Certificate:
+    """The certificate with the efforts in unsafe states, where safety may take several steps to restore."""
+    if restoration is None:
+        return ranks
+    efforts = sorted({*restoration.worst, *restoration.nominal})
+    builder: DiagramBuilder[Effort | None] = DiagramBuilder(problem.encoding.order, (None, *efforts))
+    extract = Extractor(problem.encoding, builder, default=None)
+    roots = [extract.function(sorted(found.items())) for found in (restoration.worst, restoration.nominal)]
+    restoring = Restoring(builder.finish(), roots[0], roots[1], restoration.deviations)
+    return replace(ranks, restoring=minimized_restoring(restoring, Vocabulary.of(problem.spec).sizes, states))
 
 
 def certificate(problem: Problem, policy: Bdd, ranks: Sequence[Layers]) -> Certificate:

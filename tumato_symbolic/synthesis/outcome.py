@@ -13,7 +13,7 @@ from tumato_symbolic.spec import Ordering
 if TYPE_CHECKING:
     from tumato_symbolic.policy.unrealizable import Unrealizability
 
-FailureKind: TypeAlias = Literal["no-allowed-set", "no-plan", "conflict"]
+FailureKind: TypeAlias = Literal["no-allowed-set", "no-restoration", "no-plan", "conflict"]
 
 
 @dataclass(frozen=True, slots=True)

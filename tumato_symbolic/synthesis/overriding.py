@@ -49,7 +49,7 @@ def _towards(problem: Problem, policy: Bdd, failing: Bdd, distances: tuple[Layer
         kept = policy & nearer
         turned = here & ~steps.states_of(kept)
         decided = kept | preferred(encoding, steps.allowed & turned & nearer)
-        changed = changed | (decided & turned)
+        changed = changed | (decided & turned & steps.safe)
         met = met | steps.successors(decided)
     return changed | (policy & ~steps.states_of(changed))
 

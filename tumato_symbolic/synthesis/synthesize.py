@@ -12,6 +12,7 @@ from tumato_symbolic.game import (
     Judge,
     Layers,
     Problem,
+    alone,
     build_problem,
     closed_loop,
     distances,
@@ -26,7 +27,6 @@ from tumato_symbolic.policy import Policy, as_table
 from tumato_symbolic.semantics import count_states
 from tumato_symbolic.semantics.lint import no_valid_state
 from tumato_symbolic.spec import Ordering, Spec
-from tumato_symbolic.spec.support import require_one_step
 from tumato_symbolic.symbolic import Backend, Bdd, available_backend
 from tumato_symbolic.synthesis.certificate import policy_diagram
 from tumato_symbolic.synthesis.lint import lint
@@ -67,7 +67,6 @@ def synthesize(
     work; it is told the name of each stage, and learns what the outcome would be if a limit were met now. Without
     `certify` the answer no comes without its certificate. Raises `UserError` where no state is valid.
     """
-    require_one_step(spec, "synth")
     context = context or Context()
     try:
         problem = build_problem(spec, ordering or spec.ordering, backend or available_backend(), context)
@@ -105,15 +104,24 @@ def _solve(problem: Problem, policy_format: PolicyFormat, certify: bool) -> Outc
     evaluation = judge.evaluate(policy) if undecided == problem.false else None
     if stuck != problem.false or evaluation is None or evaluation.failing != problem.false:
         context.tell("measuring distances")
-        apart = distances(problem)
-        helpless = problem.steps.valid & ~stuck & ~winning(problem, apart, problem.steps.allowed)
-        if (stuck | helpless) != problem.false:
+        taken_alone = alone(problem) if problem.spec.restores_stepwise else None
+        pairs = problem.steps.allowed if taken_alone is None else taken_alone.pairs
+        apart = distances(problem, None if taken_alone is None else pairs)
+        lost = problem.false
+        if taken_alone is not None and problem.spec.restoration != "one_step":
+            lost, stuck = problem.steps.unsafe & ~taken_alone.restorable, stuck & problem.steps.safe
+        helpless = problem.steps.valid & ~stuck & ~lost & ~winning(problem, apart, pairs)
+        if (stuck | lost | helpless) != problem.false:
             from tumato_symbolic.synthesis.disproof import certified, no_allowed_set, no_plan
 
-            failures = (_failure(problem, "no-allowed-set", stuck), _failure(problem, "no-plan", helpless))
+            failures = (
+                _failure(problem, "no-allowed-set", stuck),
+                _failure(problem, "no-restoration", lost),
+                _failure(problem, "no-plan", helpless),
+            )
             found = tuple(failure for failure in failures if failure is not None)
             answer, state = _answer_no(problem, found, statistics, warnings), found[0].example
-            if not certify:
+            if not certify or problem.spec.restores_stepwise:
                 return answer
             reason = no_plan(problem, state, apart) if stuck == problem.false else no_allowed_set(problem, state)
             return replace(answer, certificate=certified(problem, reason))
@@ -164,6 +172,8 @@ def _resolve(
     tell("overriding decisions of other goals")
     found = override(judge, found, apart)
     changed = found.closed_loop.policy
+    if found.failing != problem.false and problem.spec.restores_stepwise:
+        return Undecided("how the goals interact in unsafe states was not settled", statistics, so_far.warnings)
     if found.failing != problem.false:
         from tumato_symbolic.synthesis.repair import ROUNDS, Impossible, Repair, RoundsExhaustedError
 
@@ -193,12 +203,19 @@ def _finish(problem: Problem, found: Evaluation, statistics: Statistics) -> tupl
     """Add restoring sets and the certificate to a policy for the safe states that serves every valid state."""
     steps, near, tell = problem.steps, in_time(problem, found.ranks), problem.context.tell
     tell("choosing restoring sets")
-    restoring, durations = restoring_policy(problem, near)
-    policy = found.closed_loop.policy | restoring
+    if found.restoration is not None:
+        durations: tuple[int, ...] = ()
+        policy = found.closed_loop.policy | found.restoration.policy
+        near = in_time(problem, found.restoration.ranks)
+    else:
+        restoring, durations = restoring_policy(problem, near)
+        policy = found.closed_loop.policy | restoring
     assert steps.states_of(policy) == steps.valid, "a winning state was left without a decision"
     longest = _longest_run(problem, policy, near)
     tell("extracting the policy and its certificate")
     statistics = replace(statistics, longest_run=longest, restoring_durations=len(durations))
+    if found.restoration is not None:
+        return policy_diagram(problem, policy, found.restoration.ranks, found.restoration), statistics
     return policy_diagram(problem, policy, found.ranks), statistics
 
 

@@ -1,0 +1,1 @@
+"""Restoring safety in several steps, and by severity: the engine against the explicit meaning."""
