@@ -714,27 +714,37 @@ class World:
         return tuple(values)
 
     def effects(self, name: str) -> list[Effect]:
-        """Every effect of an action, the nominal one first."""
-        return self.spec.actions[name].effects
+        """Every effect that an action may take, the nominal one first; none where no effect mentions a variable."""
+        found = self.spec.actions[name].effects
+        return found if any(found) else []
+
+    def nominal(self, name: str) -> Effect:
+        """What an action writes nominally."""
+        return self.spec.actions[name].effects[0]
+
+    def acts(self, chosen: Iterable[str]) -> bool:
+        """Whether some action of a set takes effect."""
+        return any(map(self.effects, chosen))
 
     def agree(self, chosen: ActionSet) -> bool:
         """Whether the nominal effects of a set never give one variable two values."""
-        given = {pair for name in chosen for pair in self.effects(name)[0].items()}
+        given = {pair for name in chosen for pair in self.nominal(name).items()}
         return len(given) == len({variable for variable, _ in given})
 
     def successor(self, state: State, chosen: ActionSet) -> State:
         """`δ(s, A)`: all nominal effects at once. Where they agree, their order does not matter."""
         for name in chosen:
-            state = self.apply(state, self.effects(name)[0])
+            state = self.apply(state, self.nominal(name))
         return state
 
     def outcomes(self, state: State, chosen: ActionSet) -> Iterator[tuple[State, list[State]]]:
         """`Out(s, A)`, each outcome with the states on the way to it.
 
         Under `any` the actions take effect one after the other, each at most once and with any one of its effects,
-        and every state on the way counts. Under `first` only one action takes effect.
+        and every state on the way counts. Under `first` only one action takes effect. Where no action of the set has
+        effects, as in the empty one, the only outcome is the state itself.
         """
-        if not chosen:
+        if not self.acts(chosen):
             yield state, [state]
         waiting, seen = [(state, chosen, [state])], set()
         while waiting:
@@ -753,7 +763,7 @@ class World:
         return {self.successor(state, chosen), *(after for after, _ in self.outcomes(state, chosen))}
 
     def stays_within(self, state: State, chosen: ActionSet, required: Required) -> bool:
-        """Whether every outcome keeps the rules, of a set that is not empty. Answers are kept: orders share states."""
+        """Whether the rules are kept wherever effects of a set lead. Answers are kept: orders share states."""
         asked = state, chosen, required
         if asked not in self.answers:
             within_limit(len(self.answers), "outcomes of sets of actions")
@@ -781,10 +791,11 @@ class World:
         if line is not None:
             return f"a reaction rule is broken: {self.quote(line)}"
         required = self.required(state)
-        within = bool(chosen) and self.stays_within(state, chosen, required)
+        acts = self.acts(chosen)
+        within = acts and self.stays_within(state, chosen, required)
         for after, way in self.outcomes(state, chosen) if not within else ():
             if not self.meets(required, after):
-                there = "; the effects lead to " + ", then ".join(map(self.show, way[1:])) if chosen else ""
+                there = "; the effects lead to " + ", then ".join(map(self.show, way[1:])) if acts else ""
                 return f"an outcome {self.fault(required, after)}{there}"
         after = self.successor(state, chosen)
         if not self.meets(required, after):
@@ -799,8 +810,8 @@ class World:
         """The allowed sets of a smaller duration than `below`, grown action by action in the order of declaration.
 
         A larger set has all that a smaller one has: the duration, the disagreements about resources and nominal
-        effects, and (but for the empty set) every outcome. Where one of these is at fault, or where a reaction rule
-        will be false whatever is added, a set is not grown.
+        effects, and (but for sets without effects) every outcome. Where one of these is at fault, or where a reaction
+        rule will be false whatever is added, a set is not grown.
         """
         names = [name for name, a in self.spec.actions.items() if self.broken(a.preconditions, state) is None]
         self.answers.clear()
@@ -1710,8 +1721,9 @@ def unviolated(world: World, state: State, cube: Cube) -> str:
     if cube.kind == "unsafe":
         return safe_outcome(world, state, cube)
     if cube.kind == "idle":
-        idle = settled and not cube.executed
-        return "" if idle and not world.meets(world.required(state), state) else "doing nothing may be allowed"
+        changes = world.acts(set(world.spec.actions) - cube.idle)
+        kept = changes or world.meets(world.required(state), state)
+        return "doing nothing may be allowed" if kept else ""
     if not settled or not world.agree(cube.executed):
         return "there is not one nominal successor"
     kept = world.meets(world.required(state), world.successor(state, cube.executed))

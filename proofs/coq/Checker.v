@@ -136,11 +136,13 @@ Fixpoint struck_fine (fine : state -> bool) (n : nat) (f : front) : bool :=
       match n with 0 => true | _ => struck_fine fine n (distinct (after_one f)) end
   end.
 
+(** Whether no action of [A] takes effect. *)
+Definition at_rest (A : actions) : bool :=
+  forallb (fun a => match effects spec a with [] => true | _ :: _ => false end) A.
+
 Definition out_fine (fine : state -> bool) (s : state) (A : actions) : bool :=
-  match A with
-  | [] => fine s
-  | _ => struck_fine fine (match order with Any => length A | First => 1 end) [(s, A)]
-  end.
+  if at_rest A then fine s
+  else struck_fine fine (match order with Any => length A | First => 1 end) [(s, A)].
 
 (** [ok], where [fine] tells the safe states. *)
 Definition is_ok (fine : state -> bool) (s : state) (A : actions) : bool :=

@@ -74,7 +74,7 @@ Proof.
   - apply andb_true_iff. split.
     + apply all_hold_spec. now apply (preconditions_hold _ _ _ _ allowed).
     + apply one_fine_spec. intros b e [<-|[]] He. apply fine_safe. apply (outcomes_safe _ _ _ _ allowed).
-      unfold out. destruct A as [|b A]; [contradiction|]. destruct order.
+      unfold out. right. destruct order.
       * now apply last_effect with a.
       * now exists a, e.
 Qed.

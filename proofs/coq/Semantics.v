@@ -93,7 +93,10 @@ Definition the (a : nat) : action :=
   nth a (declared spec)
     {| duration := 0; resources := []; preconditions := []; nominal := []; alternatives := [] |}.
 
-Definition effects (a : nat) : list assignment := nominal (the a) :: alternatives (the a).
+(** What an action may do. One whose effects all write nothing never takes effect. *)
+Definition effects (a : nat) : list assignment :=
+  let written := nominal (the a) :: alternatives (the a) in
+  if forallb (fun e : assignment => match e with [] => true | _ :: _ => false end) written then [] else written.
 
 Fixpoint write (x v : nat) (s : state) : state :=
   match s, x with
@@ -118,12 +121,12 @@ Inductive struck : actions -> state -> state -> Prop :=
 | last_effect A s a e : In a A -> In e (effects a) -> struck A s (apply e s)
 | next_effect A s a e t : In a A -> In e (effects a) -> struck (without a A) (apply e s) t -> struck A s t.
 
-(** [out s A t]: a step with [A] from [s] can lead to [t]. *)
+(** [out s A t]: a step with [A] from [s] can lead to [t]. Where no action of [A] takes effect, that is [s] itself. *)
 Definition out (s : state) (A : actions) (t : state) : Prop :=
-  match A, order with
-  | [], _ => t = s
-  | _, Any => struck A s t
-  | _, First => exists a e, In a A /\ In e (effects a) /\ t = apply e s
+  (t = s /\ forall a, In a A -> effects a = []) \/
+  match order with
+  | Any => struck A s t
+  | First => exists a e, In a A /\ In e (effects a) /\ t = apply e s
   end.
 
 (** The nominal successor: all nominal effects at once. *)

@@ -83,8 +83,15 @@ Proof.
   intros [E|H]; [contradiction|]. apply IH in H. lia.
 Qed.
 
-Lemma struck_some : forall A s t, struck spec A s t -> exists a, In a A.
-Proof. intros A s t H. destruct H as [A s a | A s a]; now exists a. Qed.
+Lemma struck_some : forall A s t, struck spec A s t -> exists a e, In a A /\ In e (effects spec a).
+Proof. intros A s t H. destruct H as [A s a e | A s a e]; now exists a, e. Qed.
+
+Lemma at_rest_spec : forall A, at_rest spec A = true <-> forall a, In a A -> effects spec a = [].
+Proof.
+  intros A. unfold at_rest. rewrite forallb_forall. split; intros H a Ha; specialize (H a Ha).
+  - destruct (effects spec a); [reflexivity | discriminate].
+  - now rewrite H.
+Qed.
 
 Lemma struck_fine_safe : forall A s t, struck spec A s t ->
   forall n f B, struck_fine spec fine n f = true -> In (s, B) f -> incl A B -> length B <= n -> fine t = true.
@@ -100,7 +107,7 @@ Proof.
     + assert (shorter := without_shorter _ _ HB).
       assert (less : incl (without a A) (without a B)).
       { intros b Hb. apply in_without in Hb. apply in_without. split; [now apply more | apply Hb]. }
-      destruct (struck_some _ _ _ further) as [b some]. apply less in some.
+      destruct (struck_some _ _ _ further) as (b & _ & some & _). apply less in some.
       destruct n as [|n]; [destruct (without a B); cbn in *; [contradiction | lia]|].
       apply (IH (S n) (distinct (after_one spec f)) (without a B) later); [|exact less | lia].
       now apply in_distinct, in_after_one.
@@ -121,15 +128,21 @@ Qed.
 Lemma out_fine_spec : forall s A,
   out_fine spec order fine s A = true <-> forall t, out spec order s A t -> safe spec t.
 Proof.
-  intros s A. unfold out_fine, out. destruct A as [|a A].
-  { rewrite fine_safe. split; [now intros H t -> | auto]. }
-  set (B := a :: A). destruct order.
+  intros s A. unfold out_fine, out. destruct (at_rest spec A) eqn:R.
+  { rewrite at_rest_spec in R. rewrite fine_safe. split.
+    - intros F t [[-> _]|H]; [exact F|]. destruct order.
+      + destruct (struck_some _ _ _ H) as (a & e & Ha & He). rewrite (R a Ha) in He. contradiction.
+      + destruct H as (a & e & Ha & He & _). rewrite (R a Ha) in He. contradiction.
+    - intros H. apply H. now left. }
+  assert (acts : ~ forall a, In a A -> effects spec a = []) by (rewrite <- at_rest_spec, R; discriminate).
+  destruct order.
   - split.
-    + intros F t H. apply fine_safe. apply (struck_fine_safe _ _ _ H _ _ B F); [now left | now intros b | lia].
-    + intros H. apply safe_struck_fine. intros s' A' t [[= <- <-]|[]] Ht. now apply fine_safe, H.
+    + intros F t [[_ N]|H]; [contradiction|].
+      apply fine_safe. apply (struck_fine_safe _ _ _ H _ _ A F); [now left | now intros b | lia].
+    + intros H. apply safe_struck_fine. intros s' A' t [[= <- <-]|[]] Ht. apply fine_safe, H. now right.
   - cbn [struck_fine forallb fst snd]. rewrite !andb_true_r, one_fine_spec. split.
-    + intros F t (b & e & Hb & He & ->). apply fine_safe. now apply (F b).
-    + intros H b e Hb He. apply fine_safe, H. now exists b, e.
+    + intros F t [[_ N]|(b & e & Hb & He & ->)]; [contradiction|]. apply fine_safe. now apply (F b).
+    + intros H b e Hb He. apply fine_safe, H. right. now exists b, e.
 Qed.
 
 (** ** What is allowed *)

@@ -71,6 +71,8 @@ RIGHT = {
         ring=unsafe("ring", "bc hop sing", "ring=c"), sing=cube("sing", "bc hop", "precondition", Actions=["sing"])
     ),
     "nothing done": proof(idle=cube("", "bc hop sing ring", "idle")),
+    "an action without effects open": proof(idle=cube("", "bc hop ring", "idle"), sing=[]),
+    "an action without effects executed": proof(sing=cube("sing", "bc hop ring", "idle")),
     "no nominal successor": proof(idle=cube("", "bc hop ring sing", "nominal-unsafe")),
     "a rule for open actions": proof(idle=cube("", "bc hop ring", "reaction-rule", Rule=RULE), sing=[]),
 }
@@ -154,12 +156,16 @@ WRONG = {
         "{ring} (duration 0) keeps the rule",
     ),
     "idle where an action is open": (
-        proof(idle=cube("", "bc hop ring", "idle"), sing=[]),
+        proof(idle=cube("", "bc hop sing", "idle"), ring=unsafe("ring sing", "bc hop", "ring=c")),
         "doing nothing may be allowed",
     ),
     "idle where an action is executed": (
-        proof(sing=cube("sing", "bc hop ring", "idle")),
+        proof(ring=cube("ring", "bc hop", "idle")),
         "doing nothing may be allowed",
+    ),
+    "an effect of an action without effects": (
+        proof(sing=cube("sing", "bc hop ring", "unsafe", Outcome=[{"Action": "sing", "Effect": {}}])),
+        "`sing` does not have the effect",
     ),
     "nominal effects where an action is open": (
         proof(idle=cube("", "bc hop ring", "nominal-unsafe"), sing=[]),

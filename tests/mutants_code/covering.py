@@ -110,6 +110,9 @@ CHECKER = (
     "tests/checker/test_conflicts.py",
     "tests/checker/test_refusals.py",
     "tests/checker/test_forged.py",
+    "tests/checker/test_restoration.py",
+    "tests/checker/test_stepwise.py",
+    "tests/checker/test_efforts.py",
     "tests/readers/test_readers.py",
     "tests/readers/test_files.py",
 )

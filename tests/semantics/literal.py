@@ -76,11 +76,11 @@ def safe(spec: Spec, state: State) -> bool:
 
 
 def effects(spec: Spec, action: int) -> list[Assignment]:
-    """The nominal effect and every alternative one."""
+    """The nominal effect and every alternative one; none where no effect mentions a variable."""
     found = [spec.actions[action].nominal]
     for entry in spec.actions[action].alternatives:
         found += entry.outcomes
-    return found
+    return found if max(map(len, found)) > 0 else []
 
 
 def ways(spec: Spec, state: State, chosen: Actions, ordering: Ordering) -> Iterator[tuple[State, ...]]:
@@ -95,8 +95,8 @@ def ways(spec: Spec, state: State, chosen: Actions, ordering: Ordering) -> Itera
 
 
 def outcomes(spec: Spec, state: State, chosen: Actions, ordering: Ordering) -> dict[State, int]:
-    """`Out(s, A)`, with the least number of effects that lead there; doing nothing leads nowhere else."""
-    if not chosen:
+    """`Out(s, A)`, with the least number of effects that lead there; without effects nothing changes."""
+    if all(effects(spec, action) == [] for action in chosen):
         return {state: 0}
     found: dict[State, int] = {}
     for way in ways(spec, state, chosen, ordering):

@@ -165,6 +165,35 @@ def test_two_faults_cannot_be_restored_in_one_step(ordering: Ordering) -> None:
 
 
 @pytest.mark.parametrize("ordering", BOTH)
+def test_an_action_without_effects_adds_no_outcome(ordering: Ordering) -> None:
+    """`Out(s, A)` is that of the others, and `{s}` where there are none: it may accompany what restores safety."""
+    build = Build({"x": "ab", "y": "ab"})
+    repair, beep, blink = build.action("x=a"), build.action(), build.action("", alternatives=[""])
+    spec = build.spec(state_rules=[build.atom("x=a")])
+    state, silent = build.state("bb"), chosen(beep, blink)
+    assert outcomes(spec, state, silent, ordering) == {state: ()}
+    assert set(outcomes(spec, state, silent | chosen(repair), ordering)) == {build.state("ab")}
+    assert kinds(spec, state, silent, ordering) == ["unsafe", "nominal-unsafe"]
+    assert list(allowed_sets(spec, state, ordering)) == [
+        chosen(repair),
+        chosen(repair, beep),
+        chosen(repair, blink),
+        chosen(repair, beep, blink),
+    ]
+
+
+@pytest.mark.parametrize("ordering", BOTH)
+def test_an_alternative_that_writes_makes_no_change_an_effect(ordering: Ordering) -> None:
+    """Nominal effects `none` beside such an alternative take effect: the state itself is an outcome."""
+    build = Build({"x": "ab", "y": "ab"})
+    repair, fumble = build.action("x=a"), build.action("", alternatives=["y=b"])
+    spec = build.spec(state_rules=[build.atom("x=a")])
+    state = build.state("ba")
+    assert set(outcomes(spec, state, chosen(fumble), ordering)) == {state, build.state("bb")}
+    assert list(allowed_sets(spec, state, ordering)) == [chosen(repair)]
+
+
+@pytest.mark.parametrize("ordering", BOTH)
 def test_sets_come_smallest_first_then_as_declared(ordering: Ordering) -> None:
     """The order in which `allowed_sets` yields is the one that decides ties."""
     build = Build({"x": "ab"})

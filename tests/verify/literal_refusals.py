@@ -115,7 +115,8 @@ def violated(meaning: Meaning, state: literal.State, cube: Cube) -> bool:
             once = 0 < len(striking) == len(set(striking)) and (meaning.ordering == "any" or len(striking) == 1)
             return once and not literal.safe(spec, after)
         case "idle":
-            return not cube.executed and not still_open and not literal.safe(spec, state)
+            may_act = [action for action in cube.executed | still_open if literal.effects(spec, action)]
+            return not may_act and not literal.safe(spec, state)
         case "nominal-unsafe":
             agreed = not still_open and literal.agrees(spec, cube.executed)
             return agreed and not literal.safe(spec, literal.successor(spec, state, cube.executed))

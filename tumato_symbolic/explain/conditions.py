@@ -165,13 +165,17 @@ class Conditions:
         return nobody | somebody
 
     def _relevant_alternatives(self, element: Element) -> Elements:
-        """The alternatives that do something else than the nominal effect to what a rule speaks of."""
+        """The alternatives that do something else than the nominal effect to what a rule speaks of.
+
+        Without nominal effects also those that write anything: it is by them that the action has effects.
+        """
         speaks_of = variables_of(_rule(self.spec, element).formula)
         return frozenset(
             Element("alternative", number, part)
             for number, action in enumerate(self.spec.actions)
             for part, entry in enumerate(action.alternatives)
             if any(_on(outcome, speaks_of) != _on(action.nominal, speaks_of) for outcome in entry.outcomes)
+            or (not action.nominal and any(entry.outcomes))
         )
 
     def formula(self, formula: Formula) -> Bdd:

@@ -26,8 +26,8 @@ class Violation:
     `precondition`: the executed action of `actions` has a precondition that is false. `resource`, `nominal-conflict`:
     the two executed actions of `actions` exclude each other. `reaction-rule`: `rule` is false however the open actions
     are chosen. `unsafe`: the executed actions of `outcome` can strike in this order, and lead to a state that is not
-    safe. `idle`: nothing is executed in a state that is not safe. `nominal-unsafe`: all nominal effects together lead
-    to a state that is not safe; every action is settled.
+    safe. `idle`: the state is not safe, and every action that has effects is idle. `nominal-unsafe`: all nominal
+    effects together lead to a state that is not safe; every action is settled.
     """
 
     kind: Literal["precondition", "resource", "nominal-conflict", "reaction-rule", "unsafe", "idle", "nominal-unsafe"]

@@ -2,10 +2,12 @@
 
 from tumato_symbolic.semantics.exclusion import disagreeing_pairs, exclude_each_other, exclusive_groups, exclusive_pairs
 from tumato_symbolic.semantics.goals import ActiveGoals, Residual, active_goals, reached, residual_goal
+from tumato_symbolic.semantics.guarantees import Guarantee, Prospects, guarantees, steps_from
 from tumato_symbolic.semantics.judge import Judgement, better_sets, judge
 from tumato_symbolic.semantics.partial import settled_truth
 from tumato_symbolic.semantics.restoration import AT_ONCE, Effort, Quality, Restorations, restored
 from tumato_symbolic.semantics.runs import Run, follow
+from tumato_symbolic.semantics.shortcomings import Move, Shortcoming, Shortcomings, shows
 from tumato_symbolic.semantics.states import (
     NOTHING,
     ActionSet,
@@ -36,6 +38,7 @@ from tumato_symbolic.semantics.step import (
     outcomes,
     outcomes_in_turn,
     successor,
+    takes_effect,
 )
 
 __all__ = [
@@ -45,13 +48,18 @@ __all__ = [
     "ActiveGoals",
     "Effectuation",
     "Effort",
+    "Guarantee",
     "Judgement",
+    "Move",
     "Objection",
     "Outcome",
+    "Prospects",
     "Quality",
     "Residual",
     "Restorations",
     "Run",
+    "Shortcoming",
+    "Shortcomings",
     "State",
     "action_names",
     "active_goals",
@@ -69,6 +77,7 @@ __all__ = [
     "exclusive_pairs",
     "first_broken",
     "follow",
+    "guarantees",
     "holds",
     "is_safe",
     "is_valid",
@@ -85,5 +94,8 @@ __all__ = [
     "residual_goal",
     "restored",
     "settled_truth",
+    "shows",
+    "steps_from",
     "successor",
+    "takes_effect",
 ]

@@ -9,7 +9,7 @@ from typing import TypeAlias
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Note
 from tumato_symbolic.semantics.states import ActionSet, State, all_states, count_states, holds, is_valid
-from tumato_symbolic.semantics.step import allowed, nominal_agrees
+from tumato_symbolic.semantics.step import allowed, nominal_agrees, takes_effect
 from tumato_symbolic.spec import Action, ConditionalGoal, Formula, Goal, GoalList, Rule, Spec, executing_atoms, subgoals
 from tumato_symbolic.spec.formula import atoms
 
@@ -176,11 +176,17 @@ def _rules(spec: Spec, valid: States, work: _Work) -> Iterator[Diagnostic]:
 
 
 def _actions(spec: Spec, valid: States, work: _Work) -> Iterator[Diagnostic]:
-    """With an allowed set, the action and those of the set that reaction rules speak of are allowed as well."""
+    """With an allowed set, the action and those of the set that reaction rules speak of are allowed as well.
+
+    Where none of these has effects, they may need one of the others, which restores safety.
+    """
     spoken_of = frozenset[int]().union(*(executing_atoms(rule.formula) for rule in spec.reaction_rules))
     for number, action in enumerate(spec.actions):
         alone = frozenset((number,))
         sets = [chosen | alone for chosen in _compatible(spec, spoken_of - alone, work)]
+        if not action.effects:
+            idle = [chosen for chosen in sets if not takes_effect(spec, chosen)]
+            sets += [chosen | {other} for chosen in idle for other, each in enumerate(spec.actions) if each.effects]
         applicable = (state for state in valid if _applicable(spec, state, alone, work))
         if not any(_is_allowed(spec, state, chosen, work) for state in applicable for chosen in sets):
             yield idle_action(action)

@@ -21,14 +21,15 @@ class Effectuation:
 
 
 Outcome: TypeAlias = tuple[Effectuation, ...]
-"""How a state was reached: effects in the order in which they struck. Empty for the empty set of actions."""
+"""How a state was reached: effects in the order in which they struck. Empty where no action has effects."""
 
 
 def outcomes(spec: Spec, state: State, chosen: ActionSet, ordering: Ordering) -> dict[State, Outcome]:
     """`Out(s, A)`: every state that the step can lead to, each with one shortest way of getting there.
 
     Under `any`: after every non-empty sequence of distinct actions of `chosen`, each with any one of its effects.
-    Under `first`: after one action with any one of its effects. The empty set leads to `state` itself.
+    Under `first`: after one action with any one of its effects. A set whose actions have no effects, as the empty
+    one, leads to `state` itself.
     """
     return dict(outcomes_in_turn(spec, state, chosen, ordering))
 
@@ -37,7 +38,7 @@ def outcomes_in_turn(
     spec: Spec, state: State, chosen: ActionSet, ordering: Ordering
 ) -> Iterator[tuple[State, Outcome]]:
     """`outcomes` one by one, the shortest ways first: there may be more of them than anybody wants to wait for."""
-    if not chosen:
+    if not takes_effect(spec, chosen):
         yield state, ()
         return
     reached: set[State] = set()
@@ -58,6 +59,11 @@ def outcomes_in_turn(
                         seen.add((there, rest))
                         following.append((there, rest, way))
         frontier = following if ordering == "any" else []
+
+
+def takes_effect(spec: Spec, chosen: ActionSet) -> bool:
+    """Whether some action of `chosen` has effects; the others never take effect and add no outcome."""
+    return any(spec.actions[action].effects for action in chosen)
 
 
 def nominal_agrees(spec: Spec, chosen: ActionSet) -> bool:

@@ -66,9 +66,12 @@ class Action:
 
     @property
     def effects(self) -> tuple[Assignment, ...]:
-        """The nominal assignment first, then every alternative one; each assignment once."""
+        """The nominal assignment first, then every alternative one; each assignment once.
+
+        Empty for an action without effects, none of whose effects mentions a variable: it never takes effect.
+        """
         found = [self.nominal, *(outcome for entry in self.alternatives for outcome in entry.outcomes)]
-        return tuple(dict.fromkeys(found))
+        return tuple(dict.fromkeys(found)) if any(found) else ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -149,7 +149,7 @@ def staying_in(encoding: Encoding, ordering: Ordering, safe: Bdd, among: Bdd, as
     Right for compatible sets only, and for the pairs that are `asked` about (None: all); `among` holds the compatible
     sets, and may hold others, if that is smaller.
     """
-    somebody = ~encoding.manager.intersection(encoding.idle(group) for group in encoding.groups)
+    somebody = ~encoding.manager.intersection(_without_effect(encoding, group) for group in encoding.groups)
     asked = somebody if asked is None else asked & somebody
     if ordering == "first":
         found = _after_any_first_effect(encoding, safe & among, asked) & nominal_predecessor(encoding, safe)
@@ -214,6 +214,12 @@ def _after_any_first_effect(encoding: Encoding, stays_safe: Bdd, asked: Bdd) -> 
             break
         asked = asked & _after_effect_of(encoding, group, stays_safe)
     return asked
+
+
+def _without_effect(encoding: Encoding, group: Group) -> Bdd:
+    """The choices by which a group adds no outcome: it is idle, or its action has no effects."""
+    actions = (action for action in group.actions if not encoding.spec.actions[action].effects)
+    return encoding.manager.union([encoding.idle(group), *map(encoding.executing, actions)])
 
 
 def _after_effect_of(encoding: Encoding, group: Group, following: Bdd) -> Bdd:

@@ -32,6 +32,7 @@ from tumato_symbolic.semantics import (
     outcomes_in_turn,
     settled_truth,
     successor,
+    takes_effect,
 )
 from tumato_symbolic.spec import Rule, Spec, canonical_text, digest
 from tumato_symbolic.symbolic import Bdd, Extractor
@@ -94,14 +95,14 @@ def _violations(problem: Problem, state: State, executed: ActionSet, idle: Actio
         if settled_truth(rule.formula, state, executed, idle) is False:
             yield Violation("reaction-rule", rule=_name(spec, rule))
     settled = len(executed) + len(idle) == len(spec.actions)
-    if executed:
+    if takes_effect(spec, executed):
         effects = [len(spec.actions[action].effects) for action in executed]
         if (prod(1 + count for count in effects) if ordering == "any" else sum(effects)) > MOST_OUTCOMES:
             raise _TooManyOutcomesError
         for reached, way in outcomes_in_turn(spec, state, executed, ordering):
             if not is_safe(spec, reached):
                 yield Violation("unsafe", outcome=tuple((strike.action, strike.effect) for strike in way))
-    elif settled and not is_safe(spec, state):
+    elif not takes_effect(spec, frozenset(range(len(spec.actions))) - idle) and not is_safe(spec, state):
         yield Violation("idle")
     if settled and not is_safe(spec, successor(spec, state, executed)):
         yield Violation("nominal-unsafe")

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from itertools import combinations
 from math import prod
 
-from tumato_symbolic.semantics import ActionSet, State, duration, nominal_agrees, outcomes, successor
+from tumato_symbolic.semantics import ActionSet, State, duration, nominal_agrees, outcomes, successor, takes_effect
 from tumato_symbolic.spec import Assignment, Ordering, Spec
 from tumato_symbolic.verify.by_states.packed import Code, Packing, all_hold
 
@@ -115,7 +115,8 @@ class Steps:
         """The allowed sets of a smaller duration than `limit` in an unsafe state, grown action by action.
 
         A larger set has the duration of a smaller one, what is controlled and written there, and its outcomes: where
-        one of these is at fault, a set is not grown. (The empty set is not allowed in an unsafe state.)
+        one of these is at fault, a set is not grown. (Sets in which no action has effects are not allowed in an unsafe
+        state; what they grow into may be.)
         """
         applicable = [number for number, test in enumerate(self._applicable) if test(code)]
         usable = [number for number in applicable if self._may_grow(code, frozenset({number}), limit)]
@@ -129,7 +130,9 @@ class Steps:
 
     def _may_grow(self, code: Code, chosen: ActionSet, limit: int) -> bool:
         return (
-            duration(self._spec, chosen) < limit and self.may_be_together(chosen) and self.leads_to_safety(code, chosen)
+            duration(self._spec, chosen) < limit
+            and self.may_be_together(chosen)
+            and (not takes_effect(self._spec, chosen) or self.leads_to_safety(code, chosen))
         )
 
 

@@ -120,12 +120,16 @@ class Model:
 
     @cached_property
     def safe_from_here(self) -> Function:
-        """`s` is safe, and stays so whatever effects of `A` are still to come, in any order.
+        """`s` is safe, and stays so whatever effects of `A` are still to come, in any order."""
+        return self._stays_in(self.safe)
 
-        The one solution of `f(s, A) ⇔ s ∈ S and f(e(s), A \\ a)` for every effect `e` of every `a ∈ A`.
+    def _stays_in(self, target: Function) -> Function:
+        """`s` is in `target`, and stays there whatever effects of `A` are still to come, in any order.
+
+        The one solution of `f(s, A) ⇔ s ∈ target and f(e(s), A \\ a)` for every effect `e` of every `a ∈ A`.
         """
         walk, before = self.walk, FALSE
-        found = walk.all_of((self.safe, self.compatible))
+        found = walk.all_of((target, self.compatible))
         while found != before:
             before = found
             for action, chosen in enumerate(self.chosen):
@@ -135,10 +139,21 @@ class Model:
     @cached_property
     def outcomes_safe(self) -> Function:
         """Condition 5: every outcome of `A` in `s` is safe. Speaks of sets without conflicts only."""
+        return self._outcomes_in(self.safe, self.safe_from_here if self._ordering == "any" else self.safe)
+
+    def _outcomes_in(self, target: Function, then: Function) -> Function:
+        """Every outcome of `A` in `s` is in `target`, where `then` has to hold after each effect."""
         walk = self.walk
-        then = self.safe_from_here if self._ordering == "any" else self.safe
-        effects = (walk.select(chosen, (TRUE, self.after(action, then))) for action, chosen in enumerate(self.chosen))
-        return walk.all_of((walk.any_of((*self.chosen, self.safe)), *effects))
+        actions = [(action, self.chosen[action]) for action, each in enumerate(self.spec.actions) if each.effects]
+        effects = (walk.select(chosen, (TRUE, self.after(action, then))) for action, chosen in actions)
+        return walk.all_of((walk.any_of((*(chosen for _, chosen in actions), target)), *effects))
+
+    def leads_into(self, target: Function) -> Function:
+        """`Next(s, π(s)) ⊆ target`, where the policy acts without conflicts."""
+        if self._ordering == "any":  # then all nominal effects in turn are an outcome
+            return self.walk.all_of((self.acting, self._as_decided(self._outcomes_in(target, self._stays_in(target)))))
+        outcomes = self._as_decided(self._outcomes_in(target, target))
+        return self.walk.all_of((self.acting, outcomes, self.next(target)))
 
     def successor(self, executed: Sequence[Function]) -> dict[int, Function]:
         """`δ`: the next value of every variable that may change, where the nominal effects agree."""

@@ -22,6 +22,7 @@ Substitution: TypeAlias = tuple[tuple[int, Function], ...]
 
 Key = TypeVar("Key", bound=Hashable)
 Found = TypeVar("Found")
+Part = TypeVar("Part")
 
 FALSE: Function = 0
 TRUE: Function = 1
@@ -75,6 +76,14 @@ class Walk:
     def is_full(self) -> bool:
         """Whether more results were remembered than may be."""
         return self.remembered > self.most
+
+    def make_room(self) -> None:
+        """Forget results, and no functions, where half as many are remembered as may be."""
+        if self.most < 2 * self.remembered and 2 * len(self._levels) < self.most:
+            self._selected.clear()
+            self._combined.clear()
+            self._substituted.clear()
+            self.remembered = 0
 
     def check_time(self) -> None:
         """Raises `BudgetError` when the deadline has passed, or whoever watches says so."""
@@ -248,6 +257,21 @@ class Walk:
                     for value in sorted(set[int]().union(*below))
                 }
                 self._remember(known, here, found)
+            return known[here]
+
+        return visit(function)
+
+    def given(self, function: Function, leaf: Callable[[int], Part], node: Callable[[int, list[Part]], Part]) -> Part:
+        """A function handed on: what `leaf` makes of its values, and `node` of a variable and a part for each value."""
+        variables = {level: variable for variable, level in self.level_of.items()}
+        known: dict[Function, Part] = {}
+
+        def visit(here: Function) -> Part:
+            if here not in known:
+                if here in self._values:
+                    known[here] = leaf(self._values[here])
+                else:
+                    known[here] = node(variables[self._levels[here]], [visit(part) for part in self._below[here]])
             return known[here]
 
         return visit(function)

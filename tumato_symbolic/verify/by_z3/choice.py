@@ -38,7 +38,7 @@ class Choice:
     def conditions(self) -> list[Term]:
         """Conditions 1 to 4 and 6, and condition 5 for one effect alone: all of section 3 but outcomes of several.
 
-        By condition 6, nothing is done in safe states only.
+        By condition 6, sets without an action that takes effect are chosen in safe states only.
         """
         spec, here, executed = self._spec, self._here, self.executed
         required: list[Term] = []

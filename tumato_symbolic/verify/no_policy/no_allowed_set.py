@@ -106,8 +106,8 @@ def _unproved(step: AllowedStep, state: State, cube: Cube, ordering: Ordering) -
         case "unsafe":
             return _unsafe(spec, state, cube, ordering)
         case "idle":
-            if not settled or cube.executed:
-                return "some of its sets execute an action"
+            if any(action.effects for number, action in enumerate(spec.actions) if number not in cube.idle):
+                return "some of its sets execute an action that has effects"
             return "the state is safe" if is_safe(spec, state) else None
         case "nominal-unsafe":
             if not settled:

@@ -1,0 +1,1 @@
+"""What a policy guarantees beyond its nominal runs, for all states at once, by the walk."""

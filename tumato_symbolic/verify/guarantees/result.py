@@ -1,0 +1,38 @@
+"""What is known of the guarantees of a policy."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from tumato_symbolic.semantics import Guarantee, Shortcoming
+
+StateCube: TypeAlias = tuple[tuple[int, ...], ...]
+"""For every variable the values that it may have, ascending; all of them where it does not matter."""
+
+
+@dataclass(frozen=True, slots=True)
+class Level:
+    """The valid states with one guarantee; where they are guaranteed, `guarantee.steps` is the worst of them.
+
+    `cubes` hold these states and no other valid one; None where that takes too many. `shortcoming` shows of one of the
+    states why it is guaranteed no more.
+    """
+
+    guarantee: Guarantee
+    states: int
+    cubes: tuple[StateCube, ...] | None
+    shortcoming: Shortcoming | None
+
+
+@dataclass(frozen=True, slots=True)
+class Guarantees:
+    """The levels of all valid states, the strongest first.
+
+    `unproved`: the policy's own properties are not proved, so that nothing was looked at. `undecided`: a limit was met,
+    as `reason` says.
+    """
+
+    status: Literal["known", "undecided", "unproved"]
+    levels: tuple[Level, ...] = ()
+    reason: str | None = None
