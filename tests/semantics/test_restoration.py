@@ -4,10 +4,9 @@ from dataclasses import replace
 
 import pytest
 
-from tumato_symbolic import parse, synthesize
+from tumato_symbolic import parse
 from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.explain.explain import explain
-from tumato_symbolic.policy import Policy
 from tumato_symbolic.semantics import (
     NOTHING,
     ActionSet,
@@ -20,7 +19,6 @@ from tumato_symbolic.semantics import (
     required_rules,
 )
 from tumato_symbolic.spec import Restoration, Spec, digest
-from tumato_symbolic.verify import verify
 
 VALVES = """
 BEGIN STATE VECTOR state A can be open, closed state B can be open, closed END STATE VECTOR
@@ -112,11 +110,6 @@ def test_only_the_order_of_severities_is_part_of_the_meaning() -> None:
 
 def test_what_does_not_know_it_yet_refuses() -> None:
     """Nothing takes several steps for one, or several severities for one (TUM313)."""
-    example = synthesize(parse(VALVES.replace("rule: B is closed", "")))
-    policy = getattr(example, "policy", None)
-    assert isinstance(policy, Policy)
     for spec in (restoring(VALVES, "bounded"), parse(EDGE.format(1, 2))):
         with pytest.raises(UserError, match="does not support"):
             explain(spec)
-    with pytest.raises(UserError, match="does not support"):
-        verify(policy, restoring(VALVES, "bounded"))

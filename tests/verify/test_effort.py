@@ -192,7 +192,7 @@ class _Clock(Context):
         self.enter(stage)
 
 
-@pytest.mark.parametrize(("verdict", "asked"), [("undecided", 1), ("proved", 4), ("refuted", 4)])
+@pytest.mark.parametrize(("verdict", "asked"), [("undecided", 1), ("proved", 5), ("refuted", 5)])
 def test_what_was_answered_in_time_counts(verdict: Verdict, asked: int) -> None:
     """The limit ends a proof without a verdict; a verdict that was reached when time was up is none the worse."""
     prover = _Scripted(verdict)
@@ -201,14 +201,14 @@ def test_what_was_answered_in_time_counts(verdict: Verdict, asked: int) -> None:
         with pytest.raises(LimitReachedError):
             next(results)
     else:
-        assert [result.verdict for result in results] == [verdict] * 4
+        assert [result.verdict for result in results] == [verdict] * 5
     assert len(prover.asked) == asked
 
 
 @pytest.mark.parametrize(
     ("asked", "together"),
     [
-        (PROPERTIES, [("total", "safe", "goals", "minimal")]),
+        (PROPERTIES, [("total", "safe", "restoring", "goals", "minimal")]),
         (("total", "minimal"), [("total", "minimal")]),
         (("goals", "minimal"), [("goals", "minimal")]),
         (("total",), []),

@@ -26,8 +26,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Criteria:
-    """What a claim is held to: ordering and restoration (None: its own, the specification's), properties, who proves
-    them, and its certificate.
+    """What a claim is held to: an ordering and a restoration (None: the specification's), properties, and who proves.
+
+    `strict`: its certificate has to hold as well.
     """
 
     ordering: Ordering | None
@@ -63,6 +64,7 @@ def judge(
                 claim,
                 spec,
                 ordering=criteria.ordering,
+                restoration=criteria.restoration,
                 properties=criteria.properties,
                 prover=criteria.prover,
                 jobs=jobs,

@@ -7,8 +7,8 @@ from typing import Final
 
 from tumato_symbolic.report.layout import Paint, count, enumeration, every, seconds
 from tumato_symbolic.report.reasons import Place, broken_here, objection_text, story
-from tumato_symbolic.semantics import Outcome, Run, action_names, duration, named
-from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.semantics import Outcome, Quality, Run, action_names, duration, named
+from tumato_symbolic.spec import Ordering, Restoration, Spec
 from tumato_symbolic.verify.result import PropertyName, PropertyResult, Refutation, Verification
 
 ORDERINGS: Final[dict[Ordering, str]] = {
@@ -22,6 +22,21 @@ _CLAIMS: Final[dict[PropertyName, str]] = {
     "goals": "from every {decided} state, the nominal run reaches the active goals",
     "minimal": "where safety is restored, no cheaper set would do as well",
     "ordering": "the policy was made for the effect ordering that the specification means",
+    "restoring": "safety is restored from every unsafe state, {how}",
+    "restoration": "the policy was made to restore safety as the specification means",
+}
+
+_SEVERAL_STEPS: Final[dict[PropertyName, str]] = {
+    "safe": "every decision is allowed: whatever effects occur, no rule is broken that has to be kept",
+    "minimal": "no set that may be executed would restore safety better and serve as well",
+}
+"""What is said instead where safety may take several steps to restore."""
+
+_HOW: Final[dict[Restoration | None, str]] = {
+    None: "",
+    "one_step": "in one step for each severity",
+    "bounded": "whatever effects occur",
+    "fair": "if nominal effects occur again and again",
 }
 
 _PROVERS: Final = {"z3": "Z3", "walk": "the walk", "explicit": "explicit-state checking"}
@@ -69,12 +84,20 @@ def property_line(result: PropertyResult, paint: Paint, verification: Verificati
     }[result.verdict]
     reason = f" ({result.reason})" if result.reason else ""
     prover = f" by {_named(result.proved_by)}" if result.proved_by not in (None, "z3") else ""
-    claim = _CLAIMS[result.name].format(decided="valid" if verification.decides_all else "decided")
-    return f"{result.name:<9}{verdict}{prover}: {claim}{reason}"
+    claims = _CLAIMS if verification.restoration is None else _CLAIMS | _SEVERAL_STEPS
+    decided = "valid" if verification.decides_all else "decided"
+    claim = claims[result.name].format(decided=decided, how=_HOW[verification.restoration])
+    width = max(9, *(len(each.name) + 1 for each in verification.properties), len(result.name) + 1)
+    return f"{result.name:<{width}}{verdict}{prover}: {claim}{reason}"
 
 
 def refutation_text(place: Place, refutation: Refutation) -> str:
     """The state, the decision, and what goes wrong, as one or more lines."""
+    if refutation.kind == "restoration":
+        return (
+            "the policy was made for a weaker way to restore safety than the specification means: make it again, or\n"
+            "say with --restoration which of them to judge it by"
+        )
     if refutation.state is None or refutation.kind == "ordering":
         return (
             "the policy was made for the effect ordering first, under which fewer outcomes count, while the\n"
@@ -97,6 +120,11 @@ def refutation_text(place: Place, refutation: Refutation) -> str:
                 f"and the run {_ENDS[run.end]}:",
                 *_run_lines(place, run),
             ]
+        case Refutation(kind="not-restored", run=run):
+            lines += _not_restored_lines(place, run)
+        case Refutation(kind="not-minimal", cheaper=cheaper) if cheaper is not None and spec.restores_stepwise:
+            lines.append(_better_text(place, refutation))
+            lines += _run_lines(place, refutation.run) if refutation.run else []
         case Refutation(kind="not-minimal", cheaper=cheaper) if cheaper is not None:
             lines.append(
                 f"which takes {duration(spec, refutation.decision)}; {place.actions(cheaper)} takes "
@@ -104,6 +132,53 @@ def refutation_text(place: Place, refutation: Refutation) -> str:
             )
             lines += _run_lines(place, refutation.run) if refutation.run else []
     return "\n".join(lines)
+
+
+def _not_restored_lines(place: Place, run: Run | None) -> Iterator[str]:
+    """How an unsafe state is never left for a better one."""
+    if place.spec.restoration == "fair":
+        claim, ends = "after which the nominal run does not restore safety", _NEVER_NOMINALLY
+    else:
+        claim, ends = "which need not restore safety", _NEVER
+    if run is None:
+        yield claim
+        return
+    yield f"{claim}: {ends[run.end]}:"
+    yield from _run_lines(place, run)
+
+
+_NEVER: Final = {
+    "loop": "its outcomes and those of later decisions may lead back to a state",
+    "undefined": "its outcomes and those of later decisions may lead to where nothing can be done",
+}
+
+_NEVER_NOMINALLY: Final = {
+    "loop": "it comes back to a state",
+    "undefined": "it ends where nothing can be done",
+}
+
+
+def _better_text(place: Place, refutation: Refutation) -> str:
+    """That another set restores safety better than the decision, and serves as well."""
+    better = place.actions(refutation.cheaper or frozenset())
+    if refutation.qualities is None:
+        return f"but {better} restores safety better, may be executed, and takes no run its goal; its own run:"
+    now, then = refutation.qualities
+    does = "does not restore safety" if now is None else f"restores safety {_quality_text(now)}"
+    return (
+        f"which {does}; {better} restores it {_quality_text(then)},\n"
+        "may be executed, and takes no run its goal; its own run:"
+    )
+
+
+def _quality_text(quality: Quality) -> str:
+    kind, (takes, steps) = quality
+    verb = "takes" if steps == 1 else "take"
+    if kind == 0:
+        return f"in one step that takes {takes}"
+    if kind == 1:
+        return f"in at most {count(steps, 'step')} that {verb} at most {takes}"
+    return f"in {count(steps, 'nominal step')} that {verb} {takes}"
 
 
 def _way_there(place: Place, refutation: Refutation) -> Iterator[str]:
@@ -143,6 +218,7 @@ def proof_json(spec: Spec, verification: Verification) -> dict[str, object]:
         "valid_states": verification.valid_states,
         "decided_states": verification.decided_states,
         "certificate": {"status": verification.certificate.status, "reason": verification.certificate.reason},
+        **({} if verification.restoration is None else {"restoration": verification.restoration}),
     }
 
 
@@ -195,4 +271,14 @@ def _refutation_json(spec: Spec, refutation: Refutation) -> dict[str, object]:
     if refutation.cheaper is not None and decision is not None:
         found["cheaper"] = list(action_names(spec, refutation.cheaper))
         found["durations"] = {"decision": duration(spec, decision), "cheaper": duration(spec, refutation.cheaper)}
+    if refutation.qualities is not None:
+        now, then = map(_quality_json, refutation.qualities)
+        found["restoring"] = {"decision": now, "cheaper": then}
     return found
+
+
+def _quality_json(quality: Quality | None) -> dict[str, object] | None:
+    if quality is None:
+        return None
+    kind, (takes, steps) = quality
+    return {"how": ("one step", "bounded", "fair")[kind], "duration": takes, "steps": steps}

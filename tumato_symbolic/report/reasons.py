@@ -53,6 +53,8 @@ class Place:
     def goals(self, state: State) -> str:
         """The goals that are active in a state."""
         bodies = [self.rule(self.spec.bodies[body]) for body in sorted(active_goals(self.spec, state))]
+        if self.spec.restores_stepwise and not is_safe(self.spec, state):
+            return f"{enumeration(bodies)}, in a safe state" if bodies else "none but safety"
         return enumeration(bodies) or "none: any allowed step will do"
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shlex
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source
@@ -18,8 +18,8 @@ from tumato_symbolic.report.proof import (
     states_spoken_of,
 )
 from tumato_symbolic.report.reasons import Place
-from tumato_symbolic.spec import Spec
-from tumato_symbolic.verify.result import PROPERTIES, CertificateUse, OrderingSource, Verdict, Verification
+from tumato_symbolic.spec import Restoration, Spec
+from tumato_symbolic.verify.result import CertificateUse, OrderingSource, Verdict, Verification, properties_of
 
 _CERTIFICATES = {
     "used": "its ranks carry the proof",
@@ -29,6 +29,12 @@ _CERTIFICATES = {
     "wrong": "made for this specification, but false, and set aside",
     "unneeded": "not needed for these properties",
     "set aside": "set aside",
+}
+
+_RESTORATIONS: Final[dict[Restoration, str]] = {
+    "one_step": "severe rules first, each severity in one step (one_step)",
+    "bounded": "in several steps, within a bound whatever effects occur (bounded)",
+    "fair": "in several steps, if nominal effects occur again and again (fair)",
 }
 
 _SOURCES: Final[dict[OrderingSource, str]] = {
@@ -79,12 +85,15 @@ def as_text(done: Verified, colour: bool) -> str:
     ]
     if found.verdict != "proved" and not found.decides_all and found.decided_states is not None:
         lines.append(f"  states: {states_spoken_of(found)}")
+    if found.restoration is not None:
+        lines.insert(2, f"  restoration: {_RESTORATIONS[found.restoration]}")
     lines.append("")
     for result in found.properties:
         lines.append(f"  {property_line(result, paint, found)}")
         if result.refutation is not None:
             lines += [f"      {line}" for line in refutation_text(done.place, result.refutation).splitlines()]
-    left = [name for name in PROPERTIES if name not in {result.name for result in found.properties}]
+    judged = replace(done.spec, restoration=found.restoration or done.spec.restoration)
+    left = [name for name in properties_of(judged) if name not in {result.name for result in found.properties}]
     if left:
         lines.append(f"Not asked: {enumeration(left)}.")
     if done.not_accepted:

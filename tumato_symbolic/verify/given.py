@@ -6,7 +6,8 @@ from collections.abc import Callable
 
 from tumato_symbolic.diagrams import Reference
 from tumato_symbolic.policy import Certificate, Policy
-from tumato_symbolic.semantics import Residual, State, action_names, named
+from tumato_symbolic.policy.records import Deviation, Restoring
+from tumato_symbolic.semantics import ActionSet, Residual, State, action_names, named
 from tumato_symbolic.spec import Spec, canonical_text, digest, executing_atoms
 from tumato_symbolic.verify.result import CertificateUse
 
@@ -19,13 +20,15 @@ NOT_ALL = "not all of its ranks could be looked at"
 class GivenRanks:
     """The ranks that came with a policy, by residual goal; `use` tells what became of them.
 
-    `roots` is empty where there are none, or they were set aside.
+    `roots` is empty where there are none, or they were set aside. `restoring` is what came with them about restoring
+    safety in several steps, where the specification has that: None where there is nothing, or it was set aside.
     """
 
     def __init__(self, spec: Spec, policy: Policy, policy_is_safe: Callable[[], bool]) -> None:
         self._spec = spec
         self._policy_is_safe = policy_is_safe
         self.roots: dict[Residual, Reference] = {}
+        self.restoring: Restoring | None = None
         self.use = self._first_look(policy)
         if self.use == UNNEEDED and policy.certificate is not None:
             self._read(policy.certificate)
@@ -43,6 +46,7 @@ class GivenRanks:
     def _read(self, certificate: Certificate) -> None:
         """Know the goals of the certificate by the numbers of the specification."""
         spec = self._spec
+        self.restoring = certificate.restoring if spec.restores_stepwise else None
         bodies = {canonical_text(spec, rule.formula): number for number, rule in enumerate(spec.bodies)}
         actions = {action.name: number for number, action in enumerate(spec.actions)}
         unknown = [text for goal in certificate.goals for text in goal.bodies if text not in bodies]
@@ -64,9 +68,19 @@ class GivenRanks:
                     return
                 self.roots[key] = goal.root
 
+    @property
+    def stands(self) -> bool:
+        """Whether there is a certificate for this specification that was not found to be false."""
+        return self.use.status in ("unneeded", "used", "incomplete")
+
+    @property
+    def speaks_of_unsafe(self) -> bool:
+        """Whether numbers at unsafe states claim something too: where it tells how these are left in several steps."""
+        return self.restoring is not None
+
     def reject(self, reason: str) -> None:
         """Set the certificate aside: it is wrong, unless that may be the fault of an unsafe policy."""
-        self.roots = {}
+        self.roots, self.restoring = {}, None
         self.use = CertificateUse("wrong" if self._policy_is_safe() else "set aside", reason)
 
     def join(self, use: CertificateUse) -> None:
@@ -90,6 +104,35 @@ class GivenRanks:
         """A rank that is needed is missing: that of `goal` after `state`, or all of them."""
         where = "" if state is None else f" after {_listed(self._spec, state)}"
         self.fall_short(f"it has no {'ranks' if state is None else 'rank'} of {self.described(goal)}{where}")
+
+    def tells_nothing_of_restoring(self) -> None:
+        """How unsafe states are left had to be found out."""
+        self.fall_short("it does not tell how safety is restored in several steps")
+
+    def lacks_effort(self, state: State) -> None:
+        """How an unsafe state is left is missing."""
+        self.fall_short(f"it does not tell how safety is restored from {_listed(self._spec, state)}")
+
+    def false_effort(self, state: State) -> None:
+        """What is told of how an unsafe state is left does not follow from what is told of its outcomes."""
+        self.reject(f"its effort from {_listed(self._spec, state)} is not enough")
+
+    def inexact_effort(self, state: State) -> None:
+        """It takes more than is told of it to leave an unsafe state."""
+        self.fall_short(f"its effort from {_listed(self._spec, state)} is more than it takes")
+
+    def false_deviation(self, deviation: Deviation) -> None:
+        """The run that a better set is said to spoil reaches its goal with it, or misses it without."""
+        better = ", ".join(action_names(self._spec, deviation.better)) or "nothing"
+        self.reject(
+            f"with {better} in {_listed(self._spec, deviation.state)}, the run from "
+            f"{_listed(self._spec, deviation.missed)} does not miss its goal for that"
+        )
+
+    def lacks_deviation(self, state: State, better: ActionSet) -> None:
+        """It is not told why an unsafe state is not left by a better set."""
+        named_set = ", ".join(action_names(self._spec, better)) or "nothing"
+        self.fall_short(f"it does not tell why {named_set} is not chosen in {_listed(self._spec, state)}")
 
     def inexact(self, goal: Residual) -> None:
         """The ranks of `goal` are no proof that a run is too long, or are larger than it is."""

@@ -10,10 +10,9 @@ from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.limits import Budget, Context, LimitReachedError
 from tumato_symbolic.limits.processes import can_fork
 from tumato_symbolic.policy import Policy
-from tumato_symbolic.policy.bind import bind, made_for_less
+from tumato_symbolic.policy.bind import bind, made_for_less, restores_less
 from tumato_symbolic.semantics import all_states, count_states, is_valid
-from tumato_symbolic.spec import Ordering, Spec
-from tumato_symbolic.spec.support import require_one_step
+from tumato_symbolic.spec import Ordering, Restoration, Spec
 from tumato_symbolic.verify.closure import with_departure
 from tumato_symbolic.verify.decisions import LARGEST_TABLE, Decisions
 from tumato_symbolic.verify.provers import Prover, make_prover
@@ -27,6 +26,7 @@ from tumato_symbolic.verify.result import (
     Refutation,
     Verdict,
     Verification,
+    properties_of,
     stopped,
 )
 
@@ -39,6 +39,7 @@ def verify(
     spec: Spec,
     *,
     ordering: Ordering | None = None,
+    restoration: Restoration | None = None,
     properties: Sequence[str] = PROPERTIES,
     prover: ProverName = "auto",
     timeout: float | None = OBLIGATION_BUDGET,
@@ -48,25 +49,31 @@ def verify(
     """Prove `policy` for all valid states of `spec`, or refute it with a witness.
 
     `ordering` overrules what the specification says of the order of effects; where there is none, a policy that
-    was made for `first` is refuted if the specification means `any`. `properties` are some of `total`,
-    `safe`, `goals` and `minimal`. `prover` is `z3`; `walk`, which does without Z3; `both`, which must agree; or `auto`:
-    Z3 for what it answers soon, the walk for the rest. `timeout` limits the time, in seconds, of each obligation of Z3
-    and of each property of the walk (None: no limit); what is not proved in time is undecided. Up to `jobs`
-    processes work at a time, where the proof is large and the platform can fork; the answer is the same. `context`
-    limits the whole; it is told what is being proved, and learns after every property what the answer would be if a
-    limit were met now.
+    was made for `first` is refuted if the specification means `any`. `restoration` overrules how safety is restored;
+    where there is none, a policy that was made for a weaker way is refuted. `properties` are some of `total`, `safe`,
+    `restoring` (asked where safety may take several steps to restore), `goals` and `minimal`. `prover` is `z3`; `walk`,
+    which does without Z3; `both`, which must agree; or `auto`: Z3 for what it answers soon, the walk for the rest.
+    `timeout` limits the time, in seconds, of each obligation of Z3 and of each property of the walk (None: no limit);
+    what is not proved in time is undecided. Up to `jobs` processes work at a time, where the proof is large and the
+    platform can fork; the answer is the same. `context` limits the whole; it is told what is being proved, and learns
+    after every property what the answer would be if a limit were met now.
 
     Raises `UserError` when the names of the policy do not fit the specification, or no state is valid.
     """
-    require_one_step(spec, "verify")
-    context, asked = context or Context(), _asked(properties)
+    if restoration is not None:
+        spec = replace(spec, restoration=restoration)
+    context, asked = context or Context(), _asked(properties, spec)
     bound = bind(policy, spec)
     decisions = Decisions(spec, bound)
     judged, source = _ordering(spec, ordering)
     results: list[PropertyResult] = []
     if ordering is None and made_for_less(bound, spec):
         results.append(PropertyResult("ordering", "refuted", refutation=Refutation("ordering")))
+    if restoration is None and restores_less(bound, spec):
+        results.append(PropertyResult("restoration", "refuted", refutation=Refutation("restoration")))
     so_far = Verification("undecided", (), judged, source, CertificateUse("unneeded"), None)
+    if spec.restores_stepwise:
+        so_far = replace(so_far, restoration=spec.restoration)
     try:
         _learn(context, so_far, results, asked)
         context.tell("looking for a valid state")
@@ -129,11 +136,11 @@ def _learn(
     context.learn(_with(so_far, results, asked))
 
 
-def _asked(properties: Sequence[str]) -> list[PropertyName]:
+def _asked(properties: Sequence[str], spec: Spec) -> list[PropertyName]:
     unknown = [name for name in properties if name not in PROPERTIES]
     if unknown or not properties:
         raise ValueError(f"properties must be some of {', '.join(PROPERTIES)}, not {list(properties)}")
-    return [name for name in PROPERTIES if name in properties]
+    return [name for name in properties_of(spec) if name in properties]
 
 
 def _ordering(spec: Spec, argument: Ordering | None) -> tuple[Ordering, OrderingSource]:

@@ -5,17 +5,25 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
-from tumato_symbolic.semantics import ActionSet, Objection, Outcome, Run, State
-from tumato_symbolic.spec import Ordering
+from tumato_symbolic.semantics import ActionSet, Objection, Outcome, Quality, Run, State
+from tumato_symbolic.spec import Ordering, Restoration, Spec
 
 Verdict: TypeAlias = Literal["proved", "refuted", "undecided"]
-PropertyName: TypeAlias = Literal["total", "safe", "goals", "minimal", "ordering"]
+PropertyName: TypeAlias = Literal["total", "safe", "restoring", "goals", "minimal", "ordering", "restoration"]
 OrderingSource: TypeAlias = Literal["command line", "certificate", "specification", "default"]
 ProverName: TypeAlias = Literal["z3", "walk", "explicit", "both", "auto"]
 UnrealizabilityKind: TypeAlias = Literal["no-allowed-set", "no-plan", "conflict"]
 
-PROPERTIES: tuple[PropertyName, ...] = ("total", "safe", "goals", "minimal")
-"""What is asked by default, in the order in which it is proved."""
+PROPERTIES: tuple[PropertyName, ...] = ("total", "safe", "restoring", "goals", "minimal")
+"""What is asked by default, in the order in which it is proved; see `properties_of`."""
+
+
+def properties_of(spec: Spec) -> tuple[PropertyName, ...]:
+    """Those that a policy for a specification has to have: *restoring* where safety may take several steps to restore.
+
+    In one step, *safe* says it already.
+    """
+    return tuple(name for name in PROPERTIES if name != "restoring" or spec.restores_stepwise)
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,10 +43,14 @@ class Refutation:
     is undecided. It has neither where there were too many to look at.
     `not-allowed` comes with `objection`, the first condition that fails; `goal-missed` with `run`, the run that loops,
     ends without a decision or exceeds the bound; `not-minimal` with `cheaper`, the cheapest set that serves as well,
-    and its `run`. `ordering` has no state: the policy records `first` where the specification means `any`.
+    and its `run`. Where safety may take several steps to restore, `not-restored` comes with `run`, steps into a loop or
+    to where nothing can be done, along nominal effects under `fair`, else by any outcomes, where it was found; and
+    `not-minimal` with `qualities`, how well the decision restores safety and how well `cheaper` does, the best set.
+    `ordering` and `restoration` have no state: the policy records `first` where the specification means `any`, or a
+    weaker way to restore safety than the specification means.
     """
 
-    kind: Literal["missing", "not-allowed", "goal-missed", "not-minimal", "ordering"]
+    kind: Literal["missing", "not-allowed", "not-restored", "goal-missed", "not-minimal", "ordering", "restoration"]
     state: State | None = None
     decision: ActionSet | None = None
     objection: Objection | None = None
@@ -46,6 +58,7 @@ class Refutation:
     cheaper: ActionSet | None = None
     departure: Departure | None = None
     closed: bool = False
+    qualities: tuple[Quality | None, Quality] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +96,8 @@ class Verification:
     """The answer of `verify`.
 
     It speaks of the valid states that the policy decides, and of how many is `decided_states`, out of `valid_states`;
-    each is None where it could not be counted cheaply.
+    each is None where it could not be counted cheaply. `restoration` is how safety is to be restored, where that may
+    take several steps.
     """
 
     verdict: Verdict
@@ -93,6 +107,7 @@ class Verification:
     certificate: CertificateUse
     valid_states: int | None
     decided_states: int | None = None
+    restoration: Restoration | None = None
 
     @property
     def decides_all(self) -> bool:

@@ -17,14 +17,15 @@ if TYPE_CHECKING:
     from tumato_symbolic.spec import Ordering, Restoration
     from tumato_symbolic.verify import ProverName
 
-PROPERTIES = ("total", "safe", "goals", "minimal")
+PROPERTIES = ("total", "safe", "restoring", "goals", "minimal")
 
 ABOUT = """\
 Prove a policy, whatever its origin, against a specification.
 
 For all valid states at once: total (there is a decision), safe (every outcome keeps the rules, in any order of
-effects), goals (the nominal run reaches the active goals), minimal (no cheaper set of actions would restore safety as
-well). A property that does not hold is refuted by a state and a step-by-step counterexample.
+effects), restoring (where that may take several steps: safety is restored), goals (the nominal run reaches the active
+goals), minimal (no cheaper set of actions would restore safety as well). A property that does not hold is refuted by a
+state and a step-by-step counterexample.
 
 Given a folder, every NAME.policy.json and NAME.unrealizable.json in it is verified against NAME.tum, which is looked
 for in the folders given with --specs, beside it, and in ../examples; where there is no such name, against the

@@ -1,4 +1,4 @@
-"""The claims of a certificate, looked at one by one (`docs/certificate.md`)."""
+"""The claims of a certificate about runs, looked at one by one (`docs/certificate.md`)."""
 
 from __future__ import annotations
 
@@ -9,24 +9,25 @@ from tumato_symbolic.semantics import ActionSet, Residual
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.verify.by_states.packed import Code, Packing
 from tumato_symbolic.verify.by_states.runs import Runs
-from tumato_symbolic.verify.given import UNNEEDED, GivenRanks
+from tumato_symbolic.verify.given import GivenRanks
 
 
 class Claims:
-    """The numbers that a certificate gives to safe states."""
+    """The numbers that a certificate gives to states."""
 
     def __init__(self, spec: Spec, packing: Packing, runs: Runs, certificate: Certificate, given: GivenRanks) -> None:
         self._spec, self._packing, self._runs = spec, packing, runs
         self._ranks, self._given = certificate.ranks, given
 
-    def look(self, safe: Iterable[Code], owing: Mapping[Code, ActionSet]) -> None:
+    def look(self, spoken_of: Iterable[Code], owing: Mapping[Code, ActionSet]) -> None:
         """Say what became of the certificate: wrong where a number is false, incomplete where one is missing.
 
-        `safe` are all safe states; `owing` the decided states with an allowed decision, and that decision.
+        `spoken_of` are all states where a number claims something; `owing` the decided states with an allowed decision,
+        and that decision.
         """
-        if self._given.use != UNNEEDED:
+        if not self._given.stands:
             return
-        states = list(safe)
+        states = list(spoken_of)
         numbers = {goal: self._numbers(goal, states) for goal in self._given.roots}
         for goal, known in numbers.items():
             if not all(self._is_true(goal, known, code, number) for code, number in known.items()):
@@ -38,8 +39,8 @@ class Claims:
         whole, bound = True, self._spec.max_plan_length
         for code, chosen in owing.items():
             goal, after = self._runs.residual(code, chosen), self._runs.follower(code)
-            if not goal.bodies or after is None:
-                continue  # nothing is owed
+            if after is None or (not goal.bodies and self._is_owed_nothing(code)):
+                continue
             number = numbers.get(goal, {}).get(after)
             if number is None:
                 if whole:
@@ -51,6 +52,10 @@ class Claims:
         if whole:
             self._given.serve()
 
+    def _is_owed_nothing(self, code: Code) -> bool:
+        """Whether a state without an active goal owes no run: in several steps an unsafe one owes one to safety."""
+        return not self._spec.restores_stepwise or self._runs.is_safe(code)
+
     def _numbers(self, goal: Residual, states: list[Code]) -> dict[Code, int]:
         root, found = self._given.roots[goal], dict[Code, int]()
         for code in states:
@@ -60,7 +65,7 @@ class Claims:
         return found
 
     def _is_true(self, goal: Residual, known: dict[Code, int], code: Code, number: int) -> bool:
-        """0 where the goal holds; otherwise more than the number of the next state, which is safe and has one."""
+        """0 where the goal holds; otherwise more than that of the next state, which is spoken of and has one."""
         if number == 0:
             return self._runs.reached(goal, code)
         after = self._runs.follower(code)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import islice
 
 from tumato_symbolic.limits import Context
@@ -13,11 +13,14 @@ from tumato_symbolic.semantics import ActionSet, State, duration, follow, object
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.by_states.claims import Claims
 from tumato_symbolic.verify.by_states.packed import Code, Packing, valid_states
+from tumato_symbolic.verify.by_states.restoring_claims import RestoringClaims
 from tumato_symbolic.verify.by_states.runs import Runs
+from tumato_symbolic.verify.by_states.several_steps import SeveralSteps
 from tumato_symbolic.verify.by_states.steps import MOST_WAYS, Steps, TooManyError, ways
 from tumato_symbolic.verify.decisions import LARGEST_TABLE, Decisions
 from tumato_symbolic.verify.given import GivenRanks
 from tumato_symbolic.verify.result import CertificateUse, PropertyName, PropertyResult, Refutation
+from tumato_symbolic.verify.ways_back import RestoringWitnesses
 
 MOST_ROWS = 10 * LARGEST_TABLE
 """How many rows are looked at to find those of valid states."""
@@ -77,8 +80,9 @@ class StateProver:
         proofs: dict[str, Callable[[Mapping[Code, ActionSet]], PropertyResult]] = {
             "total": self._prove_total,
             "safe": self._prove_safe,
+            "restoring": self._prove_restoring,
             "goals": self._prove_goals,
-            "minimal": self._prove_minimal,
+            "minimal": self._prove_stepwise_minimal if self._spec.restores_stepwise else self._prove_minimal,
         }
         try:
             result = proofs[name](decided)
@@ -180,16 +184,21 @@ class StateProver:
             return
         claims = Claims(self._spec, self._packing, self._runs, certificate, given)
         try:
-            claims.look(self._safe_states(decided), self._allowed)
+            claims.look(self._spoken_of(decided), self._allowed)
         except TooManyError as many:
             if self._most is not None:
                 raise
             given.fall_short(str(many))
 
-    def _safe_states(self, decided: Mapping[Code, ActionSet]) -> Iterator[Code]:
-        """All safe states, decided or not."""
+    def _spoken_of(self, decided: Mapping[Code, ActionSet]) -> Iterator[Code]:
+        """All states where a rank claims something: the safe ones, decided or not; in several steps the unsafe too."""
+        every = self._every_valid(decided)
+        return every if self._given.speaks_of_unsafe else filter(self._steps.is_safe, every)
+
+    def _every_valid(self, decided: Mapping[Code, ActionSet]) -> Iterator[Code]:
+        """All valid states, decided or not."""
         if self._total:
-            yield from filter(self._steps.is_safe, decided)
+            yield from decided
             return
         undecided = 0
         for state in valid_states(self._spec, self._packing):
@@ -198,8 +207,45 @@ class StateProver:
             undecided += code not in decided
             if undecided > MOST_UNDECIDED:
                 raise TooManyError(f"over {MOST_UNDECIDED:,} states are not decided")
-            if self._steps.is_safe(code):
-                yield code
+            yield code
+
+    @cached_property
+    def _several_steps(self) -> SeveralSteps:
+        return SeveralSteps(self._spec, self._steps, self._runs, self._decided or {}, self._spend)
+
+    @cached_property
+    def _restoring_claims(self) -> RestoringClaims:
+        return RestoringClaims(self._packing, self._several_steps, self._given)
+
+    def _look_at_restoring(self, decided: Mapping[Code, ActionSet]) -> None:
+        try:
+            self._restoring_claims.look(self._every_valid(decided))
+        except TooManyError as many:
+            if self._most is not None:
+                raise
+            self._given.fall_short(str(many))
+
+    def _prove_restoring(self, decided: Mapping[Code, ActionSet]) -> PropertyResult:
+        lost = next(self._several_steps.not_restored(), None)
+        self._look_at_restoring(decided)
+        if lost is None:
+            return PropertyResult("restoring", "proved", len(self._several_steps.unsafe), "explicit")
+        return self._replayed.not_restored(self._packing.unpack(lost))
+
+    def _prove_stepwise_minimal(self, decided: Mapping[Code, ActionSet]) -> PropertyResult:
+        self._look_at_restoring(decided)
+        claims = self._restoring_claims
+        claims.look_closer()
+        for code in self._several_steps.unsafe:
+            for rival in self._several_steps.rivals(code, partial(claims.told, code)):
+                if rival.misses is None:
+                    return self._replayed.not_minimal(self._packing.unpack(code), rival.chosen)
+                claims.deviates(code, rival.chosen)
+        return PropertyResult("minimal", "proved", len(self._several_steps.unsafe), "explicit")
+
+    @cached_property
+    def _replayed(self) -> RestoringWitnesses:
+        return RestoringWitnesses(self._spec, self._decisions, self._ordering)
 
     def _prove_minimal(self, decided: Mapping[Code, ActionSet]) -> PropertyResult:
         looked_at = 0

@@ -1,14 +1,14 @@
-"""What may be executed together, and where it leads, for many states (`docs/semantics.md`, section 3)."""
+"""What may be executed together, and where it leads, for many states (`docs/semantics.md`, sections 3, 9 and 10)."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from itertools import combinations
 from math import prod
 
 from tumato_symbolic.semantics import ActionSet, State, duration, nominal_agrees, outcomes, successor, takes_effect
 from tumato_symbolic.spec import Assignment, Ordering, Spec
-from tumato_symbolic.verify.by_states.packed import Code, Packing, all_hold
+from tumato_symbolic.verify.by_states.packed import Code, Packing, Remembered, all_hold
 
 MOST_WAYS = 200_000
 """The most orders in which the effects of one set may interleave that are listed."""
@@ -30,6 +30,10 @@ class Steps:
         self._valid_rules = all_hold(packing, spec.assumptions)
         self._safe_rules = all_hold(packing, spec.state_rules)
         self._safe: dict[Code, bool] = {}
+        self._rule_tests = [Remembered(packing, rule.formula) for rule in spec.state_rules]
+        tiers = spec.tiers
+        self._tiers = [sum(1 << n for n, rule in enumerate(spec.state_rules) if rule in tier) for tier in tiers]
+        self._broken: dict[Code, int] = {}
         self._writes: dict[ActionSet, list[tuple[int, int]]] = {}
         self._nominal: dict[ActionSet, tuple[int, int] | None] = {}
         self._applicable = [all_hold(packing, action.preconditions) for action in spec.actions]
@@ -46,6 +50,36 @@ class Steps:
         if found is None:
             found = self._safe[code] = self._valid_rules(code) and self._safe_rules(code)
         return found
+
+    def level(self, code: Code) -> int:
+        """How many tiers of state rules a valid state satisfies whole."""
+        broken = self._broken_rules(code)
+        return next((n for n, tier in enumerate(self._tiers) if broken & tier), len(self._tiers))
+
+    def restored(self, code: Code, after: Code) -> bool:
+        """Whether `after` satisfies a tier of state rules more than an unsafe state does."""
+        return self.is_valid(after) and self.level(after) > self.level(code)
+
+    def _broken_rules(self, code: Code) -> int:
+        """The state rules that a state breaks, a bit for each."""
+        found = self._broken.get(code)
+        if found is None:
+            found = sum(1 << number for number, test in enumerate(self._rule_tests) if not test(code))
+            self._broken[code] = found
+        return found
+
+    def _required(self, code: Code) -> int:
+        """The state rules that every state after `code` has to satisfy, a bit for each."""
+        level = self.level(code)
+        required = sum(self._tiers[: level + 1])
+        return required if self._spec.restoration == "one_step" else required & ~self._broken_rules(code)
+
+    def keeps(self, code: Code, reached: Iterable[Code]) -> bool:
+        """Whether a step from `code` may lead to all of these states: none breaks what has to hold after it."""
+        if not self._spec.restores_stepwise or self.is_safe(code):
+            return all(map(self.is_safe, reached))
+        required = self._required(code)
+        return all(self.is_valid(each) and not self._broken_rules(each) & required for each in reached)
 
     def after(self, code: Code, chosen: ActionSet) -> Code | None:
         """`δ(s, A)`; None where the nominal effects disagree."""
@@ -79,16 +113,21 @@ class Steps:
         self._spend(len(writes))
         return [code & keep | put for keep, put in writes]
 
+    def next_states(self, code: Code, chosen: ActionSet) -> list[Code]:
+        """`Next(s, A)`, possibly with repetitions; nominal effects must agree."""
+        after = self.after(code, chosen)
+        return self.outcomes(code, chosen) if after is None else [after, *self.outcomes(code, chosen)]
+
     def allowed(self, code: Code, chosen: ActionSet) -> bool:
-        """`Ok(s, A)`."""
+        """`Ok(s, A)`; where safety may be restored in several steps, `Keep(s, A)`."""
         after = self.after(code, chosen)
         return (
             after is not None
             and self.may_be_together(chosen)
             and all(self._applicable[action](code) for action in chosen)
             and self._rules_hold(code, chosen)
-            and self.leads_to_safety(code, chosen)
-            and self.is_safe(after)
+            and self.keeps(code, self.outcomes(code, chosen))
+            and self.keeps(code, (after,))
         )
 
     def may_be_together(self, chosen: ActionSet) -> bool:
@@ -107,32 +146,34 @@ class Steps:
             rules = self._rules[chosen] = all_hold(self._packing, self._spec.reaction_rules, chosen)
         return rules(code)
 
-    def leads_to_safety(self, code: Code, chosen: ActionSet) -> bool:
-        """Condition 5: every outcome is safe."""
-        return all(map(self.is_safe, self.outcomes(code, chosen)))
-
     def cheaper_sets(self, code: Code, limit: int) -> Iterator[ActionSet]:
-        """The allowed sets of a smaller duration than `limit` in an unsafe state, grown action by action.
+        """The allowed sets of a smaller duration than `limit` in an unsafe state.
 
-        A larger set has the duration of a smaller one, what is controlled and written there, and its outcomes: where
-        one of these is at fault, a set is not grown. (Sets in which no action has effects are not allowed in an unsafe
-        state; what they grow into may be.)
+        A larger set has the duration of a smaller one. (The empty set does not restore safety.)
+        """
+        return self.allowed_sets(code, lambda chosen: duration(self._spec, chosen) < limit)
+
+    def allowed_sets(self, code: Code, may_grow: Callable[[ActionSet], bool]) -> Iterator[ActionSet]:
+        """The allowed sets in an unsafe state, but for the empty one, which restores nothing; grown action by action.
+
+        A larger set has what is controlled and written in a smaller one, and its outcomes, if that takes effect at all:
+        where one of these is at fault, or `may_grow` says no, a set is not grown.
         """
         applicable = [number for number, test in enumerate(self._applicable) if test(code)]
-        usable = [number for number in applicable if self._may_grow(code, frozenset({number}), limit)]
+        usable = [number for number in applicable if self._may_grow(code, frozenset({number}), may_grow)]
         waiting = [(frozenset({number}), place + 1) for place, number in enumerate(usable)]
         while waiting:
             chosen, begin = waiting.pop()
             if self.allowed(code, chosen):
                 yield chosen
             larger = ((chosen | {usable[place]}, place + 1) for place in range(begin, len(usable)))
-            waiting += [(grown, place) for grown, place in larger if self._may_grow(code, grown, limit)]
+            waiting += [(grown, place) for grown, place in larger if self._may_grow(code, grown, may_grow)]
 
-    def _may_grow(self, code: Code, chosen: ActionSet, limit: int) -> bool:
+    def _may_grow(self, code: Code, chosen: ActionSet, may_grow: Callable[[ActionSet], bool]) -> bool:
         return (
-            duration(self._spec, chosen) < limit
-            and self.may_be_together(chosen)
-            and (not takes_effect(self._spec, chosen) or self.leads_to_safety(code, chosen))
+            self.may_be_together(chosen)
+            and may_grow(chosen)
+            and (not takes_effect(self._spec, chosen) or self.keeps(code, self.outcomes(code, chosen)))
         )
 
 

@@ -51,6 +51,8 @@ class WalkProver:
 
         `most` is how many results may be remembered for it alone.
         """
+        if self._spec.restores_stepwise and name != "total":
+            return PropertyResult(name, "undecided", reason="the walk is not asked where safety may take several steps")
         before = (self._ranks.use, self._ranks.roots) if self._ahead.answers else None
         try:
             self._model.walk.deadline = self._budget.until(self._ahead.seconds.get(name, 0.0))
@@ -77,7 +79,9 @@ class WalkProver:
         What they find is what would be found here, where `jobs` is 1. Returns how long each property took.
         """
         certificate = self._policy.certificate
-        if certificate is None or len(certificate.ranks.nodes) < FEWEST_NODES or not {"goals", "minimal"} & set(names):
+        if self._spec.restores_stepwise or not {"goals", "minimal"} & set(names):
+            return {}
+        if certificate is None or len(certificate.ranks.nodes) < FEWEST_NODES:
             return {}
         try:
             tasks = self._tasks(names, most) if jobs > 1 else []
