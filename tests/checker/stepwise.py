@@ -179,24 +179,25 @@ def true_claims(spec: Spec, rows: Rows, ordering: Ordering) -> Claims:
     restorations = Restorations(spec, decided, ordering)
     unsafe = [state for state in decided if not is_safe(spec, state)]
     nominal = {state: restorations.nominal(state, decided[state]) for state in unsafe}
-    rivals = ((state, chosen) for state in unsafe for chosen in rivals_of(spec, decided, state, ordering))
     return Claims(
         exact_ranks(spec, decided, ordering),
         dict(restorations.worst),
         {state: effort for state, effort in nominal.items() if effort is not None and state not in restorations.worst},
-        [(state, chosen, missed[0]) for state, chosen in rivals if (missed := losers(spec, decided, state, chosen))],
+        [(state, chosen, missed[0]) for (state, chosen), missed in rivals(spec, decided, ordering).items() if missed],
     )
 
 
-def rivals_of(spec: Spec, rows: Rows, state: State, ordering: Ordering) -> Iterator[ActionSet]:
-    """The better sets with which the run of a state serves the state itself."""
-    restorations = Restorations(spec, rows, ordering)
-    now = restorations.quality(state, rows[state])
-    for chosen in allowed_sets(spec, state, ordering):
-        found = restorations.quality(state, chosen)
-        better = found is not None and (now is None or found < now)
-        if better and follow(spec, {**rows, state: chosen}, state, chosen).end == "goal":
-            yield chosen
+def rivals(spec: Spec, rows: Rows, ordering: Ordering) -> dict[tuple[State, ActionSet], list[State]]:
+    """The better sets with which the run of a state serves the state itself, and whose runs then miss their goals."""
+    restorations, found = Restorations(spec, rows, ordering), dict[tuple[State, ActionSet], list[State]]()
+    for state, today in rows.items():
+        now = None if is_safe(spec, state) else restorations.quality(state, today)
+        for chosen in () if is_safe(spec, state) else allowed_sets(spec, state, ordering):
+            quality = restorations.quality(state, chosen)
+            better = quality is not None and (now is None or quality < now)
+            if better and follow(spec, {**rows, state: chosen}, state, chosen).end == "goal":
+                found[state, chosen] = losers(spec, rows, state, chosen)
+    return found
 
 
 def losers(spec: Spec, rows: Rows, state: State, chosen: ActionSet) -> list[State]:
