@@ -635,12 +635,12 @@ class World:
     several because it is said so, or one for each tier.
     """
 
-    def __init__(self, spec: Specification, ordering: str, restoration: str = "one_step") -> None:
+    def __init__(self, spec: Specification, ordering: str, restoration: str | None = None) -> None:
         self.spec = spec
         self.ordering = ordering
-        self.restoration = restoration
+        self.restoration = restoration or spec.restoration or RESTORATIONS[0]
         self.tiers = spec.tiers()
-        self.stepwise = restoration != "one_step" or len(self.tiers) > 1
+        self.stepwise = self.restoration != "one_step" or len(self.tiers) > 1
         self.all_rules: Required = tuple(range(len(spec.state_rules)))
         self.known: dict[Required, dict[State, bool]] = {}  # of `meets`
         self.levels: dict[State, int] = {}
@@ -2056,8 +2056,7 @@ def judge_files(options: argparse.Namespace) -> int:
 def judge_policy(spec: Specification, policy: Policy, options: argparse.Namespace) -> int:
     """Ordering and restoration are the command line's, else the specification's, else `any` and `one_step`."""
     ordering = options.effect_ordering or spec.ordering or "any"
-    restoration = options.restoration or spec.restoration or "one_step"
-    world = World(spec, ordering, restoration)
+    world = World(spec, ordering, options.restoration)
     judge = Judge(world, policy.decide)
     valid, unsafe = counted(len(world.valid), "valid state"), len(world.valid) - len(world.safe)
     print(f"{valid}: {len(world.safe)} safe, {unsafe} unsafe; {shown_settings(world)}")
@@ -2066,8 +2065,9 @@ def judge_policy(spec: Specification, policy: Policy, options: argparse.Namespac
         print("ordering FAILS: the policy was made for `first`, but the specification means `any`")
         right = False
     made_for = policy.document["Restoration"]
-    if options.restoration is None and weaker(made_for, restoration):
-        print(f"restoration FAILS: the policy was made for `{made_for}`, but the specification means `{restoration}`")
+    if options.restoration is None and weaker(made_for, world.restoration):
+        meant = world.restoration
+        print(f"restoration FAILS: the policy was made for `{made_for}`, but the specification means `{meant}`")
         right = False
     for name, (states, reason) in judge.verdicts().items():
         print(f"{name:8} " + (f"FAILS in {counted(len(states), 'state')}: {reason(states[0])}" if states else "holds"))

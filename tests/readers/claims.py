@@ -43,6 +43,7 @@ def claim_by_package(path: Path, spec: Spec) -> Found:
             for state, chosen in table.rows.items()
         },
         "ordering": policy.ordering,
+        "restoration": policy.restoration,
         "certificate": _ranks_by_package(policy, spec),
     }
 
@@ -81,7 +82,8 @@ def claim_by_checker(path: Path, text: Path) -> Found:
             decided = ((state, policy.decide(state)) for state in every)
             return {
                 "decisions": {state: sorted(chosen) for state, chosen in decided if chosen is not None},
-                "ordering": policy.ordering,
+                "ordering": policy.document.get("EffectOrdering"),
+                "restoration": policy.document["Restoration"],
                 "certificate": _ranks_by_checker(policy, spec),
             }
     except (checker.Unreadable, UnicodeDecodeError, RecursionError):
@@ -94,7 +96,9 @@ def _ranks_by_checker(policy: Any, spec: Any) -> Any:
     if policy.document.get("SpecificationDigest") != checker.digest(spec):
         return "stale"
     try:
-        found = checker.read_ranks(checker.World(spec, "any"), policy.document)
+        world = checker.World(spec, "any")
+        checker.read_restoring(world, policy.document)
+        found = checker.read_ranks(world, policy.document)
     except (checker.Unreadable, checker.Refuted):
         return "wrong"
     return {(frozenset(checker.text_of(body, spec) for body in goal[0]), goal[1]): of for goal, of in found.items()}

@@ -90,7 +90,9 @@ def meaning_by_package(spec: Spec) -> Meaning:
         "assumptions": rules(spec.assumptions),
         "goals": goal(spec.goals),
         "bound": spec.max_plan_length,
+        "severities": [rule.severity for rule in spec.state_rules],
         "ordering": spec.effect_ordering,
+        "restoration": spec.restoration,
         "digest": digest(spec),
     }
 
@@ -122,7 +124,7 @@ def meaning_by_checker(spec: Any) -> Meaning:
                 "resources": sorted(action.holds_resources),
                 "preconditions": rules(action.preconditions),
                 "nominal": assignment(action.effects[0]),
-                "effects": _once_each(map(assignment, action.effects)),
+                "effects": _once_each(map(assignment, action.effects if any(action.effects) else [])),
             }
             for action in spec.actions.values()
         ],
@@ -131,7 +133,9 @@ def meaning_by_checker(spec: Any) -> Meaning:
         "assumptions": rules(spec.assumptions),
         "goals": goal(spec.goals) if spec.goals is not None and spec.goals.members else None,
         "bound": spec.bound,
+        "severities": spec.severities,
         "ordering": spec.ordering,
+        "restoration": spec.restoration or "one_step",
         "digest": checker.digest(spec),
     }
 
