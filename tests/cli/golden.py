@@ -42,6 +42,10 @@ CASES = (
     Case("verify-slower-json", "tumato-sym verify slower.json amr.tum --output-format json"),
     Case("verify-unsafe", "tumato-sym verify unsafe.json amr.tum"),
     Case("verify-unsafe-github", "tumato-sym verify unsafe.json amr.tum --output-format github"),
+    Case("verify-guarantees", "tumato-sym verify amr.json amr.tum --guarantees"),
+    Case("verify-guarantees-json", "tumato-sym verify amr.json amr.tum --guarantees --output-format json"),
+    Case("verify-guarantees-github", "tumato-sym verify amr.json amr.tum --guarantees --output-format github"),
+    Case("verify-guarantees-unproved", "tumato-sym verify slower.json amr.tum --guarantees"),
     Case("verify-lazy", "tumato-sym verify lazy.json amr.tum --properties total,safe,goals"),
     Case(
         "verify-unrealizable",

@@ -1,6 +1,7 @@
 """What is guaranteed, by the walk, is what the explicit meaning says; every shortcoming is one."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from random import Random
 
@@ -20,12 +21,15 @@ from tumato_symbolic.semantics import (
     State,
     all_states,
     allowed,
+    allowed_sets,
+    is_safe,
     is_valid,
     judge,
     shows,
+    successor,
 )
 from tumato_symbolic.semantics import guarantees as by_meaning
-from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.spec import Ordering, Restoration, Spec
 from tumato_symbolic.verify.by_walk.goals import WalkGoals
 from tumato_symbolic.verify.by_walk.model import Model
 from tumato_symbolic.verify.guarantees.analyse import guarantees
@@ -64,6 +68,21 @@ def test_the_walk_says_what_the_meaning_says(profile: str, ordering: Ordering) -
         spec, random = random_spec(seed, PROFILES[profile]), Random(seed)
         for rows in _allowed_policies(spec, ordering, random):
             assert _by_walk(spec, rows, ordering) == by_meaning(spec, rows, ordering)
+
+
+@pytest.mark.parametrize("restoration", ["bounded", "fair"])
+def test_goals_are_met_in_safe_states_only(restoration: Restoration) -> None:
+    """Where safety may take several steps to restore, a run may meet unsafe states, and no goal in them."""
+    unsafe = 0
+    for seed in range(30):
+        spec, random = replace(random_spec(seed, PROFILES["restoring"]), restoration=restoration), Random(seed)
+        valid = [state for state in all_states(spec) if is_valid(spec, state)]
+        options = {state: list(allowed_sets(spec, state, "any")) for state in valid}
+        rows = {state: random.choice(sets) for state, sets in options.items() if sets}
+        assert _by_walk(spec, rows, "any") == by_meaning(spec, rows, "any")
+        after = {successor(spec, state, chosen) for state, chosen in rows.items()}
+        unsafe += any(not is_safe(spec, state) for state in after)
+    assert unsafe
 
 
 def _in(spec: Spec, level: Level) -> set[State]:

@@ -13,6 +13,7 @@ from tumato_symbolic.policy import Policy
 from tumato_symbolic.report.verified import Verified
 from tumato_symbolic.verify import verify
 from tumato_symbolic.verify.children import cores
+from tumato_symbolic.verify.guarantees.result import Guarantees
 from tumato_symbolic.verify.result import stopped
 
 if TYPE_CHECKING:
@@ -28,7 +29,8 @@ if TYPE_CHECKING:
 class Criteria:
     """What a claim is held to: an ordering and a restoration (None: the specification's), properties, and who proves.
 
-    `strict`: its certificate has to hold as well.
+    `strict`: its certificate has to hold as well. `guarantees`: what a policy guarantees beyond
+    nominal runs is asked as well.
     """
 
     ordering: Ordering | None
@@ -36,6 +38,7 @@ class Criteria:
     properties: tuple[str, ...]
     prover: ProverName
     strict: bool
+    guarantees: bool = False
 
 
 def wanted_jobs(asked: int | None) -> int:
@@ -56,7 +59,8 @@ def judge(
 
     def verified(found: object) -> Verified:
         took = time.perf_counter() - started
-        return Verified(source, spec, path, cast("Verification", found), warnings, took, criteria.strict)
+        done = Verified(source, spec, path, cast("Verification", found), warnings, took, criteria.strict)
+        return replace(done, guarantees=_not_yet(done.verification)) if criteria.guarantees else done
 
     with errors_in(source):
         if isinstance(claim, Policy):
@@ -70,7 +74,14 @@ def judge(
                 jobs=jobs,
                 context=context.within(learned=lambda found: context.learn(verified(found))),
             )
-            return verified(verification)
+            done = verified(verification)
+            if not criteria.guarantees or verification.verdict != "proved":
+                return done
+            context.learn(done)
+            from tumato_symbolic.verify.guarantees.analyse import guarantees
+
+            found = guarantees(claim, spec, verification.ordering, context=context)
+            return replace(done, guarantees=found, took=time.perf_counter() - started)
         from tumato_symbolic.report.unrealizable import Disproved
         from tumato_symbolic.verify import verify_unrealizable  # loads Z3, which --prover walk does without
 
@@ -83,15 +94,27 @@ def judge(
         return disproved(verify_unrealizable(claim, spec, ordering=criteria.ordering, context=part))
 
 
+def _not_yet(verification: Verification) -> Guarantees:
+    """What is said of guarantees before they are looked at."""
+    if verification.verdict == "proved":
+        return Guarantees("undecided")
+    return Guarantees("unproved", reason=f"the policy is {verification.verdict}")
+
+
 def ended(known: Judged, why: str) -> Judged:
     """What was known of a claim when a limit was met."""
     if isinstance(known, Verified):
-        return replace(known, verification=stopped(known.verification, why))
+        known = replace(known, verification=stopped(known.verification, why))
+        if known.guarantees == Guarantees("undecided"):
+            known = replace(known, guarantees=Guarantees("undecided", reason=why))
+        return known
     return replace(known, found=replace(known.found, reason=why))
 
 
 def exit_code(done: Judged) -> int:
-    """What a script may conclude: 0 only where all is proved, and the certificate passes `--strict`."""
+    """What a script may conclude: 0 only where all is known and proved, and the certificate passes `--strict`."""
     if done.not_accepted:
         return NO
+    if isinstance(done, Verified) and done.guarantees is not None and done.guarantees.status == "undecided":
+        return UNDECIDED
     return {"proved": YES, "refuted": NO, "undecided": UNDECIDED}[done.verdict]

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
+from tumato_symbolic.explain.guaranteed import Guaranteed, guaranteed
 from tumato_symbolic.explain.near_misses import candidates
 from tumato_symbolic.explain.way_to_safety import RestoringFrom, WayToSafety
 from tumato_symbolic.policy import Policy, UndecidedState
@@ -65,7 +66,7 @@ class Decision:
     """A decision with all that explains it. `broken` are the state rules that the state breaks.
 
     `way` leads from an unsafe state back to safety, where that may take several steps, and `quality` is how well the
-    decision does that; None where it may never end.
+    decision does that; None where it may never end. `guaranteed` is None where too much can follow to tell.
     """
 
     state: State
@@ -77,6 +78,7 @@ class Decision:
     others: tuple[Other, ...]
     way: WayToSafety | None = None
     quality: Quality | None = None
+    guaranteed: Guaranteed | None = None
 
 
 class Decisions(Mapping[State, ActionSet]):
@@ -116,6 +118,7 @@ def why(spec: Spec, policy: Mapping[State, ActionSet], state: State, ordering: O
         tuple(others),
         restoring.way(state) if stepwise else None,
         restoring.quality(state, chosen) if stepwise and nominal_agrees(spec, chosen) else None,
+        guaranteed(spec, policy, state, ordering),
     )
 
 

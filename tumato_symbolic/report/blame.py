@@ -6,17 +6,17 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
 
-from tumato_symbolic.explain.cubes import StateCube
 from tumato_symbolic.explain.elements import Element, span_of
 from tumato_symbolic.explain.explanation import Explanation, FailingGroup, Reason
 from tumato_symbolic.explain.near_misses import NearMiss, applicable
 from tumato_symbolic.explain.predicates import predicate_text
+from tumato_symbolic.report.cubes import cube_text
 from tumato_symbolic.report.failures import FAILURE_CODES
 from tumato_symbolic.report.layout import count, enumeration
 from tumato_symbolic.report.reasons import Place, objection_text
 from tumato_symbolic.report.roles import KINDS, declared, role, where
 from tumato_symbolic.semantics import Objection
-from tumato_symbolic.spec import Spec, variables_of
+from tumato_symbolic.spec import variables_of
 
 _REASONS_IN_FULL = 3
 _REASONS_IN_SHORT = 12
@@ -154,20 +154,6 @@ def _where(place: Place, reason: Reason, limit: int) -> str:
     more = len(reason.cubes) - limit
     texts = [cube_text(place.spec, cube) for cube in reason.cubes[:limit]]
     return "; ".join(texts) + (f" (and {more} more)" if more > 0 else "")
-
-
-def cube_text(spec: Spec, cube: StateCube) -> str:
-    """`S_Location in {corridor, charger}, S_Conveyor is on`."""
-    parts = []
-    for variable, values in zip(spec.variables, cube, strict=True):
-        others = [value for value in range(len(variable.values)) if value not in values]
-        if len(values) == 1 and others:
-            parts.append(f"{variable.name} is {variable.values[values[0]]}")
-        elif len(others) == 1:
-            parts.append(f"{variable.name} is not {variable.values[others[0]]}")
-        elif others:
-            parts.append(f"{variable.name} in {{{', '.join(variable.values[value] for value in values)}}}")
-    return ", ".join(parts) or "every valid state"
 
 
 def goal_sentences(place: Place, reason: Reason) -> Iterator[str]:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from tumato_symbolic.explain.decision import Decision, GoalNote, Other
+from tumato_symbolic.report.guaranteed import guarantee_json, guarantee_text, shortcoming_json, shortcoming_lines
 from tumato_symbolic.report.layout import count, enumeration
 from tumato_symbolic.report.reasons import Place, broken_here, objection_text, story
 from tumato_symbolic.semantics import Quality, Run, State, action_names, level, named
@@ -33,6 +34,7 @@ def as_text(done: Decided) -> str:
         parts.append("\n".join(_unsafe(place, decision)))
     parts.append("\n".join(_goals(place, decision)))
     parts.append("\n".join(_run(place, decision.run)))
+    parts.append("\n".join(_guaranteed(place, decision)))
     if done.asked is not None:
         parts.append(f"Why not {place.actions(done.asked.chosen)}? {_sentence(place, decision, done.asked)}")
     else:
@@ -96,6 +98,20 @@ def _run(place: Place, run: Run) -> Iterator[str]:
         pairs = tuple((variable, value) for variable, value in enumerate(after) if value != before[variable])
         yield f"  {number}. {place.actions(chosen)}: {place.assignment(pairs)}"
     yield f"{_ENDS[run.end]} after {count(run.steps, 'step')}."
+
+
+def _guaranteed(place: Place, decision: Decision) -> Iterator[str]:
+    found = decision.guaranteed
+    if found is None:
+        yield "Too much can follow to tell here what is guaranteed; `verify --guarantees` looks at all states at once."
+    elif found.guarantee is None:
+        yield "Nothing is guaranteed: not even the nominal run meets the goal."
+    else:
+        text = guarantee_text(found.guarantee)
+        yield f"{text[0].upper()}{text[1:]}."
+        if found.shortcoming is not None:
+            yield "No more is guaranteed:"
+            yield from (f"  {line}" for line in shortcoming_lines(place, found.shortcoming))
 
 
 def _others(place: Place, decision: Decision) -> Iterator[str]:
@@ -173,6 +189,7 @@ def as_json(done: Decided) -> dict[str, object]:
         ],
         "run": _run_json(spec, decision.run),
         **({"restoring": _way_json(spec, decision)} if spec.restores_stepwise and decision.broken else {}),
+        "guarantee": _guaranteed_json(spec, decision),
         "others": [_other_json(done, other) for other in ([done.asked] if done.asked else decision.others)],
     }
 
@@ -184,6 +201,15 @@ def _way_json(spec: Spec, decision: Decision) -> dict[str, object]:
         return found
     steps = [{"actions": list(action_names(spec, step.chosen)), "state": named(spec, step.after)} for step in way.steps]
     return {**found, "bounded": way.bounded, "duration": way.effort[0], "steps": steps}
+
+
+def _guaranteed_json(spec: Spec, decision: Decision) -> dict[str, object] | None:
+    found = decision.guaranteed
+    if found is None:
+        return None
+    level = {"level": "none"} if found.guarantee is None else guarantee_json(found.guarantee)
+    why = None if found.shortcoming is None else shortcoming_json(spec, found.shortcoming)
+    return {**level, "why_no_more": why}
 
 
 def _run_json(spec: Spec, run: Run) -> dict[str, object]:

@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Code, Span
-from tumato_symbolic.explain.cubes import StateCube
 from tumato_symbolic.explain.elements import Element, span_of, text_of
 from tumato_symbolic.explain.explanation import (
     Explanation,
@@ -19,7 +18,8 @@ from tumato_symbolic.explain.explanation import (
     Unexplained,
 )
 from tumato_symbolic.explain.predicates import predicate_text
-from tumato_symbolic.report.blame import cube_text, goal_sentences, headline, near_story
+from tumato_symbolic.report.blame import goal_sentences, headline, near_story
+from tumato_symbolic.report.cubes import cube_json, cube_text
 from tumato_symbolic.report.explained import Explained
 from tumato_symbolic.report.failures import FAILURE_CODES
 from tumato_symbolic.report.findings import finding_json, github_command, github_commands
@@ -119,15 +119,6 @@ def _reason_json(done: Explained, reason: Reason) -> dict[str, object]:
         ]
         if reason.kind == "conflict"
         else [],
-    }
-
-
-def cube_json(spec: Spec, cube: StateCube) -> dict[str, list[str]]:
-    """The values that each variable may have; a variable that is not there may have any."""
-    return {
-        variable.name: [variable.values[value] for value in values]
-        for variable, values in zip(spec.variables, cube, strict=True)
-        if len(values) < len(variable.values)
     }
 
 

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from typing import Final
 
 from tumato_symbolic.report.layout import Paint, count, enumeration, every, seconds
-from tumato_symbolic.report.reasons import Place, broken_here, objection_text, story
-from tumato_symbolic.semantics import Outcome, Quality, Run, action_names, duration, named
+from tumato_symbolic.report.reasons import Place, broken_here, objection_text, outcome_json, story
+from tumato_symbolic.semantics import Quality, Run, action_names, duration, named
 from tumato_symbolic.spec import Ordering, Restoration, Spec
 from tumato_symbolic.verify.result import PropertyName, PropertyResult, Refutation, Verification
 
@@ -233,10 +233,6 @@ def _property_json(spec: Spec, result: PropertyResult) -> dict[str, object]:
     }
 
 
-def _outcome_json(spec: Spec, outcome: Outcome) -> list[dict[str, object]]:
-    return [{"action": spec.actions[step.action].name, "after": named(spec, step.after)} for step in outcome]
-
-
 def _refutation_json(spec: Spec, refutation: Refutation) -> dict[str, object]:
     state, decision, objection, run = refutation.state, refutation.decision, refutation.objection, refutation.run
     found: dict[str, object] = {
@@ -252,7 +248,7 @@ def _refutation_json(spec: Spec, refutation: Refutation) -> dict[str, object]:
             found["departure"] = {
                 "state": named(spec, departure.state),
                 "decision": list(action_names(spec, departure.decision)),
-                "outcome": _outcome_json(spec, departure.outcome),
+                "outcome": outcome_json(spec, departure.outcome),
             }
     if objection is not None:
         found["objection"] = {
@@ -260,7 +256,7 @@ def _refutation_json(spec: Spec, refutation: Refutation) -> dict[str, object]:
             "actions": [spec.actions[number].name for number in objection.actions],
             "rule": " ".join(objection.rule.text.split()) if objection.rule else None,
             "line": objection.rule.span.line if objection.rule else None,
-            "outcome": _outcome_json(spec, objection.outcome),
+            "outcome": outcome_json(spec, objection.outcome),
         }
     if run is not None:
         found["run"] = {

@@ -63,6 +63,11 @@ def story(place: Place, outcome: Outcome) -> str:
     return ", then ".join(_effectuation(place, step) for step in outcome)
 
 
+def outcome_json(spec: Spec, outcome: Outcome) -> list[dict[str, object]]:
+    """The same for a program."""
+    return [{"action": spec.actions[step.action].name, "after": named(spec, step.after)} for step in outcome]
+
+
 def _effectuation(place: Place, step: Effectuation) -> str:
     action = place.spec.actions[step.action]
     written = place.assignment(step.effect)

@@ -8,6 +8,7 @@ from typing import Final
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source
 from tumato_symbolic.report.findings import finding_json, github_command, github_commands
+from tumato_symbolic.report.guaranteed import guarantees_json, guarantees_lines, guarantees_summary
 from tumato_symbolic.report.layout import Paint, enumeration, seconds
 from tumato_symbolic.report.proof import (
     ORDERINGS,
@@ -19,6 +20,7 @@ from tumato_symbolic.report.proof import (
 )
 from tumato_symbolic.report.reasons import Place
 from tumato_symbolic.spec import Restoration, Spec
+from tumato_symbolic.verify.guarantees.result import Guarantees
 from tumato_symbolic.verify.result import CertificateUse, OrderingSource, Verdict, Verification, properties_of
 
 _CERTIFICATES = {
@@ -48,7 +50,7 @@ _SOURCES: Final[dict[OrderingSource, str]] = {
 class Verified:
     """A verification with everything that its report needs; `took` is in seconds.
 
-    `strict`: a certificate that is wrong or stale fails, whatever the policy is.
+    `strict`: a certificate that is wrong or stale fails, whatever the policy is. `guarantees`: None where not asked.
     """
 
     source: Source
@@ -58,6 +60,7 @@ class Verified:
     warnings: tuple[Diagnostic, ...]
     took: float
     strict: bool = False
+    guarantees: Guarantees | None = None
 
     @property
     def verdict(self) -> Verdict:
@@ -96,6 +99,8 @@ def as_text(done: Verified, colour: bool) -> str:
     left = [name for name in properties_of(judged) if name not in {result.name for result in found.properties}]
     if left:
         lines.append(f"Not asked: {enumeration(left)}.")
+    if done.guarantees is not None:
+        lines += ["", *(f"  {line}" for line in guarantees_lines(done.place, done.guarantees, paint))]
     if done.not_accepted:
         lines += ["", f"{paint.bad('Not accepted')} (--strict): the certificate is {found.certificate.status}."]
     if found.verdict == "refuted":
@@ -136,6 +141,7 @@ def as_json(done: Verified) -> dict[str, object]:
         "effect_ordering_from": done.verification.ordering_source,
         "policy": done.policy,
         "specification": done.source.name,
+        **({"guarantees": guarantees_json(done.spec, done.guarantees)} if done.guarantees is not None else {}),
         "strict": done.strict,
         "accepted": done.verification.verdict == "proved" and not done.not_accepted,
         "seconds": round(done.took, 3),
@@ -171,4 +177,7 @@ def as_github(done: Verified) -> str:
                 "notice", f"proved against {done.source.name}, for {states_spoken_of(done.verification)}", done.policy
             )
         )
+    if done.guarantees is not None:
+        kind = "error" if done.guarantees.status == "undecided" else "notice"
+        commands.append(github_command(kind, guarantees_summary(done.guarantees), done.policy))
     return "\n".join(commands)

@@ -9,7 +9,7 @@ from typing import Literal, TypeAlias
 
 from tumato_symbolic.semantics.goals import Residual, reached, residual_goal
 from tumato_symbolic.semantics.states import ActionSet, State, is_valid
-from tumato_symbolic.semantics.step import next_states, nominal_agrees, successor
+from tumato_symbolic.semantics.step import nominal_agrees, outcomes_in_turn, successor
 from tumato_symbolic.spec import Ordering, Spec
 
 GuaranteeKind: TypeAlias = Literal["guaranteed", "fair", "survives", "nominal"]
@@ -50,22 +50,25 @@ Steps: TypeAlias = Mapping[State, Step]
 def steps_from(
     spec: Spec, policy: Mapping[State, ActionSet], starts: Iterable[State], ordering: Ordering, most: int | None = None
 ) -> Steps | None:
-    """The steps in all states that the policy can come to from `starts`; None where they are more than `most`."""
+    """The steps in all states that the policy can come to from `starts`; None where they have over `most` outcomes."""
     found: dict[State, Step] = {}
     waiting = list(dict.fromkeys(starts))
-    met = set(waiting)
+    met, looked_at = set(waiting), 0
     while waiting:
-        if most is not None and len(found) >= most:
-            return None
         state = waiting.pop()
         chosen = policy.get(state)
         if chosen is None or not nominal_agrees(spec, chosen):
             continue
-        step = Step(successor(spec, state, chosen), frozenset(next_states(spec, state, chosen, ordering)))
-        found[state] = step
-        fresh = step.following - met
-        met |= fresh
-        waiting += sorted(fresh)
+        nominal = successor(spec, state, chosen)
+        following = {nominal}
+        for after, _ in outcomes_in_turn(spec, state, chosen, ordering):
+            following.add(after)
+            looked_at += 1
+            if most is not None and looked_at > most:
+                return None
+        found[state] = Step(nominal, frozenset(following))
+        waiting += sorted(following - met)
+        met |= following
     return found
 
 

@@ -36,6 +36,7 @@ EXAMPLES = """\
 examples:
   tumato-sym verify policy.json amr.tum
   tumato-sym verify policy.json amr.tum --properties total,safe,goals
+  tumato-sym verify policy.json amr.tum --guarantees             # what holds when effects deviate
   tumato-sym verify proofs/ --specs robots/ --strict             # all policies of a repository, in its CI
 """
 
@@ -88,6 +89,12 @@ class Options(CommandOptions):
         metavar="LIST",
         help=f"what to prove, separated by commas (default: {','.join(PROPERTIES)})",
     )
+    guarantees: bool = argument(
+        "--guarantees",
+        action="store_true",
+        help="say as well what a proved policy guarantees beyond nominal runs: with how many deviations from the "
+        "nominal effects the goal is met, whether it is met once they stop, or whatever happens",
+    )
     output_format: OutputFormat = arguments.output_format("json", "github")
 
     def mistake(self) -> str | None:
@@ -101,6 +108,10 @@ class Options(CommandOptions):
             return "--require-all is for a folder of policies"
         if self.strict and not {"safe", "goals"} <= set(self.properties):
             return "--strict judges the certificate, and needs safe and goals among the properties"
+        if self.guarantees and not self.specs:
+            return "--guarantees is for one policy and its specification"
+        if self.guarantees and not {"total", "safe", "goals"} <= set(self.properties):
+            return "--guarantees builds on total, safe and goals, and needs them among the properties"
         return None
 
 
@@ -111,7 +122,12 @@ def run(options: Options, context: Context) -> int:
     from tumato_symbolic.policy.claim import load_claim
 
     criteria = Criteria(
-        options.effect_ordering, options.restoration, options.properties, options.prover, options.strict
+        options.effect_ordering,
+        options.restoration,
+        options.properties,
+        options.prover,
+        options.strict,
+        options.guarantees,
     )
     jobs = wanted_jobs(options.jobs)
     if options.specs:

@@ -20,7 +20,8 @@ class WalkProspects:
 
     def __init__(self, model: Model, goals: WalkGoals, goal: Residual) -> None:
         self._model, self._walk = model, model.walk
-        self._met = goals.reached(goal)
+        met = goals.reached(goal)
+        self._met = self._walk.all_of((met, model.safe)) if model.spec.restores_stepwise else met
 
     @cached_property
     def surviving(self) -> list[Function]:
