@@ -6,8 +6,9 @@ import re
 import shutil
 import subprocess
 from collections.abc import Iterable, Iterator
-from pathlib import Path
+from functools import cache
 from tempfile import TemporaryDirectory
+from weakref import finalize
 
 from tests.conformance.roles import Rows
 from tests.conformance.world import World
@@ -102,19 +103,15 @@ class Session:
     """Coq's toplevel with the two files that compute."""
 
     def __init__(self) -> None:
-        self._folder = TemporaryDirectory()
-        folder = Path(self._folder.name)
-        for name in _NEEDED:
-            shutil.copy(SOURCES / f"{name}.v", folder)
-            subprocess.run([str(COQC), "-q", "-R", ".", "Tumato", f"{name}.v"], cwd=folder, check=True)
         self._process = subprocess.Popen(
             [str(TOPLEVEL), "-q", "-R", ".", "Tumato"],
-            cwd=folder,
+            cwd=_library().name,
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
             text=True,
         )
+        finalize(self, _end, self._process)
         self._count = 0
         self._write(_HEAD)
 
@@ -143,13 +140,20 @@ class Session:
         self._process.stdin.write(f"{text}\n")
         self._process.stdin.flush()
 
-    def close(self) -> None:
-        """End it."""
-        assert self._process.stdin is not None and self._process.stdout is not None
-        self._process.stdin.close()
-        self._process.stdout.close()
-        self._process.wait()
-        self._folder.cleanup()
+
+@cache
+def _library() -> TemporaryDirectory[str]:
+    """A folder with the two files, compiled."""
+    folder = TemporaryDirectory()
+    for name in _NEEDED:
+        shutil.copy(SOURCES / f"{name}.v", folder.name)
+        subprocess.run([str(COQC), "-q", "-R", ".", "Tumato", f"{name}.v"], cwd=folder.name, check=True)
+    return folder
+
+
+def _end(process: subprocess.Popen[str]) -> None:
+    process.kill()
+    process.communicate()
 
 
 def _order(ordering: Ordering) -> str:

@@ -12,6 +12,9 @@ from tumato_symbolic.semantics import ActionSet, State
 
 Rows = Mapping[State, ActionSet]
 
+PROPERTIES = ("total", "safe", "goals", "minimal")
+"""What a policy is judged by."""
+
 
 class Engine(Protocol):
     """Something that implements a part of docs/semantics.md."""

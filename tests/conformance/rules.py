@@ -11,7 +11,8 @@ import pytest
 
 from tests.conformance.by_checker import Checker
 from tests.conformance.by_coq import TOPLEVEL, Coq
-from tests.conformance.by_python import Z3, Bdd, Explicit, Prover
+from tests.conformance.by_engine import Bdd, Explicit
+from tests.conformance.by_verify import Z3, Prover, Walk
 from tests.conformance.roles import ROLES, Engine
 from tumato_symbolic.symbolic import available_backend
 
@@ -28,7 +29,7 @@ ENGINES: tuple[Engine, ...] = (
     Bdd("cudd"),
     Bdd("autoref"),
     Z3(),
-    Prover("walk", "walk"),
+    Walk(),
     Prover("states", "explicit"),
     Checker(),
     Coq(),

@@ -1,7 +1,7 @@
 """Section 6 of docs/semantics.md: which policy."""
 
 from tests.conformance.asking import policy
-from tests.conformance.by_python import Bdd
+from tests.conformance.by_engine import Bdd
 from tests.conformance.roles import Decider
 from tests.conformance.rules import rule
 from tests.conformance.test_5_policies import INTERACTING, moves

@@ -21,7 +21,8 @@ from tests.conformance import test_7_none as none
 from tests.conformance import test_8_paper as paper
 from tests.conformance.by_checker import Checker
 from tests.conformance.by_coq import Coq
-from tests.conformance.by_python import Z3, Bdd, Explicit, Prover
+from tests.conformance.by_engine import Bdd, Explicit
+from tests.conformance.by_verify import Z3, Prover, Walk
 from tumato_symbolic.export import coq
 from tumato_symbolic.game import routing
 from tumato_symbolic.semantics import goals as explicit_goals
@@ -104,7 +105,7 @@ BUGS = (
     Bug("1.3", "invalid states are safe", Checker, checker.World, "is_safe",
         lambda _: lambda world, state: world.broken(world.spec.state_rules, state) is None,
         states.test_a_state_is_safe_when_it_is_valid_and_every_state_rule_holds),
-    Bug("2.5", "alternatives never happen", lambda: Prover("walk", "walk"), Action, "effects",
+    Bug("2.5", "alternatives never happen", Walk, Action, "effects",
         lambda _: property(lambda action: (action.nominal,)), actions.test_an_action_may_take_any_of_its_effects),
     Bug("3.2", "resources are shared", lambda: Prover("states", "explicit"), states_steps.Steps, "may_be_together",
         lambda _: lambda steps, chosen: True, steps.test_no_two_actions_control_the_same_resource),
@@ -123,7 +124,7 @@ BUGS = (
     Bug("4.7", "nothing is ever executed", lambda: Bdd("autoref"), symbolic_goals, "settle",
         lambda settle: lambda body, _: settle(body, frozenset()),
         goals.test_executing_speaks_of_the_first_set_and_the_rest_of_the_state_reached),
-    Bug("4.7", "no residual goal holds", lambda: Prover("walk", "walk"), WalkGoals, "reached",
+    Bug("4.7", "no residual goal holds", Walk, WalkGoals, "reached",
         lambda _: lambda goals, residual: 0,
         goals.test_executing_speaks_of_the_first_set_and_the_rest_of_the_state_reached),
     Bug("5.4", "one step too many is in time", Checker, checker.Judge, "serves", _one_step_more,

@@ -1,27 +1,20 @@
-"""The explicit meaning, the engine on BDDs, and the provers of policies."""
+"""The explicit meaning, and the engine on BDDs."""
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cache
-from unittest.mock import patch
 
-import z3
-
-from tests.conformance.roles import Answer, Rows
-from tests.conformance.turned import arriving, as_rival, jumping
+from tests.conformance.roles import PROPERTIES, Answer, Rows
 from tests.conformance.world import World
 from tests.oracle import Together, decide_world
 from tests.oracle import World as OracleWorld
 from tests.reference_policy import reference_policy
 from tumato_symbolic import parse
 from tumato_symbolic.diagnostics import Code, UserError
-from tumato_symbolic.policy import as_table, policy_from_rows
-from tumato_symbolic.policy.unrealizable import Unrealizability
+from tumato_symbolic.policy import as_table
 from tumato_symbolic.semantics import (
     ActionSet,
     State,
-    all_states,
     allowed,
     allowed_sets,
     is_safe,
@@ -35,9 +28,6 @@ from tumato_symbolic.semantics.lint import lint
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.symbolic import Backend, Encoding, Steps, Target, build_steps, encode, regions, targets
 from tumato_symbolic.synthesis import Realizable, Unrealizable, synthesize
-from tumato_symbolic.verify import ProverName, verify, verify_unrealizable
-
-PROPERTIES = ("total", "safe", "goals", "minimal")
 
 
 class Explicit:
@@ -169,83 +159,3 @@ class Bdd:
     def _targets(self, spec: Spec, ordering: Ordering) -> list[Target]:
         steps = self._steps(spec, ordering)
         return targets(steps, regions(steps.encoding, steps.valid))
-
-
-class Prover:
-    """One prover of `tumato_symbolic.verify`. It is asked about policies, and so is every step."""
-
-    def __init__(self, name: str, prover: ProverName) -> None:
-        self.name, self._prover = name, prover
-
-    def refuses(self, text: str) -> bool:
-        """When it is read, or a policy is judged."""
-        try:
-            spec = parse(text)
-            verify(policy_from_rows(spec, {}), spec, prover=self._prover)
-        except UserError:
-            return True
-        return False
-
-    def valid(self, world: World, state: State) -> bool:
-        """Whether a policy for all other states is not *total*."""
-        rows = {other: frozenset[int]() for other in all_states(world.spec) if other != state}
-        return not self._has("total", world.spec, world.ordering, rows)
-
-    def safe(self, world: World, state: State) -> bool:
-        """Whether it is valid, and doing nothing there is *safe*; asked without reaction rules."""
-        spec = replace(world.spec, reaction_rules=())
-        return self.valid(world, state) and self._has("safe", spec, world.ordering, {state: frozenset()})
-
-    def allowed(self, world: World, state: State, chosen: ActionSet) -> bool:
-        """Whether a policy for this state alone is *safe*; a set that is refuses to be called *minimal* another."""
-        found = self._has("safe", world.spec, world.ordering, {state: chosen})
-        if chosen:
-            spec, here, longer = as_rival(world.spec, state, chosen)
-            assert self._has("minimal", spec, world.ordering, {here: longer}) != found, "its search differs"
-        return found
-
-    def successor(self, world: World, state: State, chosen: ActionSet) -> State:
-        """The values that a policy for this state alone reaches in one step."""
-        found = []
-        for variable, declared in enumerate(world.spec.variables):
-            (value,) = (
-                value
-                for value in range(len(declared.values))
-                if self._has("goals", arriving(world.spec, variable, value), world.ordering, {state: chosen})
-            )
-            found.append(value)
-        return tuple(found)
-
-    def meets(self, world: World, state: State, chosen: ActionSet, there: State) -> bool:
-        """Whether a decision that jumps there reaches its goals at once."""
-        spec, jump = jumping(world.spec, chosen, there)
-        return self._has("goals", spec, world.ordering, {state: jump})
-
-    def faults(self, world: World, rows: Rows) -> set[str]:
-        """What is refuted."""
-        return {name for name in PROPERTIES if not self._has(name, world.spec, world.ordering, rows)}
-
-    def _has(self, name: str, spec: Spec, ordering: Ordering, rows: Rows) -> bool:
-        policy = policy_from_rows(spec, dict(rows))
-        (result,) = verify(policy, spec, ordering=ordering, properties=[name], prover=self._prover).properties
-        assert result.verdict != "undecided", result.reason
-        return result.verdict == "proved"
-
-
-class Z3(Prover):
-    """The prover that asks Z3, and with it the room that judges certificates of the answer no."""
-
-    def __init__(self) -> None:
-        super().__init__("z3", "z3")
-        self._context = z3.Context()
-
-    def _has(self, name: str, spec: Spec, ordering: Ordering, rows: Rows) -> bool:
-        """In one context for all questions: Z3 takes longer to make one than to answer."""
-        with patch.object(z3, "Context", lambda: self._context):
-            return super()._has(name, spec, ordering, rows)
-
-    def believes(self, world: World, certificate: Unrealizability) -> bool:
-        """`verify_unrealizable`."""
-        verdict = verify_unrealizable(certificate, world.spec, ordering=world.ordering).verdict
-        assert verdict != "undecided"
-        return verdict == "proved"

@@ -1,0 +1,141 @@
+"""The provers of `tumato_symbolic.verify`, which are asked about policies."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import cache
+from unittest.mock import patch
+
+import z3
+
+from tests.conformance.roles import PROPERTIES, Rows
+from tests.conformance.turned import arriving, as_rival, jumping
+from tests.conformance.world import World
+from tumato_symbolic import parse
+from tumato_symbolic.diagnostics import UserError
+from tumato_symbolic.limits import Budget
+from tumato_symbolic.policy import as_diagram, policy_from_rows
+from tumato_symbolic.policy.unrealizable import Unrealizability
+from tumato_symbolic.semantics import ActionSet, State, all_states
+from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.verify import ProverName, verify, verify_unrealizable
+from tumato_symbolic.verify.by_walk.model import Model
+from tumato_symbolic.verify.no_policy.allowed_step import AllowedStep, is_state
+
+
+class Prover:
+    """One prover. What a step is, it is asked by policies for one state."""
+
+    def __init__(self, name: str, prover: ProverName) -> None:
+        self.name, self._prover = name, prover
+
+    def refuses(self, text: str) -> bool:
+        """When it is read, or a policy is judged."""
+        try:
+            spec = parse(text)
+            verify(policy_from_rows(spec, {}), spec, prover=self._prover)
+        except UserError:
+            return True
+        return False
+
+    def valid(self, world: World, state: State) -> bool:
+        """Whether a policy for all other states is not *total*."""
+        rows = {other: frozenset[int]() for other in all_states(world.spec) if other != state}
+        return not self._has("total", world.spec, world.ordering, rows)
+
+    def safe(self, world: World, state: State) -> bool:
+        """Whether it is valid, and doing nothing there is *safe*; asked without reaction rules."""
+        spec = replace(world.spec, reaction_rules=())
+        return self.valid(world, state) and self._has("safe", spec, world.ordering, {state: frozenset()})
+
+    def allowed(self, world: World, state: State, chosen: ActionSet) -> bool:
+        """Whether a policy for this state alone is *safe*; what a search for better sets allows has to agree."""
+        found = self._has("safe", world.spec, world.ordering, {state: chosen})
+        assert self.finds(world, state, chosen) == found, "its search differs"
+        return found
+
+    def finds(self, world: World, state: State, chosen: ActionSet) -> bool:
+        """Whether the set refuses a longer one to be called *minimal*; the empty set never can."""
+        if not chosen:
+            return self._has("safe", world.spec, world.ordering, {state: chosen})
+        spec, here, longer = as_rival(world.spec, state, chosen)
+        return not self._has("minimal", spec, world.ordering, {here: longer})
+
+    def successor(self, world: World, state: State, chosen: ActionSet) -> State:
+        """The values that a policy for this state alone reaches in one step."""
+        found = []
+        for variable, declared in enumerate(world.spec.variables):
+            (value,) = (
+                value
+                for value in range(len(declared.values))
+                if self._has("goals", arriving(world.spec, variable, value), world.ordering, {state: chosen})
+            )
+            found.append(value)
+        return tuple(found)
+
+    def meets(self, world: World, state: State, chosen: ActionSet, there: State) -> bool:
+        """Whether a decision that jumps there reaches its goals at once."""
+        spec, jump = jumping(world.spec, chosen, there)
+        return self._has("goals", spec, world.ordering, {state: jump})
+
+    def faults(self, world: World, rows: Rows) -> set[str]:
+        """What is refuted."""
+        return self._refuted(PROPERTIES, world.spec, world.ordering, rows)
+
+    def _has(self, name: str, spec: Spec, ordering: Ordering, rows: Rows) -> bool:
+        return not self._refuted((name,), spec, ordering, rows)
+
+    def _refuted(self, names: Sequence[str], spec: Spec, ordering: Ordering, rows: Rows) -> set[str]:
+        policy = policy_from_rows(spec, dict(rows))
+        answer = verify(policy, spec, ordering=ordering, properties=names, prover=self._prover)
+        assert all(result.verdict != "undecided" for result in answer.properties)
+        return {result.name for result in answer.properties if result.verdict == "refuted"}
+
+
+class Walk(Prover):
+    """The prover on decision diagrams."""
+
+    def __init__(self) -> None:
+        super().__init__("walk", "walk")
+
+    def finds(self, world: World, state: State, chosen: ActionSet) -> bool:
+        """`Model.allowed`, by which better sets are looked for; false where two actions are of one group."""
+        model = self._model(world.spec, world.ordering)
+        if any(len(chosen & set(group)) > 1 for group in model.groups):
+            return False
+        return model.holds(model.allowed, state, chosen)
+
+    @cache  # noqa: B019 - there is one of them
+    def _model(self, spec: Spec, ordering: Ordering) -> Model:
+        return Model(spec, as_diagram(policy_from_rows(spec, {})), ordering)
+
+
+class Z3(Prover):
+    """The prover that asks Z3, and with it the room that judges certificates of the answer no."""
+
+    def __init__(self) -> None:
+        super().__init__("z3", "z3")
+        self._context = z3.Context()
+
+    def finds(self, world: World, state: State, chosen: ActionSet) -> bool:
+        """Whether `AllowedStep`, which looks for better sets and for allowed steps, finds this one."""
+        step = self._step(world.spec, world.ordering)
+        executed = [term if n in chosen else z3.Not(term) for n, term in enumerate(step.executed)]
+        return step.some_step("this set is not allowed", is_state(step.state, state), *executed) is not None
+
+    def believes(self, world: World, certificate: Unrealizability) -> bool:
+        """`verify_unrealizable`."""
+        verdict = verify_unrealizable(certificate, world.spec, ordering=world.ordering).verdict
+        assert verdict != "undecided"
+        return verdict == "proved"
+
+    def _refuted(self, names: Sequence[str], spec: Spec, ordering: Ordering, rows: Rows) -> set[str]:
+        """In one context for all questions: Z3 takes longer to make one than to answer."""
+        with patch.object(z3, "Context", lambda: self._context):
+            return super()._refuted(names, spec, ordering, rows)
+
+    @cache  # noqa: B019 - there is one of them
+    def _step(self, spec: Spec, ordering: Ordering) -> AllowedStep:
+        with patch.object(z3, "Context", lambda: self._context):
+            return AllowedStep(spec, ordering, Budget())
