@@ -145,6 +145,7 @@ class Bdd:
             assert table is not None
             return Answer(table.rows, {}, outcome.statistics.longest_run)
         assert isinstance(outcome, Unrealizable)
+        assert all((each.count, each.example) == (len(each.states), each.states[0]) for each in outcome.failures)
         return Answer(None, {each.kind: frozenset(each.states) for each in outcome.failures})
 
     @cache  # noqa: B019 - there is one engine of each backend

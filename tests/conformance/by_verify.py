@@ -17,7 +17,7 @@ from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.limits import Budget
 from tumato_symbolic.policy import as_diagram, policy_from_rows
 from tumato_symbolic.policy.unrealizable import Unrealizability
-from tumato_symbolic.semantics import ActionSet, State, all_states
+from tumato_symbolic.semantics import ActionSet, State, all_states, takes_effect
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify import ProverName, verify, verify_unrealizable
 from tumato_symbolic.verify.by_walk.model import Model
@@ -56,8 +56,8 @@ class Prover:
         return found
 
     def finds(self, world: World, state: State, chosen: ActionSet) -> bool:
-        """Whether the set refuses a longer one to be called *minimal*; the empty set never can."""
-        if not chosen:
+        """Whether the set refuses a longer one to be called *minimal*; one without effects never can."""
+        if not takes_effect(world.spec, chosen):
             return self._has("safe", world.spec, world.ordering, {state: chosen})
         spec, here, longer = as_rival(world.spec, state, chosen)
         return not self._has("minimal", spec, world.ordering, {here: longer})

@@ -95,6 +95,20 @@ def test_each_assignment_of_an_alternative_is_an_outcome(stepper: Stepper) -> No
 
 
 @rule("2.5")
+def test_an_action_is_without_effects_when_none_mentions_a_variable(stepper: Stepper) -> None:
+    """Only then it may be executed where the state has to be left; writing what is there already is an effect."""
+    for fields, beside in (
+        ("", True),
+        ("nominal effects: none alternative effects: none", True),
+        ("nominal effects: y is a", False),
+        ("nominal effects: none alternative effects: y is a", False),
+    ):
+        actions = f"action repair nominal effects: x is a action other {fields}"
+        for asked in under_both(stepper, text({"x": "ab", "y": "ab"}, ACTIONS=actions, STATE_RULES="rule: x is a")):
+            assert asked.allowed("ba") == ["repair", *(["repair other"] if beside else [])]
+
+
+@rule("2.5")
 def test_an_action_may_take_any_of_its_effects(stepper: Stepper) -> None:
     """The nominal one and every alternative one can happen; where it nominally leads, the nominal one alone says."""
     actions = "action go nominal effects: x is b alternative effects: x is c alternative effects: none"

@@ -1,9 +1,9 @@
 """Section 3 of docs/semantics.md: what may be executed together."""
 
-from tests.conformance.asking import Asked, failures, under_both
+from tests.conformance.asking import Asked, failures, policy, under_both
 from tests.conformance.roles import Decider, Refuter, Stepper
 from tests.conformance.rules import rule
-from tests.conformance.world import text, world
+from tests.conformance.world import BOTH, text, world
 from tumato_symbolic.synthesis import Unrealizable, synthesize
 
 
@@ -232,6 +232,40 @@ def test_an_unsafe_state_is_left_within_one_step(stepper: Stepper) -> None:
     for asked in under_both(stepper, text({"x": "ab", "y": "ab"}, ACTIONS=actions, STATE_RULES=rules)):
         assert asked.allowed("bb") == ["both"]
         assert asked.allowed("ba") == ["one", "both", "one both"]
+
+
+BESIDE = (
+    "action repair preconditions: x is b nominal effects: x is a action beep"
+    " action blink nominal effects: none alternative effects: none"
+)
+
+
+@rule("3.9")
+def test_an_action_without_effects_adds_no_outcome(stepper: Stepper) -> None:
+    """It may accompany what restores safety, and restores nothing itself, alone or with others of its kind."""
+    for asked in under_both(stepper, text({"x": "ab"}, ACTIONS=BESIDE, STATE_RULES="rule: x is a")):
+        assert asked.allowed("b") == ["repair", "repair beep", "repair blink", "repair beep blink"]
+        assert asked.allowed("a") == ["", "beep", "blink", "beep blink"]
+
+
+@rule("3.9")
+def test_an_alternative_that_writes_makes_no_change_an_effect(stepper: Stepper) -> None:
+    """Then the state itself is an outcome, in which an unsafe state is not left."""
+    for effects, together in (("none", True), ("y is b", False)):
+        actions = (
+            f"action repair nominal effects: x is a action fumble nominal effects: none alternative effects: {effects}"
+        )
+        for asked in under_both(stepper, text({"x": "ab", "y": "ab"}, ACTIONS=actions, STATE_RULES="rule: x is a")):
+            assert asked.allowed("ba") == ["repair", *(["repair fumble"] if together else [])]
+
+
+@rule("3.9")
+def test_what_is_to_accompany_a_restoration_does(decider: Decider) -> None:
+    """A rule that wants the message beside the repair leaves a way to safety."""
+    wanted = "rule: IF executing repair THEN executing beep"
+    asked_text = text({"x": "ab"}, ACTIONS=BESIDE, STATE_RULES="rule: x is a", REACTION_RULES=wanted)
+    for ordering in BOTH:
+        assert policy(decider, asked_text, ordering) == {"a": "", "b": "repair beep"}
 
 
 TWICE = text(

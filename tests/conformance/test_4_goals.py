@@ -1,6 +1,6 @@
 """Section 4 of docs/semantics.md: which goals are active, and what is left of them."""
 
-from tests.conformance.asking import Asked, policy
+from tests.conformance.asking import Asked, failures, policy
 from tests.conformance.roles import Decider, Stepper
 from tests.conformance.rules import rule
 from tests.conformance.world import text
@@ -123,6 +123,16 @@ def test_executing_speaks_of_the_first_set_and_the_rest_of_the_state_reached(ste
         asked = goals(stepper, f"goal type: constraint goal: {body}")
         assert asked.meets("aa", "ring") == asked.meets("aa", "ring other") == with_ring
         assert asked.meets("aa", "") == asked.meets("aa", "other") == without
+
+
+@rule("4.7")
+def test_executing_is_met_by_whoever_can_and_by_nobody_else(decider: Decider) -> None:
+    """In one step, wherever it leads; where the action is not allowed, the goal has no plan."""
+    actions = "action act preconditions: x is a nominal effects: x is b"
+    for body, expected in (("executing act OR x is b", {}), ("executing act", {"no-plan": "b"})):
+        asked = text({"x": "ab"}, ACTIONS=actions, GOALS=f"goal type: constraint goal: {body}")
+        assert failures(decider, asked) == expected
+        assert expected or policy(decider, asked) == {"a": "act", "b": ""}
 
 
 @rule("4.8")

@@ -26,11 +26,12 @@ def as_rival(spec: Spec, state: State, chosen: ActionSet) -> tuple[Spec, State, 
     """A specification, an unsafe state and a decision there that is *not minimal* just where `Ok(state, chosen)`.
 
     A fault is added that every effect of `chosen` repairs, and a long action that repairs it alone. While there is a
-    fault, no other set may be executed than `chosen`, which therefore is the only one that can be better.
+    fault, no other set may be executed than `chosen`, which therefore is the only one that can be better. Some action
+    of `chosen` has effects: without, no fault is repaired.
     """
     fault, helper = len(spec.variables), len(spec.actions)
     fixed = Is(fault, 0)
-    actions = [_repairing(a, fault) if number in chosen else a for number, a in enumerate(spec.actions)]
+    actions = [_repairing(a, fault) if number in chosen and a.effects else a for number, a in enumerate(spec.actions)]
     longer = 1 + sum(action.duration for action in spec.actions)
     only = [Executing(n) if n in chosen else Not(Executing(n)) for n in range(helper + 1)]
     turned = replace(

@@ -7,9 +7,10 @@ from pathlib import Path
 
 SEMANTICS = (
     "tests/semantics/test_literal.py",
-    "tests/semantics/test_step.py",
     "tests/semantics/test_goals.py",
-    "tests/semantics/test_judge.py",
+    "tests/conformance",
+    "-k",
+    "semantics or explicit",
 )
 STEPS = ("tests/symbolic/test_steps.py",)
 NUMBERS = ("tests/policy/test_numbers.py",)

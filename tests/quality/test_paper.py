@@ -6,7 +6,7 @@ from tests.repo.documents import ROOT
 from tests.repo.examples import solved
 from tumato_symbolic import Policy, Realizable, Unrealizable, verify
 from tumato_symbolic.policy import as_table, policy_from_rows
-from tumato_symbolic.semantics import ActionSet, State, action_names, allowed_sets, duration, is_safe, judge
+from tumato_symbolic.semantics import ActionSet, State, action_names, allowed_sets, duration, is_safe
 
 AMR = ROOT / "examples" / "amr.tum"
 
@@ -17,45 +17,6 @@ def _amr_rows() -> dict[State, ActionSet]:
     table = as_table(outcome.policy, 32)
     assert table is not None
     return dict(table.rows)
-
-
-def _decide(place: str, battery: str, load: str, conveyor: str) -> tuple[str, ...]:
-    _, outcome = solved(AMR)
-    assert isinstance(outcome, Realizable)
-    state = {"S_Location": place, "S_Battery": battery, "S_Load": load, "S_Conveyor": conveyor}
-    return outcome.policy.decide(state)
-
-
-def test_amr_counts() -> None:
-    """32 states, all valid, 24 safe, 8 unsafe; realizable; the longest run has 4 steps."""
-    _, outcome = solved(AMR)
-    assert isinstance(outcome, Realizable)
-    counts = outcome.statistics
-    assert (counts.total, counts.valid, counts.safe, counts.unsafe, counts.longest_run) == (32, 32, 24, 8, 4)
-
-
-@pytest.mark.parametrize(
-    ("state", "actions"),
-    [
-        (("corridor", "ok", "free", "off"), ("move_to_workstation_1",)),
-        (("corridor", "low", "free", "off"), ("move_to_charger",)),
-        (("workstation_2", "ok", "free", "on"), ("stop_conveyor",)),
-        (("corridor", "low", "free", "on"), ("stop_conveyor",)),
-    ],
-    ids="-".join,
-)
-def test_amr_printed_entries(state: tuple[str, str, str, str], actions: tuple[str, ...]) -> None:
-    """The four entries that the paper prints come out as printed."""
-    assert _decide(*state) == actions
-
-
-def test_amr_by_the_explicit_meaning() -> None:
-    """The explicit judge calls the policy sound, complete and minimal, and counts the same longest run."""
-    spec, _ = solved(AMR)
-    judgement = judge(spec, _amr_rows(), "any")
-    assert judgement.sound_and_complete
-    assert judgement.minimal
-    assert judgement.longest_run == 4
 
 
 def test_amr_restorations() -> None:

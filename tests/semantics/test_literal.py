@@ -258,6 +258,10 @@ def test_a_run_without_a_decision_or_in_a_loop() -> None:
     torn = {(0,): frozenset((0,)), (1,): frozenset((0, 1))}
     assert follow(spec, torn, (0,), torn[0,]).end == "undefined"
     assert follow(spec, {(1,): frozenset((1,)), (2,): frozenset((2,))}, (0,), frozenset((0,))).end == "goal"
+    whole = {(place,): frozenset((place,)) for place in range(3)}
+    assert follow(spec, whole, (0,), NOTHING).steps == 4, (
+        "a first set that leads back is no loop where the policy goes on"
+    )
     assert build.state("a") == (0,)
 
 

@@ -8,7 +8,7 @@ from itertools import combinations
 
 import pytest
 
-from tests.semantics.build import Build, chosen, constraint, priority, when
+from tests.semantics.build import Build, constraint, priority, when
 from tumato_symbolic.diagnostics import Code, UserError
 from tumato_symbolic.game.fixpoints import attractor
 from tumato_symbolic.game.problem import build_problem
@@ -35,50 +35,6 @@ def line(bound: int | None = None) -> tuple[Build, Spec]:
     for here, there in ("ab", "bc", "cd", "dc", "cb", "ba"):
         build.action(f"x={there}", when=[build.atom(f"x={here}")])
     return build, build.spec(priority(build.goal(build.atom("x=d"))), bound=bound)
-
-
-def test_a_policy_takes_the_fewest_steps() -> None:
-    """Section 6: in a safe state the nominal run is as short as it can be; at the goal, doing nothing is one step."""
-    build, spec = line()
-    outcome = synthesize(spec)
-    assert rows(outcome) == {
-        build.state("a"): {0},
-        build.state("b"): {1},
-        build.state("c"): {2},
-        build.state("d"): frozenset(),
-    }
-    assert outcome.statistics is not None
-    assert outcome.statistics.longest_run == 3
-
-
-@pytest.mark.parametrize(("bound", "failing"), [(3, ""), (2, "a"), (1, "ab")])
-def test_the_plan_bound_counts_steps(bound: int, failing: str) -> None:
-    """A state fails with `no-plan` exactly when its shortest run is longer than the bound."""
-    build, spec = line(bound)
-    outcome = synthesize(spec)
-    if not failing:
-        assert isinstance(outcome, Realizable)
-        return
-    assert isinstance(outcome, Unrealizable)
-    (failure,) = outcome.failures
-    assert (failure.kind, failure.count) == ("no-plan", len(failing))
-    assert failure.states == tuple(build.state(letter) for letter in failing)
-    assert outcome.statistics.longest_run is None
-
-
-def test_unsafe_states_are_left_by_the_shortest_duration() -> None:
-    """Sections 5 and 6: the duration of a set is a sum, and the smallest wins even when its run is longer."""
-    build = Build({"x": "abcd"})
-    bad = build.atom("x=a")
-    build.action("x=d", when=[bad], duration=7)
-    build.action("x=b", when=[bad], duration=6)
-    build.action("x=c", when=[build.atom("x=b")])
-    build.action("x=d", when=[build.atom("x=c")])
-    spec = build.spec(priority(build.goal(build.atom("x=d"))), state_rules=[Not(bad)])
-    outcome = synthesize(spec)
-    assert rows(outcome)[build.state("a")] == {1}
-    assert outcome.statistics is not None
-    assert outcome.statistics.restoring_durations == 1
 
 
 def test_huge_durations_are_exact() -> None:
@@ -145,35 +101,6 @@ def test_a_limit_ends_in_undecided(monkeypatch: pytest.MonkeyPatch) -> None:
     assert "rounds" in outcome.limit
 
 
-def test_goals_that_conflict_are_named_by_a_minimal_set() -> None:
-    """Section 7: each state has a plan alone, but the state between them can serve only one side."""
-    build = Build({"x": "lmrLR"})
-    for here, there in ("lm", "rm", "mL", "mR", "LL", "RR"):
-        build.action(f"x={there}", when=[build.atom(f"x={here}")])
-    goals = priority(
-        when(build.atom("x=l"), build.goal(build.atom("x=R"))),
-        when(build.atom("x=r"), build.goal(build.atom("x=L"))),
-    )
-    outcome = synthesize(build.spec(goals))
-    assert isinstance(outcome, Unrealizable)
-    (failure,) = outcome.failures
-    assert (failure.kind, failure.states) == ("conflict", (build.state("l"), build.state("r")))
-    assert (failure.count, failure.example) == (2, build.state("l"))
-
-
-def test_a_state_can_conflict_with_itself() -> None:
-    """A run that has to pass one state twice, deciding differently, is a plan alone but no policy's run."""
-    build = Build({"x": "stg"})
-    start, goal = build.atom("x=s"), build.atom("x=g")
-    away = build.action("x=t", when=[start])
-    build.action("x=s", when=[build.atom("x=t")])
-    build.action("x=g", when=[start])
-    goals = priority(when(start, build.goal(And((away, goal)))))
-    outcome = synthesize(build.spec(goals))
-    assert isinstance(outcome, Unrealizable)
-    assert [(failure.kind, failure.states) for failure in outcome.failures] == [("conflict", (build.state("s"),))]
-
-
 def test_states_without_an_allowed_set_and_without_a_plan_are_told_apart() -> None:
     """Section 7: both kinds are reported at once, each state once."""
     build = Build({"x": "abcd"})
@@ -186,19 +113,6 @@ def test_states_without_an_allowed_set_and_without_a_plan_are_told_apart() -> No
         ("no-allowed-set", (build.state("a"),)),
         ("no-plan", (build.state("b"),)),
     ]
-
-
-def test_executing_in_a_goal_is_settled_by_the_first_set() -> None:
-    """A goal `executing a` is reached after one step by whoever can run it, and by nobody else."""
-    build = Build({"x": "ab"})
-    act = build.action("x=b", when=[build.atom("x=a")])
-    either = build.goal(Or((act, build.atom("x=b"))))
-    outcome = synthesize(build.spec(constraint(either)))
-    assert rows(outcome) == {build.state("a"): chosen(act), build.state("b"): frozenset()}
-    only = build.goal(act)
-    refused = synthesize(build.spec(constraint(only)))
-    assert isinstance(refused, Unrealizable)
-    assert refused.failures[0].states == (build.state("b"),)
 
 
 def test_no_valid_state_is_an_error_of_the_specification() -> None:

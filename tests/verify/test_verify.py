@@ -135,17 +135,6 @@ def test_no_valid_state_is_an_error_of_the_specification() -> None:
         verify(policy_from_rows(spec, {}), spec)
 
 
-def test_rows_for_invalid_states_are_ignored() -> None:
-    """A row for a state that is not valid changes nothing, whatever it says."""
-    build = Build({"x": "abc"})
-    away, back = build.action("x=b"), build.action("x=a")
-    spec = build.spec(goals=constraint(build.goal(build.atom("x=a"))), assumptions=[Not(build.atom("x=c"))])
-    rows = {(0,): frozenset[int](), (1,): chosen(back), (2,): chosen(away, back)}
-    answer = verify(policy_from_rows(spec, rows), spec)
-    assert answer.verdict == "proved"
-    assert answer.valid_states == 2
-
-
 @pytest.mark.parametrize(("bound", "verdict"), [(2, "refuted"), (3, "proved"), (None, "proved")])
 def test_the_plan_bound(bound: int | None, verdict: str) -> None:
     """A run of exactly `L` steps is long enough, one more is not."""

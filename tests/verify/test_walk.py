@@ -9,7 +9,7 @@ import pytest
 
 from tests.generate import random_spec
 from tests.profiles import PROFILES
-from tests.semantics.build import Build, chosen, constraint
+from tests.semantics.build import Build, chosen
 from tests.verify.policies import certified, dressed, exact_ranks, leaving, near_policies, wrong_ranks
 from tumato_symbolic.policy import policy_from_rows
 from tumato_symbolic.semantics import ActionSet, State, all_states, better_sets, duration, judge
@@ -166,102 +166,13 @@ def test_both_provers_agree_also_on_certificates() -> None:
     assert met >= {"used", "incomplete"}
 
 
-# One wrong policy for every obligation
+# Witnesses
 
 
-def _only(spec: Spec, rows: Rows, name: str, ordering: Ordering = "any") -> PropertyResult:
-    """The walk's verdict on one property; where `rows` says nothing, nothing is done."""
+def _minimal(spec: Spec, rows: Rows) -> PropertyResult:
+    """The walk's verdict on *minimal*; where `rows` says nothing, nothing is done."""
     everywhere = {state: rows.get(state, frozenset()) for state in all_states(spec)}
-    return verify(
-        policy_from_rows(spec, everywhere), spec, ordering=ordering, properties=[name], prover="walk"
-    ).properties[0]
-
-
-def _objection(result: PropertyResult) -> str:
-    assert result.refutation is not None
-    assert result.refutation.objection is not None
-    return result.refutation.objection.kind
-
-
-def test_a_precondition_that_fails() -> None:
-    """Condition 1."""
-    build = Build({"x": "ab"})
-    action = build.action("x=b", when=[build.atom("x=b")])
-    assert _objection(_only(build.spec(), {(0,): chosen(action)}, "safe")) == "precondition"
-
-
-def test_a_resource_that_two_actions_control() -> None:
-    """Condition 2."""
-    build = Build({"x": "ab"}, resources=["r"])
-    actions = build.action("x=b", needs=["r"]), build.action("x=b", needs=["r"])
-    assert _objection(_only(build.spec(), {(0,): chosen(*actions)}, "safe")) == "resource"
-
-
-def test_nominal_effects_that_disagree() -> None:
-    """Condition 3; and the run ends there."""
-    build = Build({"x": "abc"})
-    actions = build.action("x=b"), build.action("x=c")
-    assert _objection(_only(build.spec(), {(0,): chosen(*actions)}, "safe")) == "nominal-conflict"
-
-
-def test_a_reaction_rule_that_is_broken() -> None:
-    """Condition 4."""
-    build = Build({"x": "ab"})
-    one, other = build.action("x=b"), build.action()
-    spec = build.spec(reaction_rules=[Or((Not(one), other))])
-    assert _only(spec, {(0,): chosen(one, other)}, "safe").verdict == "proved"
-    assert _objection(_only(spec, {(0,): chosen(one)}, "safe")) == "reaction-rule"
-
-
-def test_effects_that_come_in_an_unsafe_order() -> None:
-    """Condition 5 under `any`: the alternative strikes after the other action; under `first` it cannot."""
-    build = Build({"x": "abc", "y": "ab"})
-    one, two = build.action("x=b", alternatives=["x=c"]), build.action("x=b y=b")
-    back = build.action("x=a y=a")
-    spec = build.spec(state_rules=[Or((Not(build.atom("x=c")), Not(build.atom("y=b"))))])
-    rows = {build.state("aa"): chosen(one, two), build.state("cb"): chosen(back)}
-    assert _only(spec, rows, "safe", "first").verdict == "proved"
-    refutation = _only(spec, rows, "safe").refutation
-    assert refutation is not None
-    assert refutation.objection is not None
-    assert [step.action for step in refutation.objection.outcome] == [two.action, one.action]
-
-
-def test_an_action_strikes_once() -> None:
-    """Condition 5: two alternatives of one action never both happen."""
-    build = Build({"x": "ab", "y": "ab"})
-    action, back = build.action("", alternatives=["x=b", "y=b"]), build.action("x=a y=a")
-    spec = build.spec(state_rules=[Or((Not(build.atom("x=b")), Not(build.atom("y=b"))))])
-    assert _only(spec, {(0, 0): chosen(action), (1, 1): chosen(back)}, "safe").verdict == "proved"
-
-
-@pytest.mark.parametrize("ordering", ["any", "first"])
-def test_nothing_is_done_in_an_unsafe_state(ordering: Ordering) -> None:
-    """Condition 5 for the empty set."""
-    build = Build({"x": "ab"})
-    result = _only(build.spec(state_rules=[Not(build.atom("x=b"))]), {}, "safe", ordering)
-    assert result.refutation is not None
-    assert (result.refutation.state, _objection(result)) == ((1,), "unsafe")
-
-
-def test_all_nominal_effects_together_under_first() -> None:
-    """Condition 6."""
-    build = Build({"x": "ab", "y": "ab"})
-    one, two, back = build.action("x=b"), build.action("y=b"), build.action("x=a")
-    spec = build.spec(state_rules=[Or((Not(build.atom("x=b")), Not(build.atom("y=b"))))])
-    rows = {(0, 0): chosen(one, two), (1, 1): chosen(back)}
-    assert _objection(_only(spec, rows, "safe", "first")) == "nominal-unsafe"
-
-
-@pytest.mark.parametrize(("bound", "end"), [(None, "goal"), (3, "goal"), (2, "bound")])
-def test_the_bound_is_exact(bound: int | None, end: str) -> None:
-    """A run of `L` steps is short enough, one of `L + 1` is not."""
-    build = Build({"x": "abcd"})
-    steps = [build.action(f"x={after}", when=[build.atom(f"x={here}")]) for here, after in ("ab", "bc", "cd")]
-    spec = build.spec(goals=constraint(build.goal(build.atom("x=d"))), bound=bound)
-    result = _only(spec, {(number,): chosen(step) for number, step in enumerate(steps)}, "goals")
-    assert result.verdict == ("proved" if end == "goal" else "refuted")
-    assert result.refutation is None or (result.refutation.run is not None and result.refutation.run.end == end)
+    return verify(policy_from_rows(spec, everywhere), spec, properties=["minimal"], prover="walk").properties[0]
 
 
 def test_a_cheaper_set_is_found_among_many() -> None:
@@ -269,10 +180,10 @@ def test_a_cheaper_set_is_found_among_many() -> None:
     build = Build({"x": "ab"})
     dear, *cheap = (build.action("x=a", duration=amount) for amount in (5, 2, 2, 0))
     spec = build.spec(state_rules=[Not(build.atom("x=b"))])
-    refutation = _only(spec, {(1,): chosen(dear)}, "minimal").refutation
+    refutation = _minimal(spec, {(1,): chosen(dear)}).refutation
     assert refutation is not None
     assert (refutation.state, refutation.cheaper) == ((1,), chosen(cheap[2]))
-    assert _only(spec, {(1,): chosen(cheap[2])}, "minimal").verdict == "proved"
+    assert _minimal(spec, {(1,): chosen(cheap[2])}).verdict == "proved"
 
 
 def test_a_long_way_into_an_unsafe_state_is_not_listed() -> None:
