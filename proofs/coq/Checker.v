@@ -7,6 +7,10 @@ From Coq Require Import Bool List Arith NArith Lia Orders Mergesort.
 From Tumato Require Import Semantics.
 Import ListNotations.
 
+(** Computes [b] only where [a] is true, or only where it is false. *)
+Notation "a &&& b" := (if a then b else false) (at level 40, left associativity).
+Notation "a ||| b" := (if a then true else b) (at level 50, left associativity).
+
 (** ** Trees over states *)
 
 Inductive tree (X : Type) :=
@@ -35,11 +39,23 @@ Fixpoint all_states (sizes : list nat) : list state :=
   | size :: sizes => let below := all_states sizes in flat_map (fun v => map (cons v) below) (seq 0 size)
   end.
 
+(** What the tree says of a state, [false] or [None] where it does not know the state. *)
+Definition is_true_at (t : tree bool) (s : state) : bool := match lookup t s with Some b => b | None => false end.
+
+Definition entry {X} (t : tree (option X)) (s : state) : option X := match lookup t s with Some e => e | None => None end.
+
 (** A policy table; [None] where nothing is decided. *)
 Definition table := tree (option actions).
 
 Definition policy_of (t : table) : policy :=
   fun s => match lookup t s with Some (Some A) => A | _ => [] end.
+
+(** For the unsafe states, the least efforts of a policy with [back_within next] and with [back_within nominally];
+    [None] where there is none. They come from outside, and are checked. *)
+Record efforts := { worst : tree (option effort); nominal_sum : tree (option effort) }.
+
+(** Where restoring takes one step, there is nothing to be said. *)
+Definition no_efforts : efforts := {| worst := Node []; nominal_sum := Node [] |}.
 
 (** ** Small questions *)
 
@@ -54,6 +70,15 @@ Definition disjoint (A B : list nat) : bool := forallb (fun a => negb (member a 
 
 Definition agree (e f : assignment) : bool :=
   forallb (fun p => forallb (fun q => negb (fst p =? fst q) || (snd p =? snd q)) f) e.
+
+(** Efforts. *)
+Definition less (e f : effort) : bool := (fst e <? fst f)%N || (fst e =? fst f)%N && (snd e <? snd f)%N.
+
+Definition not_more (e f : effort) : bool := (fst e <? fst f)%N || (fst e =? fst f)%N && (snd e <=? snd f)%N.
+
+(** As [forallb], but computes no further than to the first [false]. *)
+Fixpoint every {X} (f : X -> bool) (l : list X) : bool :=
+  match l with [] => true | x :: l => f x &&& every f l end.
 
 (** Lexicographic order. *)
 Fixpoint not_after (s t : list nat) : bool :=
@@ -108,7 +133,7 @@ Definition is_action_set (A : actions) : bool := increasing_below (length (decla
 
 Definition assumed (s : state) : bool := forallb (holds s []) (assumptions spec).
 
-Definition keeps_rules (s : state) : bool := assumed s && forallb (holds s []) (state_rules spec).
+Definition keeps_rules (s : state) : bool := assumed s && forallb (forallb (holds s [])) (state_rules spec).
 
 (** Whether two different actions have no resource in common and agree in their nominal effects. *)
 Definition compatible (a b : nat) : bool :=
@@ -144,14 +169,19 @@ Definition out_fine (fine : state -> bool) (s : state) (A : actions) : bool :=
   if at_rest A then fine s
   else struck_fine fine (match order with Any => length A | First => 1 end) [(s, A)].
 
-(** [ok], where [fine] tells the safe states. *)
+(** Whether [fine] holds wherever a step leads: to any state, or to the nominal successor. *)
+Definition next_fine (fine : state -> bool) (s : state) (A : actions) : bool :=
+  fine (delta spec s A) &&& out_fine fine s A.
+
+Definition nominally_fine (fine : state -> bool) (s : state) (A : actions) : bool := fine (delta spec s A).
+
+(** [ok], where [fine] tells the states that [kept] allows. *)
 Definition is_ok (fine : state -> bool) (s : state) (A : actions) : bool :=
-  forallb (applicable s) A &&
+  forallb (applicable s) A &&&
   forallb (fun a => forallb (fun b =>
-    if a =? b then agree (nominal (the spec a)) (nominal (the spec a)) else compatible a b) A) A &&
-  forallb (holds s A) (reaction_rules spec) &&
-  fine (delta spec s A) &&
-  out_fine fine s A.
+    if a =? b then agree (nominal (the spec a)) (nominal (the spec a)) else compatible a b) A) A &&&
+  forallb (holds s A) (reaction_rules spec) &&&
+  next_fine fine s A.
 
 (** ** Runs *)
 
@@ -173,13 +203,7 @@ Fixpoint chase (hit : state -> bool) (next : state -> state) (fuel : nat) (k : N
       else chase hit next fuel (N.succ k) past (N.succ lag) patience there
   end.
 
-(** Whether the run from [s] that starts with [A] and goes on with [pi] meets its goal within the bound. *)
-Definition serves (pi : policy) (fuel : nat) (s : state) (A : actions) : bool :=
-  let bodies := active spec s in
-  let first := delta spec s A in
-  chase (fun t => forallb (holds t A) bodies) (fun t => delta spec t (pi t)) fuel 1%N first 1%N 1%N first.
-
-(** ** Cheaper sets *)
+(** ** Sets that may be better *)
 
 (** Whether [good] holds for every set that adds to [chosen] (the latest first) some of [candidates], of total duration
     less than [budget], any two of them compatible. *)
@@ -187,40 +211,127 @@ Fixpoint all_cheaper (good : actions -> bool) (candidates chosen : actions) (bud
   match candidates with
   | [] => good (rev chosen)
   | a :: rest =>
-      all_cheaper good rest chosen budget &&
+      all_cheaper good rest chosen budget &&&
       (if (duration (the spec a) <? budget)%N && forallb (compatible a) chosen
        then all_cheaper good rest (a :: chosen) (budget - duration (the spec a))%N
        else true)
   end.
 
-(** Actions that an allowed set can contain: applicable, and safe when they are the only ones to strike. *)
+(** Actions that an allowed set can contain: applicable, and fine when they are the only ones to strike. *)
 Definition candidates (fine : state -> bool) (s : state) : actions :=
-  filter (fun a => applicable s a && one_fine fine s [a])
+  filter (fun a => applicable s a &&& one_fine fine s [a])
     (seq 0 (length (declared spec))).
 
-Definition no_better (fine : state -> bool) (pi : policy) (fuel : nat) (s : state) (A : actions) : bool :=
-  let budget := total_duration spec A in
-  let useless B := negb (is_ok fine s B && serves pi fuel s B) in
-  (budget =? 0)%N || all_cheaper useless (candidates fine s) [] budget.
+(** ** The judgement of one policy *)
+
+Section Judging.
+
+Variables (is_valid is_safe : state -> bool) (states : list state) (fuel : nat) (pi : policy)
+  (known : efforts).
+
+(** Whether unsafe states are left for good by any step: then the decisions there serve nobody else's run. *)
+Definition alone : bool :=
+  match restored_in spec, state_rules spec with
+  | OneStep, [] | OneStep, [_] => true
+  | _, _ => false
+  end.
+
+(** The states that [kept] allows after [s]. *)
+Definition is_kept (s : state) : state -> bool :=
+  if alone then is_safe
+  else if is_safe s then is_safe
+  else let rules := required spec s in fun t => is_valid t &&& forallb (holds t []) rules.
+
+(** Whether the run from [s] that starts with [A] and goes on with [pi] meets its goal within the bound. *)
+Definition serves (pi : policy) (s : state) (A : actions) : bool :=
+  let bodies := active spec s in
+  let first := delta spec s A in
+  chase (fun t => forallb (holds t A) bodies &&& is_safe t) (fun t => delta spec t (pi t))
+    fuel 1%N first 1%N 1%N first.
+
+(** Restored after [s], or back within [limit] all the same, by the efforts that are known; [within] compares. *)
+Definition is_back (told : state -> option effort) (s : state) (good : effort -> bool) : state -> bool :=
+  let now := level spec s in
+  fun t => (is_valid t &&& (now <? level spec t)) ||| match told t with Some e => good e | None => false end.
+
+Definition is_restored (s : state) : state -> bool := is_back (fun _ => None) s (fun _ => true).
+
+Definition fine_along := (state -> bool) -> state -> actions -> bool.
+
+(** Whether the effort with [A] in [s] is, by [told], less than [limit], or not more. *)
+Definition takes (compare : effort -> effort -> bool) (told : state -> option effort) (along : fine_along)
+    (s : state) (A : actions) (limit : effort) : bool :=
+  compare (longer spec A no_effort) limit &&& along (is_back told s (fun e => compare (longer spec A e) limit)) s A.
+
+Definition ends (told : state -> option effort) (along : fine_along) (s : state) (A : actions) : bool :=
+  along (is_back told s (fun _ => true)) s A.
+
+(** Whether [told] says of [s] what follows from what it says of the states after. *)
+Definition is_told (told : state -> option effort) (along : fine_along) (s : state) (A : actions) : bool :=
+  match told s with
+  | Some e => takes not_more told along s A e &&& negb (takes less told along s A e)
+  | None => negb (ends told along s A)
+  end.
+
+Definition decided (e : option effort) : bool := match e with Some _ => true | None => false end.
+
+Definition is_restoring (s : state) (A : actions) : bool :=
+  match restored_in spec with
+  | OneStep => true
+  | Bounded => decided (entry (worst known) s) &&& is_told (entry (worst known)) next_fine s A
+  | Fair =>
+      decided (entry (nominal_sum known) s) &&& is_told (entry (nominal_sum known)) nominally_fine s A &&&
+      is_told (entry (worst known)) next_fine s A
+  end.
+
+(** Whether an allowed set restores [s] in one step. *)
+Definition is_at_once (s : state) (A : actions) : bool :=
+  match restored_in spec with OneStep => true | _ => next_fine (is_restored s) s A end.
+
+(** [better], for allowed sets: [B] in the place of [A]. *)
+Definition is_better (s : state) (A B : actions) : bool :=
+  if is_at_once s B then
+    if is_at_once s A then (total_duration spec B <? total_duration spec A)%N else true
+  else if is_at_once s A then false
+  else match entry (worst known) s, entry (nominal_sum known) s with
+  | Some e, _ => takes less (entry (worst known)) next_fine s B e
+  | None, Some e =>
+      if ends (entry (worst known)) next_fine s B then true
+      else takes less (entry (nominal_sum known)) nominally_fine s B e
+  | None, None => false
+  end.
+
+(** The policy with [B] in [s], quickly. *)
+Definition swap (s : state) (B : actions) : policy := fun t => if same_list t s then B else pi t.
+
+(** Whether all runs meet their goals when [s] takes [B]. *)
+Definition all_served (s : state) (B : actions) : bool :=
+  let pi := swap s B in
+  serves pi s B &&& (alone ||| every (fun t => if is_valid t then serves pi t (pi t) else true) states).
+
+Definition no_better (s : state) (A : actions) : bool :=
+  let fine := is_kept s in
+  let some := candidates fine s in
+  let budget := if is_at_once s A then total_duration spec A else (1 + total_duration spec some)%N in
+  let useless B := if is_ok fine s B then if is_better s A B then negb (all_served s B) else true else true in
+  (budget =? 0)%N ||| all_cheaper useless some [] budget.
+
+Definition check_state (s : state) (A : actions) : bool :=
+  is_action_set A &&&
+  is_ok (is_kept s) s A &&&
+  serves pi s A &&&
+  (is_safe s ||| (is_restoring s A &&& no_better s A)).
+
+End Judging.
 
 (** ** The whole *)
 
-Definition check_state (fine : state -> bool) (t : table) (fuel : nat) (s : state) : bool :=
-  match lookup t s with
-  | Some (Some A) =>
-      is_action_set A &&
-      is_ok fine s A &&
-      serves (policy_of t) fuel s A &&
-      (fine s || no_better fine (policy_of t) fuel s A)
-  | _ => false
-  end.
-
-Definition is_true_at (t : tree bool) (s : state) : bool := match lookup t s with Some b => b | None => false end.
-
-Definition check (t : table) : bool :=
+Definition check (t : table) (known : efforts) : bool :=
+  let valid_states := build assumed (sizes spec) in
   let safe_states := build keeps_rules (sizes spec) in
   let states := all_states (sizes spec) in
   let fuel := length states in
-  forallb (fun s => negb (assumed s) || check_state (is_true_at safe_states) t fuel s) states.
+  let judge := check_state (is_true_at valid_states) (is_true_at safe_states) states fuel (policy_of t) known in
+  forallb (fun s => negb (assumed s) ||| match entry t s with Some A => judge s A | None => false end) states.
 
 End Checking.

@@ -1,6 +1,6 @@
 (** About trees, states and lists of numbers, before any specification. *)
 
-From Coq Require Import Bool List Arith Lia Sorted.
+From Coq Require Import Bool List Arith NArith Lia Sorted.
 From Tumato Require Import Semantics Checker.
 Import ListNotations.
 
@@ -61,7 +61,36 @@ Proof.
   rewrite L in short. lia.
 Qed.
 
+Lemma is_true_at_spec : forall sizes f s, is_true_at (build f sizes) s = true <-> Forall2 lt s sizes /\ f s = true.
+Proof.
+  intros sizes f s. unfold is_true_at. assert (K := lookup_build _ sizes f s).
+  destruct (lookup (build f sizes) s) as [b|].
+  - destruct (proj1 (K b) eq_refl) as [H ->]. tauto.
+  - split; [discriminate|]. intros H. assert (F : None = Some true) by (apply K; split; [apply H | now symmetry]).
+    discriminate F.
+Qed.
+
 (** ** Small questions *)
+
+(** [&&&] and [|||] are [&&] and [||]. *)
+Ltac eager := repeat
+  match goal with
+  | |- context [if ?a then ?b else false] => change (if a then b else false) with (a && b)
+  | |- context [if ?a then true else ?b] => change (if a then true else b) with (a || b)
+  end.
+
+Lemma every_forallb : forall X (f : X -> bool) l, every f l = forallb f l.
+Proof. intros X f l. induction l as [|x l IH]; [reflexivity|]. cbn. now rewrite IH. Qed.
+
+Lemma not_more_spec : forall e f, not_more e f = true <-> at_most e f.
+Proof.
+  intros e f. unfold not_more, at_most. now rewrite orb_true_iff, andb_true_iff, !N.ltb_lt, N.eqb_eq, N.leb_le.
+Qed.
+
+Lemma less_spec : forall e f, less e f = true <-> ~ at_most f e.
+Proof.
+  intros e f. unfold less, at_most. rewrite orb_true_iff, andb_true_iff, !N.ltb_lt, N.eqb_eq. lia.
+Qed.
 
 Lemma same_list_eq : forall s t, same_list s t = true <-> s = t.
 Proof.

@@ -1,4 +1,4 @@
-(** The checker's answers about runs, and what minimality asks of them. *)
+(** The checker's answers about runs, of a policy and of one that is changed in one state. *)
 
 From Coq Require Import Bool List Arith NArith Lia.
 From Tumato Require Import Semantics Checker Lists Steps.
@@ -81,42 +81,49 @@ End Chase.
 
 Definition follow (pi : policy) (s : state) : nat -> state := steps (fun t => delta spec t (pi t)) s.
 
-(** The run from [s] that starts with [A] and goes on with [pi] meets its goal within the bound. *)
+(** The run from [s] that starts with [A] and goes on with [pi] meets its goal within the bound, in a safe state. *)
 Definition reaches (pi : policy) (s : state) (A : actions) : Prop :=
-  exists k, within_bound spec (S k) /\ met spec s A (follow pi (delta spec s A) k).
+  exists k, within_bound spec (S k) /\ safe spec (follow pi (delta spec s A) k) /\
+    met spec s A (follow pi (delta spec s A) k).
 
-Lemma met_spec : forall s A t, forallb (holds t A) (active spec s) = true <-> met spec s A t.
-Proof. intros s A t. apply forallb_forall. Qed.
+Definition states : list state := all_states (sizes spec).
 
-Lemma serves_reaches : forall pi fuel s A, serves spec pi fuel s A = true -> reaches pi s A.
+Definition fuel : nat := length states.
+
+Local Notation serves := (serves spec (safe_at spec) fuel).
+
+Lemma hit_spec : forall s A t,
+  (if forallb (holds t A) (active spec s) then safe_at spec t else false) = true <-> safe spec t /\ met spec s A t.
 Proof.
-  intros pi fuel s A H. unfold serves in H.
-  apply (chase_true _ _ (delta spec s A) fuel 0) in H. destruct H as [k [W M]].
-  exists k. split; [exact W | now apply met_spec].
+  intros s A t. eager. rewrite andb_true_iff, safe_at_spec. unfold met. rewrite forallb_forall. tauto.
 Qed.
 
-(** A policy that allows nothing but what is allowed; its runs stay among the states. *)
+Lemma serves_reaches : forall pi s A, serves pi s A = true -> reaches pi s A.
+Proof.
+  intros pi s A H. unfold Checker.serves in H.
+  apply (chase_true _ _ (delta spec s A) fuel 0) in H. destruct H as [k [W M]].
+  exists k. split; [exact W | now apply hit_spec].
+Qed.
+
+(** A policy that does nothing but what is allowed; its runs stay among the valid states. *)
 Definition keeps_ok (pi : policy) : Prop := forall s, valid spec s -> ok spec order s (pi s).
 
-Lemma follow_safe : forall pi s, keeps_ok pi -> safe spec s -> forall k, safe spec (follow pi s k).
+Lemma follow_valid : forall pi s, keeps_ok pi -> valid spec s -> forall k, valid spec (follow pi s k).
 Proof.
-  intros pi s keep H k. induction k as [|k IH]; [exact H|].
-  exact (successor_safe _ _ _ _ (keep _ (proj1 IH))).
+  intros pi s keep H k. induction k as [|k IH]; [exact H|]. exact (proj1 (ok_delta _ _ _ _ (keep _ IH))).
 Qed.
 
-Definition fuel : nat := length (all_states (sizes spec)).
-
-Lemma serves_spec : forall pi s A, keeps_ok pi -> ok spec order s A ->
-  serves spec pi fuel s A = true <-> reaches pi s A.
+Lemma serves_spec : forall pi s A, keeps_ok pi -> ok spec order s A -> serves pi s A = true <-> reaches pi s A.
 Proof.
   intros pi s A keep allowed. split; [apply serves_reaches|]. intros [k [W M]].
-  destruct (serves spec pi fuel s A) eqn:E; [reflexivity|]. unfold serves in E.
-  set (hit := fun t => forallb (holds t A) (active spec s)) in E. set (next := fun t => delta spec t (pi t)) in E.
-  assert (inside : forall j, In (steps next (delta spec s A) j) (all_states (sizes spec))).
-  { intros j. apply in_all_states. exact (proj1 (proj1 (follow_safe pi _ keep (successor_safe _ _ _ _ allowed) j))). }
+  destruct (serves pi s A) eqn:E; [reflexivity|]. unfold Checker.serves in E.
+  set (hit := fun t => if forallb (holds t A) (active spec s) then safe_at spec t else false) in E.
+  set (next := fun t => delta spec t (pi t)) in E.
+  assert (inside : forall j, In (steps next (delta spec s A) j) states).
+  { intros j. apply in_all_states. exact (proj1 (follow_valid pi _ keep (proj1 (ok_delta _ _ _ _ allowed)) j)). }
   assert (F : hit (steps next (delta spec s A) k) = false).
   { apply (chase_false hit next (delta spec s A) _ inside fuel 0 0 1%N 1%N); auto. intros m Hm. lia. }
-  apply met_spec in M. unfold hit in F. unfold follow in M. fold next in M. congruence.
+  apply hit_spec in M. unfold follow in M. fold next in M. unfold hit in F. congruence.
 Qed.
 
 Lemma run_follow : forall pi s k, run spec pi s (S k) = follow pi (delta spec s (pi s)) k.
@@ -127,14 +134,14 @@ Proof.
 Qed.
 
 Lemma reaches_own : forall pi s, reaches pi s (pi s) <->
-  exists k, 1 <= k /\ within_bound spec k /\ met spec s (pi s) (run spec pi s k).
+  exists k, 1 <= k /\ within_bound spec k /\ safe spec (run spec pi s k) /\ met spec s (pi s) (run spec pi s k).
 Proof.
   intros pi s. split.
   - intros [k [W M]]. exists (S k). rewrite run_follow. split; [lia | auto].
   - intros [k [P [W M]]]. destruct k as [|k]; [lia|]. exists k. rewrite run_follow in M. auto.
 Qed.
 
-(** ** Minimality: only the run from the changed state matters *)
+(** ** The changed policy *)
 
 Lemma change_here : forall pi s A, change pi s A s = A.
 Proof. intros pi s A. unfold change. now destruct (list_eq_dec Nat.eq_dec s s). Qed.
@@ -142,62 +149,64 @@ Proof. intros pi s A. unfold change. now destruct (list_eq_dec Nat.eq_dec s s). 
 Lemma change_there : forall pi s A t, t <> s -> change pi s A t = pi t.
 Proof. intros pi s A t H. unfold change. now destruct (list_eq_dec Nat.eq_dec t s). Qed.
 
-Lemma changed_run : forall pi s A, sound_and_complete spec order (change pi s A) -> valid spec s -> ~ safe spec s ->
-  forall k, run spec (change pi s A) s (S k) = follow pi (delta spec s A) k /\
-    safe spec (run spec (change pi s A) s (S k)).
+Lemma change_ok : forall pi s A, keeps_ok pi -> ok spec order s A -> keeps_ok (change pi s A).
 Proof.
-  intros pi s A right V U k.
-  assert (go : forall t, valid spec t -> safe spec (delta spec t (change pi s A t))).
-  { intros t Ht. destruct (right t Ht) as [_ [allowed _]]. exact (successor_safe _ _ _ _ allowed). }
-  induction k as [|k [same here]].
-  - change (run spec (change pi s A) s 1) with (delta spec s (change pi s A s)).
-    split; [now rewrite change_here | now apply go].
-  - set (t := run spec (change pi s A) s (S k)) in *.
-    change (run spec (change pi s A) s (S (S k))) with (delta spec t (change pi s A t)).
-    split; [|apply go, here].
-    rewrite change_there by (intros ->; contradiction). now rewrite same.
+  intros pi s A keep allowed t V. destruct (list_eq_dec Nat.eq_dec t s) as [->|differ].
+  - now rewrite change_here.
+  - rewrite change_there by exact differ. now apply keep.
 Qed.
 
-Lemma changed_reaches : forall pi s A, sound_and_complete spec order (change pi s A) -> valid spec s ->
-  ~ safe spec s -> reaches pi s A.
+Lemma swap_change : forall pi s A t, swap pi s A t = change pi s A t.
 Proof.
-  intros pi s A right V U. destruct (right s V) as [_ [_ [k [P [W M]]]]].
-  rewrite change_here in M. destruct k as [|k]; [lia|].
-  exists k. split; [exact W|]. now rewrite <- (proj1 (changed_run pi s A right V U k)).
+  intros pi s A t. unfold swap, change. destruct (same_list t s) eqn:E, (list_eq_dec Nat.eq_dec t s) as [H|H]; auto.
+  - now apply same_list_eq in E.
+  - apply same_list_eq in H. congruence.
 Qed.
 
-(** The runs of the changed policy, but for the first step from [s], are those of [pi]. *)
-Lemma changed_follow : forall pi s A, sound_and_complete spec order pi -> ~ safe spec s ->
+Lemma chase_ext : forall hit next next', (forall t, next t = next' t) -> forall n k past lag patience here,
+  chase spec hit next n k past lag patience here = chase spec hit next' n k past lag patience here.
+Proof.
+  intros hit next next' same. induction n as [|n IH]; intros k past lag patience here; [reflexivity|].
+  cbn [chase]. now rewrite same, !IH.
+Qed.
+
+Lemma serves_swap : forall pi s A t B, serves (swap pi s A) t B = serves (change pi s A) t B.
+Proof. intros pi s A t B. apply chase_ext. intros u. now rewrite swap_change. Qed.
+
+(** Where unsafe states are left for good by any step, only the run from the changed state matters. *)
+Lemma alone_follow : forall pi s A, alone spec = true -> keeps_ok pi -> ~ safe spec s ->
   forall k t, safe spec t -> safe spec (follow pi t k) /\ follow (change pi s A) t k = follow pi t k.
 Proof.
-  intros pi s A right U k t T. induction k as [|k [here same]]; [now split|].
+  intros pi s A lone keep U k t T. induction k as [|k [here same]]; [now split|].
   unfold follow in *. cbn [steps]. rewrite same. set (u := steps _ t k) in *.
   rewrite change_there by (intros ->; contradiction).
-  split; [|reflexivity]. destruct (right u (proj1 here)) as [_ [allowed _]]. exact (successor_safe _ _ _ _ allowed).
+  split; [|reflexivity]. apply (alone_kept _ u); [exact lone | apply here |]. apply (ok_delta _ order), keep, here.
 Qed.
 
-Lemma reaches_changed : forall pi s A, sound_and_complete spec order pi -> ~ safe spec s ->
-  action_set spec A -> ok spec order s A -> reaches pi s A -> sound_and_complete spec order (change pi s A).
+Lemma alone_reaches : forall pi s A t B, alone spec = true -> keeps_ok pi -> ~ safe spec s ->
+  valid spec t -> ok spec order t B -> reaches (change pi s A) t B <-> reaches pi t B.
 Proof.
-  intros pi s A right U set allowed reach t V. set (B := change pi s A t).
-  assert (K : action_set spec B /\ ok spec order t B /\ reaches pi t B).
-  { unfold B. destruct (list_eq_dec Nat.eq_dec t s) as [->|differ]; [rewrite change_here; auto|].
-    rewrite change_there by exact differ. destruct (right t V) as [? [? ?]]. rewrite reaches_own. auto. }
-  destruct K as [? [okB [k [W M]]]]. split; [assumption | split; [assumption|]].
-  apply (proj1 (reaches_own (change pi s A) t)). exists k. split; [exact W|]. fold B.
-  rewrite (proj2 (changed_follow pi s A right U k _ (successor_safe _ _ _ _ okB))). exact M.
+  intros pi s A t B lone keep U V allowed. assert (K := ok_delta _ _ _ _ allowed).
+  apply (alone_kept _ _ _ lone V) in K. unfold reaches.
+  split; intros [k M]; exists k; now rewrite (proj2 (alone_follow pi s A lone keep U k _ K)) in *.
 Qed.
 
-(** [minimal] as [docs/semantics.md] puts it the second time: no cheaper allowed set has a run that, continued by the
-    policy, meets its goal. *)
-Theorem minimal_iff : forall pi, sound_and_complete spec order pi ->
-  minimal spec order pi <->
-  forall s A, valid spec s -> ~ safe spec s -> action_set spec A -> ok spec order s A ->
-    (total_duration spec A < total_duration spec (pi s))%N -> ~ reaches pi s A.
+Lemma all_served_spec : forall pi s A, keeps_ok pi -> valid spec s -> ~ safe spec s -> ok spec order s A ->
+  (forall t, valid spec t -> reaches pi t (pi t)) ->
+  all_served spec (valid_at spec) (safe_at spec) states fuel pi s A = true <->
+  forall t, valid spec t -> reaches (change pi s A) t (change pi s A t).
 Proof.
-  intros pi right. split; intros H s A V U set allowed cheap bad; apply (H s A V U set allowed cheap).
-  - now apply reaches_changed.
-  - now apply changed_reaches.
+  intros pi s A keep V U allowed reach. assert (keep' := change_ok pi s A keep allowed).
+  unfold all_served. cbv zeta. rewrite every_forallb. eager.
+  rewrite andb_true_iff, orb_true_iff, forallb_forall, serves_swap, (serves_spec _ _ _ keep' allowed). split.
+  - intros [own others] t W. destruct (list_eq_dec Nat.eq_dec t s) as [->|differ]; [now rewrite change_here|].
+    destruct others as [lone|others].
+    + rewrite change_there by exact differ. apply alone_reaches; auto.
+    + assert (I : In t states) by (apply in_all_states, W). specialize (others t I).
+      rewrite (proj2 (valid_at_spec _ t) W), serves_swap, swap_change in others. now apply serves_reaches.
+  - intros H. split; [specialize (H s V); now rewrite change_here in H|]. right. intros t I.
+    destruct (valid_at spec t) eqn:W; [|reflexivity]. apply valid_at_spec in W.
+    rewrite serves_swap, swap_change. apply serves_spec; auto.
 Qed.
 
 End Runs.

@@ -1,6 +1,7 @@
 (** What a specification means, and when a policy is right.
 
-    To be read beside [docs/semantics.md]; the section numbers are the same. Nothing is proved here.
+    To be read beside [docs/semantics.md]; the section numbers are the same, and sections 9 and 10 are told where they
+    belong. Nothing is proved here.
     Variables, values, resources and actions are numbers: positions in the declaration. *)
 
 From Coq Require Import List Arith NArith Sorted.
@@ -34,6 +35,9 @@ Record action := {
   alternatives : list assignment
 }.
 
+(** In how many steps safety may be restored. *)
+Inductive restoration := OneStep | Bounded | Fair.
+
 Inductive kind := Priority | Constraint.
 
 Inductive goal :=
@@ -45,10 +49,11 @@ Record specification := {
   sizes : list nat;  (* how many values each variable has *)
   declared : list action;
   reaction_rules : list formula;
-  state_rules : list formula;
+  state_rules : list (list formula);  (* by severity: the tiers, the most severe first *)
   assumptions : list formula;
   goals : option goal;
-  max_plan_length : option N
+  max_plan_length : option N;
+  restored_in : restoration
 }.
 
 Inductive ordering := Any | First.
@@ -81,7 +86,19 @@ Definition is_state (s : state) : Prop := Forall2 lt s (sizes spec).
 
 Definition valid (s : state) : Prop := is_state s /\ all_hold s (assumptions spec).
 
-Definition safe (s : state) : Prop := valid s /\ all_hold s (state_rules spec).
+Definition safe (s : state) : Prop := valid s /\ all_hold s (concat (state_rules spec)).
+
+(** The level of a state (section 10): how many tiers it satisfies whole, counted from the most severe one. *)
+Fixpoint tiers_satisfied (s : state) (tiers : list (list formula)) : nat :=
+  match tiers with
+  | [] => 0
+  | tier :: tiers => if forallb (holds s []) tier then S (tiers_satisfied s tiers) else 0
+  end.
+
+Definition level (s : state) : nat := tiers_satisfied s (state_rules spec).
+
+(** [t] has a higher level than [s]. Where all rules are of one severity: [t] is safe and [s] is not. *)
+Definition restored (s t : state) : Prop := valid t /\ level s < level t.
 
 (** ** 2. Actions *)
 
@@ -132,7 +149,22 @@ Definition out (s : state) (A : actions) (t : state) : Prop :=
 (** The nominal successor: all nominal effects at once. *)
 Definition delta (s : state) (A : actions) : state := apply (flat_map (fun a => nominal (the a)) A) s.
 
-(** The set [A] is allowed in state [s]. *)
+(** [Next(s, A)]: every state in which the next decision may be taken (section 9). *)
+Definition next (s : state) (A : actions) (t : state) : Prop := out s A t \/ t = delta s A.
+
+(** The state rules that a step from [s] has to keep: those of the tiers up to the first that [s] breaks, this one
+    included, and of these, where restoring may take several steps, the ones that hold in [s]. Where all rules are of
+    one severity, and in a safe state: under [OneStep] all rules, and otherwise all that hold in [s]. *)
+Definition required (s : state) : list formula :=
+  let concerned := concat (firstn (S (level s)) (state_rules spec)) in
+  match restored_in spec with
+  | OneStep => concerned
+  | _ => filter (holds s []) concerned
+  end.
+
+Definition kept (s t : state) : Prop := valid t /\ all_hold t (required s).
+
+(** The set [A] is allowed in state [s]; under [Bounded] and [Fair] this is [Keep(s, A)] of section 9. *)
 Record ok (s : state) (A : actions) : Prop := {
   preconditions_hold : forall a, In a A -> all_hold s (preconditions (the a));
   resources_differ : forall a b r, In a A -> In b A -> a <> b ->
@@ -140,8 +172,7 @@ Record ok (s : state) (A : actions) : Prop := {
   nominals_agree : forall a b x v w, In a A -> In b A ->
     In (x, v) (nominal (the a)) -> In (x, w) (nominal (the b)) -> v = w;
   reaction_rules_hold : forall f, In f (reaction_rules spec) -> holds s A f = true;
-  outcomes_safe : forall t, out s A t -> safe t;
-  successor_safe : safe (delta s A)
+  steps_kept : forall t, next s A t -> kept s t
 }.
 
 (** ** 4. Goals *)
@@ -186,17 +217,68 @@ Fixpoint run (pi : policy) (s : state) (k : nat) : state :=
 Definition within_bound (k : nat) : Prop :=
   match max_plan_length spec with None => True | Some most => (N.of_nat k <= most)%N end.
 
+(** An effort is a duration and a number of steps (section 9): compared by duration, then by steps. *)
+Definition effort := (N * N)%type.
+
+Definition at_most (e f : effort) : Prop := (fst e < fst f \/ fst e = fst f /\ snd e <= snd f)%N.
+
+(** The effort of a step with [A] and of [rest]. *)
+Definition longer (A : actions) (rest : effort) : effort := (total_duration A + fst rest, 1 + snd rest)%N.
+
+Definition no_effort : effort := (0, 0)%N.
+
+(** Where a step leads: to any state of [next], or only to the nominal successor. *)
+Definition leads := state -> actions -> state -> Prop.
+
+Definition nominally : leads := fun s A t => t = delta s A.
+
+(** [back_within to pi s e]: wherever the steps of [pi] from [s] lead, each of these ways comes to a restored state, with
+    an effort of at most [e]. For [to := next] this says that [w(s)] is at most [e]; for [to := nominally], that the sum
+    along the nominal run, until it is restored, is. What comes to no restored state is back within no effort. *)
+Inductive back_within (to : leads) (pi : policy) : state -> effort -> Prop :=
+| back s e (rest : state -> effort) :
+    at_most (longer (pi s) no_effort) e ->
+    (forall t, to s (pi s) t -> ~ restored s t -> at_most (longer (pi s) (rest t)) e) ->
+    (forall t, to s (pi s) t -> ~ restored s t -> back_within to pi t (rest t)) ->
+    back_within to pi s e.
+
+(** The same, if in [s] the set [A] is taken once, and [pi] after that. *)
+Definition back_after (to : leads) (pi : policy) (s : state) (A : actions) (e : effort) : Prop :=
+  exists rest : state -> effort, at_most (longer A no_effort) e /\
+    forall t, to s A t -> ~ restored s t -> at_most (longer A (rest t)) e /\ back_within to pi t (rest t).
+
+Definition at_once (s : state) (A : actions) : Prop := forall t, next s A t -> restored s t.
+
+(** What [pi] owes an unsafe state. ([ok] says it already under [OneStep].) *)
+Definition restores (pi : policy) (s : state) : Prop :=
+  match restored_in spec with
+  | OneStep => at_once s (pi s)
+  | Bounded => exists e, back_within next pi s e
+  | Fair => exists e, back_within nominally pi s e
+  end.
+
 Definition sound_and_complete (pi : policy) : Prop :=
   forall s, valid s ->
-    action_set (pi s) /\ ok s (pi s) /\
-    exists k, 1 <= k /\ within_bound k /\ met s (pi s) (run pi s k).
+    action_set (pi s) /\ ok s (pi s) /\ (~ safe s -> restores pi s) /\
+    exists k, 1 <= k /\ within_bound k /\ safe (run pi s k) /\ met s (pi s) (run pi s k).
 
 (** The policy that is [pi] but for the set [A] in [s]. *)
 Definition change (pi : policy) (s : state) (A : actions) : policy :=
   fun t => if list_eq_dec Nat.eq_dec t s then A else pi t.
 
+(** With [A] the least effort in question is smaller than with [B]. *)
+Definition less_effort (to : leads) (pi : policy) (s : state) (A B : actions) : Prop :=
+  exists e, back_after to pi s A e /\ ~ back_after to pi s B e.
+
+Definition finite (pi : policy) (s : state) (A : actions) : Prop := exists e, back_after next pi s A e.
+
+(** [A] restores [s] better than what [pi] does there. Under [OneStep]: its duration is smaller. *)
+Definition better (pi : policy) (s : state) (A : actions) : Prop :=
+  (at_once s A /\ ~ at_once s (pi s)) \/
+  ((at_once s A <-> at_once s (pi s)) /\ less_effort next pi s A (pi s)) \/
+  (restored_in spec = Fair /\ ~ finite pi s A /\ ~ finite pi s (pi s) /\ less_effort nominally pi s A (pi s)).
+
 Definition minimal (pi : policy) : Prop :=
-  forall s A, valid s -> ~ safe s -> action_set A -> ok s A ->
-    (total_duration A < total_duration (pi s))%N -> ~ sound_and_complete (change pi s A).
+  forall s A, valid s -> ~ safe s -> action_set A -> ok s A -> better pi s A -> ~ sound_and_complete (change pi s A).
 
 End Meaning.

@@ -14,22 +14,117 @@ Proof. intros s fs. apply forallb_forall. Qed.
 Lemma assumed_spec : forall s, is_state spec s -> assumed spec s = true <-> valid spec s.
 Proof. intros s H. unfold assumed, valid. rewrite all_hold_spec. tauto. Qed.
 
-Definition fine : state -> bool := is_true_at (build (keeps_rules spec) (sizes spec)).
+Definition valid_at : state -> bool := is_true_at (build (assumed spec) (sizes spec)).
 
-Lemma fine_safe : forall s, fine s = true <-> safe spec s.
+Definition safe_at : state -> bool := is_true_at (build (keeps_rules spec) (sizes spec)).
+
+Lemma valid_at_spec : forall s, valid_at s = true <-> valid spec s.
 Proof.
-  intros s. unfold fine, is_true_at.
-  assert (K : forall b, lookup (build (keeps_rules spec) (sizes spec)) s = Some b <->
-    is_state spec s /\ b = keeps_rules spec s) by (intros b; apply lookup_build).
-  assert (R : is_state spec s -> keeps_rules spec s = true <-> safe spec s).
-  { intros H. unfold keeps_rules, safe. now rewrite andb_true_iff, assumed_spec, all_hold_spec. }
-  destruct (lookup _ s) as [b|] eqn:E.
-  - destruct (proj1 (K b) eq_refl) as [H ->]. now apply R.
-  - split; [discriminate|]. intros H. assert (I : is_state spec s) by apply H.
-    assert (F : None = Some true) by (apply K; split; [exact I | symmetry; now apply R]). discriminate F.
+  intros s. unfold valid_at. rewrite is_true_at_spec. unfold assumed. now rewrite all_hold_spec.
+Qed.
+
+Lemma all_hold_concat : forall s tiers, forallb (forallb (holds s [])) tiers = true <-> all_hold s (concat tiers).
+Proof.
+  intros s tiers. rewrite <- all_hold_spec. induction tiers as [|tier tiers IH]; [reflexivity|].
+  cbn. now rewrite forallb_app, !andb_true_iff, IH.
+Qed.
+
+Lemma safe_at_spec : forall s, safe_at s = true <-> safe spec s.
+Proof.
+  intros s. unfold safe_at, safe, valid. rewrite is_true_at_spec. unfold keeps_rules, assumed.
+  rewrite andb_true_iff, all_hold_spec, all_hold_concat. unfold is_state. tauto.
+Qed.
+
+(** ** Levels *)
+
+Local Notation level := (level spec).
+Local Notation highest := (length (state_rules spec)).
+
+Lemma level_at_least : forall s n, n <= highest -> n <= level s <-> all_hold s (concat (firstn n (state_rules spec))).
+Proof.
+  intros s. unfold Semantics.level. induction (state_rules spec) as [|tier tiers IH]; intros n; cbn [length].
+  - intros H. replace n with 0 by lia. cbn. split; [now intros _ f | lia].
+  - destruct n as [|n]; intros H; [cbn; split; [now intros _ f | lia]|].
+    cbn [firstn concat tiers_satisfied]. rewrite <- all_hold_spec, forallb_app, andb_true_iff, !all_hold_spec.
+    rewrite <- (all_hold_spec s tier). destruct (forallb (holds s []) tier).
+    + rewrite <- IH by lia. intuition lia.
+    + split; [intros L; exfalso; lia | intros [F _]; discriminate].
+Qed.
+
+Lemma level_at_most : forall s, level s <= highest.
+Proof.
+  intros s. unfold Semantics.level. induction (state_rules spec) as [|tier tiers IH]; [reflexivity|].
+  cbn. destruct (forallb _ tier); lia.
+Qed.
+
+Lemma level_safe : forall s, safe spec s <-> valid spec s /\ level s = highest.
+Proof.
+  intros s. unfold safe. rewrite <- (firstn_all (state_rules spec)) at 1. rewrite <- level_at_least by reflexivity.
+  assert (H := level_at_most s). intuition lia.
+Qed.
+
+Lemma restored_unsafe : forall s t, valid spec s -> valid spec t -> ~ safe spec s -> ~ restored spec s t -> ~ safe spec t.
+Proof.
+  intros s t V W U N. unfold restored in N. rewrite level_safe in *. assert (H := level_at_most s). intuition lia.
+Qed.
+
+(** A step keeps the level, and under [OneStep] raises it. *)
+Lemma kept_level : forall s t, kept spec s t -> level s <= level t.
+Proof.
+  intros s t [_ K]. apply level_at_least; [apply level_at_most|]. intros f H.
+  assert (here : all_hold s (concat (firstn (level s) (state_rules spec)))) by (apply level_at_least; [apply level_at_most | reflexivity]).
+  apply K. unfold required.
+  assert (C : In f (concat (firstn (S (level s)) (state_rules spec)))).
+  { apply in_concat in H. destruct H as [tier [H F]]. apply in_concat. exists tier. split; [|exact F].
+    revert H. clear. generalize (level s). induction (state_rules spec) as [|x l IH]; intros [|n]; cbn; try tauto.
+    intros [->|H]; [now left | right; now apply IH]. }
+  destruct (restored_in spec); [exact C | | ]; apply filter_In; split; try exact C; now apply here.
+Qed.
+
+Lemma kept_safe : forall s t, safe spec s -> kept spec s t -> safe spec t.
+Proof.
+  intros s t H K. assert (L := kept_level s t K). apply level_safe in H. apply level_safe. destruct H as [_ H].
+  assert (M := level_at_most t). split; [apply K | lia].
+Qed.
+
+Lemma kept_restored : forall s t, restored_in spec = OneStep -> valid spec s -> ~ safe spec s -> kept spec s t ->
+  restored spec s t.
+Proof.
+  intros s t O V U [W K]. split; [exact W|]. rewrite level_safe in U. assert (M := level_at_most s).
+  assert (L : level s <> highest) by tauto. apply level_at_least; [lia|]. unfold required in K. rewrite O in K. exact K.
+Qed.
+
+Lemma safe_kept : forall s t, safe spec s -> kept spec s t <-> safe spec t.
+Proof.
+  intros s t H. split; [now apply kept_safe|]. intros [V R]. split; [exact V|].
+  apply level_safe in H. destruct H as [_ H]. unfold required.
+  assert (E : firstn (S (level s)) (state_rules spec) = state_rules spec) by (apply firstn_all2; lia). rewrite E.
+  destruct (restored_in spec); [exact R| | ]; intros f F; apply filter_In in F; now apply R.
+Qed.
+
+Lemma alone_kept : forall s t, alone spec = true -> valid spec s -> kept spec s t <-> safe spec t.
+Proof.
+  intros s t O V. unfold alone in O. unfold kept, required, safe.
+  destruct (restored_in spec); try discriminate. destruct (state_rules spec) as [|tier [|]]; try discriminate; [reflexivity|].
+  cbn [firstn concat]. replace (firstn (level s) []) with (@nil (list formula)) by now rewrite firstn_nil. reflexivity.
+Qed.
+
+Definition kept_at : state -> state -> bool := is_kept spec valid_at safe_at.
+
+Lemma kept_at_spec : forall s t, valid spec s -> kept_at s t = true <-> kept spec s t.
+Proof.
+  intros s t V. unfold kept_at, is_kept. destruct (alone spec) eqn:O.
+  { rewrite alone_kept by assumption. apply safe_at_spec. }
+  destruct (safe_at s) eqn:F.
+  { apply safe_at_spec in F. rewrite safe_kept by exact F. apply safe_at_spec. }
+  cbv zeta beta. eager. rewrite andb_true_iff, valid_at_spec, all_hold_spec. reflexivity.
 Qed.
 
 (** ** What a step can lead to *)
+
+Section Fine.
+
+Variable fine : state -> bool.
 
 Lemma one_fine_spec : forall s A,
   one_fine spec fine s A = true <-> forall a e, In a A -> In e (effects spec a) -> fine (apply e s) = true.
@@ -126,10 +221,10 @@ Proof.
 Qed.
 
 Lemma out_fine_spec : forall s A,
-  out_fine spec order fine s A = true <-> forall t, out spec order s A t -> safe spec t.
+  out_fine spec order fine s A = true <-> forall t, out spec order s A t -> fine t = true.
 Proof.
   intros s A. unfold out_fine, out. destruct (at_rest spec A) eqn:R.
-  { rewrite at_rest_spec in R. rewrite fine_safe. split.
+  { rewrite at_rest_spec in R. split.
     - intros F t [[-> _]|H]; [exact F|]. destruct order.
       + destruct (struck_some _ _ _ H) as (a & e & Ha & He). rewrite (R a Ha) in He. contradiction.
       + destruct H as (a & e & Ha & He & _). rewrite (R a Ha) in He. contradiction.
@@ -138,12 +233,26 @@ Proof.
   destruct order.
   - split.
     + intros F t [[_ N]|H]; [contradiction|].
-      apply fine_safe. apply (struck_fine_safe _ _ _ H _ _ A F); [now left | now intros b | lia].
-    + intros H. apply safe_struck_fine. intros s' A' t [[= <- <-]|[]] Ht. apply fine_safe, H. now right.
+      apply (struck_fine_safe _ _ _ H _ _ A F); [now left | now intros b | lia].
+    + intros H. apply safe_struck_fine. intros s' A' t [[= <- <-]|[]] Ht. apply H. now right.
   - cbn [struck_fine forallb fst snd]. rewrite !andb_true_r, one_fine_spec. split.
-    + intros F t [[_ N]|(b & e & Hb & He & ->)]; [contradiction|]. apply fine_safe. now apply (F b).
-    + intros H b e Hb He. apply fine_safe, H. right. now exists b, e.
+    + intros F t [[_ N]|(b & e & Hb & He & ->)]; [contradiction|]. now apply (F b).
+    + intros H b e Hb He. apply H. right. now exists b, e.
 Qed.
+
+Lemma next_fine_spec : forall s A,
+  next_fine spec order fine s A = true <-> forall t, next spec order s A t -> fine t = true.
+Proof.
+  intros s A. unfold next_fine. eager. rewrite andb_true_iff, out_fine_spec. unfold next. split.
+  - intros [D O] t [H | ->]; auto.
+  - intros H. auto.
+Qed.
+
+Lemma nominally_fine_spec : forall s A,
+  nominally_fine spec fine s A = true <-> forall t, nominally spec s A t -> fine t = true.
+Proof. intros s A. unfold nominally_fine, nominally. split; [now intros H t -> | auto]. Qed.
+
+End Fine.
 
 (** ** What is allowed *)
 
@@ -172,15 +281,23 @@ Proof.
       * apply agree_spec. intros x v w. now apply N.
 Qed.
 
-Lemma is_ok_spec : forall s A, is_ok spec order fine s A = true <-> ok spec order s A.
+Lemma is_ok_spec : forall s A, valid spec s -> is_ok spec order (kept_at s) s A = true <-> ok spec order s A.
 Proof.
-  intros s A. unfold is_ok. rewrite !andb_true_iff, pairs_spec, out_fine_spec, fine_safe, !forallb_forall.
-  assert (same : (forall a, In a A -> applicable spec s a = true) <->
+  intros s A V. unfold is_ok. eager. rewrite !andb_true_iff, pairs_spec, next_fine_spec, !forallb_forall.
+  assert (K : (forall t, next spec order s A t -> kept_at s t = true) <-> (forall t, next spec order s A t -> kept spec s t)).
+  { split; intros H t N; now apply kept_at_spec, H. }
+  rewrite K. assert (same : (forall a, In a A -> applicable spec s a = true) <->
     (forall a, In a A -> all_hold s (preconditions (the spec a)))).
   { split; intros H a Ha; now apply all_hold_spec, H. }
   rewrite same. split.
-  - intros [[[[P [R N]] Q] D] O]. now constructor.
-  - intros [P R N Q O D]. tauto.
+  - intros [[[P [R N]] Q] O]. now constructor.
+  - intros [P R N Q O]. tauto.
 Qed.
+
+Lemma ok_next : forall s A t, ok spec order s A -> next spec order s A t -> valid spec t.
+Proof. intros s A t H N. apply (steps_kept _ _ _ _ H t N). Qed.
+
+Lemma ok_delta : forall s A, ok spec order s A -> kept spec s (delta spec s A).
+Proof. intros s A H. apply (steps_kept _ _ _ _ H). now right. Qed.
 
 End Steps.

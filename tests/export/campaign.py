@@ -12,16 +12,18 @@ from collections.abc import Iterator, Sequence
 from itertools import count, islice
 from pathlib import Path
 
-from tests.export.cases import generated, is_right
+from tests.export.cases import MODES, generated, is_right, stepwise
 from tests.export.compiler import Case, Library
 from tests.profiles import PROFILES
 
 
 def cases(first_seed: int) -> Iterator[Case]:
-    """The profiles in turn, without end."""
+    """The profiles in turn, and the ways to restore safety, without end."""
     for seed in count(first_seed):
         for profile in PROFILES:
             yield from generated(profile, seed, 12)
+        for restoration, tiers in MODES:
+            yield from stepwise(seed, restoration, tiers)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -6,14 +6,15 @@ from collections.abc import Iterator
 from dataclasses import replace
 from random import Random
 
+from tests.checker.stepwise import policies, stepwise_spec, ways
 from tests.differential import changed_policies
 from tests.export.compiler import Case
 from tests.generate import random_spec
 from tests.oracle import World, decide_world
 from tests.profiles import PROFILES
 from tumato_symbolic.policy import Table
-from tumato_symbolic.semantics import ActionSet, State, judge
-from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.semantics import ActionSet, State, all_states, is_valid, judge
+from tumato_symbolic.spec import Ordering, Restoration, Spec
 from tumato_symbolic.synthesis import Realizable, synthesize
 
 
@@ -47,6 +48,35 @@ def generated(profile: str, seed: int, mutants: int) -> list[Case]:
     ]
 
 
+MODES: list[tuple[Restoration, int]] = [
+    ("one_step", 2),
+    ("one_step", 3),
+    ("bounded", 1),
+    ("bounded", 2),
+    ("bounded", 3),
+    ("fair", 1),
+    ("fair", 2),
+    ("fair", 3),
+]
+"""Ways to restore safety and numbers of severities, but for the plain one."""
+
+
+def stepwise(seed: int, restoration: Restoration, tiers: int, mutants: int = 3, samples: int = 8) -> list[Case]:
+    """Policies that restore safety in several steps or by severity, right and wrong, for one specification.
+
+    Some of them, too, for a specification that asks for more or for less.
+    """
+    drawn = stepwise_spec if seed % 3 == 0 else ways
+    spec, ordering = drawn(seed, restoration, tiers), _ORDERINGS[seed // 3 % 2]
+    valid = {state for state in all_states(spec) if is_valid(spec, state)}
+    found = [rows for rows in policies(spec, ordering, Random(seed), mutants, samples) if rows.keys() >= valid]
+    cases = [Case(spec, rows, ordering) for rows in found]
+    others = [replace(spec, restoration=other) for other in _RESTORATIONS if other != restoration]
+    flat = replace(spec, state_rules=tuple(replace(rule, severity=1) for rule in spec.state_rules))
+    return [*cases, *(Case(other, found[0], ordering) for other in (*others, flat) if found)]
+
+
+_RESTORATIONS: tuple[Restoration, ...] = ("one_step", "bounded", "fair")
 _ORDERINGS: tuple[Ordering, Ordering] = ("any", "first")
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.export.cases import generated, is_right, rows_of
-from tests.export.compiler import COQC, Case, Library
+from tests.export.compiler import Case, Library, needs_coq
 from tests.oracle import World
 from tests.profiles import PROFILES
 from tumato_symbolic import parse
@@ -19,8 +19,6 @@ from tumato_symbolic.semantics import State, count_states, is_safe, judge
 from tumato_symbolic.spec import Spec
 
 ROOT = Path(__file__).parents[2]
-
-needs_coq = pytest.mark.skipif(COQC is None, reason="coqc is not installed: the theorem is not compiled here")
 
 
 def example(name: str) -> Spec:
@@ -35,20 +33,12 @@ def amr() -> Case:
     return Case(spec, policy.decisions.rows, "any")
 
 
-@pytest.fixture(scope="module")
-def library(tmp_path_factory: pytest.TempPathFactory) -> Library:
-    found = Library.copy_to(tmp_path_factory.mktemp("coq"))
-    built = found.build()
-    assert built.returncode == 0, built.stderr
-    return found
-
-
 def test_the_file_states_the_theorem_and_prints_what_it_rests_on(amr: Case) -> None:
     """The last command prints the assumptions; the ordering is the one that was asked for."""
     text = amr.text
     assert text.endswith("Print Assumptions policy_is_right.\n")
     assert "sound_and_complete spec Any (policy_of decisions) /\\ minimal spec Any (policy_of decisions)" in text
-    assert "check spec First decisions = true" in replace(amr, ordering="first").text
+    assert "check spec First decisions no_efforts = true" in replace(amr, ordering="first").text
     assert "Admitted" not in text
 
 
@@ -62,7 +52,7 @@ def test_the_specification_is_written_in_numbers_and_explained_in_comments(amr: 
     assert "    (* IF S_Location is corridor OR S_Location is charger THEN S_Conveyor is off *)\n" in text
     assert "    Or [Not (Or [Is 0 0; Is 0 1]); Is 3 1]\n" in text
     assert "      (* when S_Battery is low *)\n      (When (Is 1 0)\n" in text
-    assert "max_plan_length := Some 5%N" in text
+    assert "max_plan_length := Some 5%N;\n  restored_in := OneStep\n" in text
     assert text.count("Leaf") == 32
 
 

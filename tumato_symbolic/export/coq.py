@@ -5,13 +5,24 @@ The meaning and the theorem are in `proofs/coq`. Nothing is judged here: a wrong
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import islice
 from textwrap import indent
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
+from tumato_symbolic.export.efforts import nominal_sums
 from tumato_symbolic.policy import Policy, as_table, bind
-from tumato_symbolic.semantics import ActionSet, State, action_names, all_states, count_states, is_valid, named
+from tumato_symbolic.semantics import (
+    ActionSet,
+    Effort,
+    Restorations,
+    State,
+    action_names,
+    all_states,
+    count_states,
+    is_valid,
+    named,
+)
 from tumato_symbolic.spec import (
     Action,
     Assignment,
@@ -23,13 +34,13 @@ from tumato_symbolic.spec import (
     GoalList,
     Is,
     Ordering,
+    Restoration,
     Rule,
     SimpleGoal,
     Spec,
     fold,
     fold_goal,
 )
-from tumato_symbolic.spec.support import require_one_step
 
 MOST_STATES = 30_000
 """Coq goes through all states, valid or not; so many take it about a minute (`proofs/coq/README.md`)."""
@@ -47,12 +58,12 @@ Import ListNotations.
 _THEOREM = """\
 (* Coq computes the check. Where the policy is wrong, it says here that `true` is not what comes out;
    `tumato-sym verify` tells why. *)
-Lemma accepted : check spec {ordering} decisions = true.
+Lemma accepted : check spec {ordering} decisions {efforts} = true.
 Proof. vm_cast_no_check (eq_refl true). Qed.
 
 Theorem policy_is_right :
   sound_and_complete spec {ordering} (policy_of decisions) /\\ minimal spec {ordering} (policy_of decisions).
-Proof. exact (checker_sound spec {ordering} decisions accepted). Qed.
+Proof. exact (checker_sound spec {ordering} decisions {efforts} accepted). Qed.
 
 Print Assumptions policy_is_right.
 """
@@ -65,10 +76,11 @@ def export(policy: Policy, spec: Spec, ordering: Ordering) -> str:
     `UserError` where the policy does not fit the specification (`bind`), where it leaves a valid state undecided
     (TUM502), or where the specification has more than `MOST_STATES` states (TUM508).
     """
-    require_one_step(spec, "export-proof")
     rows = _rows(bind(policy, spec), spec)
-    parts = [_HEAD, *_specification(spec), *_decisions(spec, rows), _THEOREM.format(ordering=ordering.capitalize())]
-    return "\n".join(parts)
+    several = spec.restoration != "one_step"
+    theorem = _THEOREM.format(ordering=ordering.capitalize(), efforts="known" if several else "no_efforts")
+    efforts = _efforts(spec, rows, ordering) if several else ()
+    return "\n".join([_HEAD, *_specification(spec), *_decisions(spec, rows), *efforts, theorem])
 
 
 def _rows(policy: Policy, spec: Spec) -> dict[State, ActionSet]:
@@ -101,7 +113,7 @@ def _specification(spec: Spec) -> Iterator[str]:
     yield f"  sizes := {_list(str(len(variable.values)) for variable in spec.variables)};"
     yield from _field("declared", [(f"{number} {a.name}", _action(a)) for number, a in enumerate(spec.actions)])
     yield from _field("reaction_rules", _rules(spec.reaction_rules))
-    yield from _field("state_rules", _rules(spec.state_rules))
+    yield from _tiers(spec)
     yield from _field("assumptions", _rules(spec.assumptions))
     if spec.goals is None:
         yield "  goals := None;"
@@ -109,8 +121,12 @@ def _specification(spec: Spec) -> Iterator[str]:
         yield "  goals := Some"
         yield f"{indent(_goal(spec, spec.goals), '    ')};"
     bound = spec.max_plan_length
-    yield "  max_plan_length := " + ("None" if bound is None else f"Some {bound}%N")
+    yield "  max_plan_length := " + ("None" if bound is None else f"Some {bound}%N") + ";"
+    yield f"  restored_in := {_RESTORATIONS[spec.restoration]}"
     yield "|}.\n"
+
+
+_RESTORATIONS: dict[Restoration, str] = {"one_step": "OneStep", "bounded": "Bounded", "fair": "Fair"}
 
 
 def _numbered(names: Sequence[str]) -> str:
@@ -133,9 +149,26 @@ def _field(name: str, entries: Sequence[tuple[str, str]]) -> Iterator[str]:
         yield f"  {name} := [];"
         return
     yield f"  {name} := ["
+    yield from _entries(entries)
+    yield "  ];"
+
+
+def _entries(entries: Sequence[tuple[str, str]]) -> Iterator[str]:
     for number, (text, entry) in enumerate(entries, 1):
         yield f"    {_comment(text)}"
         yield f"    {entry}{';' if number < len(entries) else ''}"
+
+
+def _tiers(spec: Spec) -> Iterator[str]:
+    """The state rules, a list for every severity."""
+    if not spec.state_rules:
+        yield "  state_rules := [];"
+        return
+    yield "  state_rules := ["
+    for number, tier in enumerate(spec.tiers, 1):
+        yield f"    (* severity {tier[0].severity} *) ["
+        yield from _entries(_rules(tier))
+        yield f"    ]{';' if number < len(spec.tiers) else ''}"
     yield "  ];"
 
 
@@ -200,6 +233,25 @@ def _decisions(spec: Spec, rows: dict[State, ActionSet]) -> Iterator[str]:
     names_of = {frozenset(decision): f"d{number}" for number, decision in enumerate(chosen)}
     leaves = [f"Leaf {names_of[rows[state]] if state in rows else 'none'}" for state in all_states(spec)]
     yield f"\nDefinition decisions : table :=\n{_tree(spec, leaves)}.\n"
+
+
+def _efforts(spec: Spec, rows: dict[State, ActionSet], ordering: Ordering) -> Iterator[str]:
+    """What the checker is told of the ways to safety, and does not believe: the least efforts by the decisions."""
+    worst = Restorations(spec, rows, ordering).worst
+    sums = nominal_sums(spec, rows) if spec.restoration == "fair" else {}
+    found = sorted({*worst.values(), *sums.values()})
+    yield "(* The efforts (duration, steps) that restoring takes by these decisions; the checker tests them. *)"
+    yield "Definition no : option effort := None. (* a safe state, or no effort suffices *)"
+    yield from (f"Definition e{number} : option effort := Some ({d}, {k})%N." for number, (d, k) in enumerate(found))
+    number_of = {effort: number for number, effort in enumerate(found)}
+
+    def tree(efforts: Mapping[State, Effort]) -> str:
+        leaves = (f"Leaf e{number_of[efforts[state]]}" if state in efforts else "Leaf no" for state in all_states(spec))
+        return _tree(spec, list(leaves)) if efforts else "Node []"
+
+    yield f"\n(* Whatever happens. *)\nDefinition in_the_worst_case : tree (option effort) :=\n{tree(worst)}.\n"
+    yield f"(* If only nominal effects occur. *)\nDefinition as_planned : tree (option effort) :=\n{tree(sums)}.\n"
+    yield "Definition known : efforts := {| worst := in_the_worst_case; nominal_sum := as_planned |}.\n"
 
 
 def _tree(spec: Spec, leaves: list[str]) -> str:
