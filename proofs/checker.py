@@ -173,6 +173,7 @@ class Specification:
     bound: int | None = None  # L; None: runs of any length
     ordering: str | None = None
     restoration: str | None = None  # None: one_step
+    preconditions: str | None = None  # None: at_start
 
     def tiers(self) -> list[list[Located]]:
         """The state rules by severity, the most severe first."""
@@ -297,7 +298,7 @@ class Parser:
         self.spec.aliases[name], _ = self.located_predicate()
 
     def setting(self) -> None:  # max_plan_length: N, effect_ordering: any, restoration: one_step
-        setting = self.expect("max_plan_length :", "effect_ordering :", "restoration :")
+        setting = self.expect("max_plan_length :", "effect_ordering :", "restoration :", "preconditions :")
         if setting == "max_plan_length :":
             self.need(self.spec.bound is None, "there is a `max_plan_length` already")
             self.need(self.next.strip("0") != "", "expected at least 1")
@@ -305,6 +306,9 @@ class Parser:
         elif setting == "restoration :":
             self.need(self.spec.restoration is None, "there is a `restoration` already")
             self.spec.restoration = self.expect(*RESTORATIONS)
+        elif setting == "preconditions :":
+            self.need(self.spec.preconditions is None, "there is a `preconditions` already")
+            self.spec.preconditions = self.expect("at_start", "throughout")
         else:
             self.need(self.spec.ordering is None, "there is an `effect_ordering` already")
             self.spec.ordering = self.expect("any", "first")
@@ -738,7 +742,7 @@ class World:
         return state
 
     def outcomes(self, state: State, chosen: ActionSet) -> Iterator[tuple[State, list[State]]]:
-        """`Out(s, A)`, each outcome with the states on the way to it.
+        """`Out(s, A)`, each outcome with the states on the way to it; some of them more than once.
 
         Under `any` the actions take effect one after the other, each at most once and with any one of its effects,
         and every state on the way counts. Under `first` only one action takes effect. Where no action of the set has
@@ -746,6 +750,10 @@ class World:
         """
         if not self.acts(chosen):
             yield state, [state]
+        yield from ((after, way) for after, _, way in self.in_turn(state, chosen))
+
+    def in_turn(self, state: State, chosen: ActionSet) -> Iterator[tuple[State, ActionSet, list[State]]]:
+        """What effects lead to, each time with the actions that have not taken effect, and the states on the way."""
         waiting, seen = [(state, chosen, [state])], set()
         while waiting:
             here, idle, way = waiting.pop()
@@ -754,7 +762,7 @@ class World:
                 if (after, rest) not in seen:
                     seen.add((after, rest))
                     within_limit(len(seen), "outcomes of one set of actions")
-                    yield after, [*way, after]
+                    yield after, rest, [*way, after]
                     if self.ordering == "any":
                         waiting.append((after, rest, [*way, after]))
 
@@ -767,11 +775,22 @@ class World:
         asked = state, chosen, required
         if asked not in self.answers:
             within_limit(len(self.answers), "outcomes of sets of actions")
-            rests = {name: chosen - {name} if self.ordering == "any" else frozenset() for name in chosen}
-            after = ((self.apply(state, effect), rests[name]) for name in chosen for effect in self.effects(name))
-            kept = (self.meets(required, there) and self.stays_within(there, rest, required) for there, rest in after)
-            self.answers[asked] = all(kept)
+            after = ((self.apply(state, effect), chosen - {name}) for name in chosen for effect in self.effects(name))
+            self.answers[asked] = all(
+                self.meets(required, there)
+                and self.falsified(there, rest) is None
+                and (self.ordering == "first" or self.stays_within(there, rest, required))
+                for there, rest in after
+            )
         return self.answers[asked]
+
+    def falsified(self, state: State, pending: ActionSet) -> str | None:
+        """A precondition that does not hold, of actions that have not taken effect; None if it does not have to."""
+        for name in sorted(pending) if self.spec.preconditions == "throughout" else ():
+            line = self.broken(self.spec.actions[name].preconditions, state)
+            if line is not None:
+                return f"the precondition of {name} at {self.quote(line)}"
+        return None
 
     def objection(self, state: State, chosen: ActionSet) -> str | None:
         """Why `Ok(s, A)` (or `Keep(s, A)`) is false, or None where it is true: the conditions of section 3 in order."""
@@ -797,6 +816,10 @@ class World:
             if not self.meets(required, after):
                 there = "; the effects lead to " + ", then ".join(map(self.show, way[1:])) if acts else ""
                 return f"an outcome {self.fault(required, after)}{there}"
+        for after, pending, way in self.in_turn(state, chosen) if not within else ():
+            line_of = self.falsified(after, pending)
+            if line_of is not None:
+                return f"effects that lead to {', then '.join(map(self.show, way[1:]))} falsify {line_of}"
         after = self.successor(state, chosen)
         if not self.meets(required, after):
             return f"the nominal successor {self.show(after)} {self.fault(required, after)}"
@@ -1511,6 +1534,8 @@ def digest(spec: Specification) -> str:
     }
     if len(spec.tiers()) > 1:
         meaning["severities"] = [texts_of(spec, tier) for tier in spec.tiers()]
+    if spec.preconditions == "throughout":
+        meaning["preconditions"] = spec.preconditions
     text = json.dumps(meaning, sort_keys=True, separators=(",", ":"))
     return "sha256:" + hashlib.sha256(text.encode()).hexdigest()
 
@@ -1664,25 +1689,30 @@ def check_no_allowed_set(world: World, reason: dict[str, Any]) -> str:
     return f"no set of actions is allowed in {world.show(state)}, by {counted(len(cubes), 'cube')}"
 
 
+VIOLATIONS = (
+    *("precondition", "resource", "nominal-conflict", "reaction-rule"),
+    *("unsafe", "falsified", "idle", "nominal-unsafe"),
+)
+
+
 def read_cube(entry: dict[str, Any], spec: Specification) -> Cube:
     """An entry of `Cubes`."""
     violation: Any = entry.get("Violation")
     need(isinstance(violation, dict), "`Violation` is an object")
     kind: Any = violation.get("Kind")
     cube = Cube(read_actions(entry, "Executed", spec), read_actions(entry, "Idle", spec), kind)
-    if kind in ("precondition", "resource", "nominal-conflict"):
+    if kind in ("precondition", "resource", "nominal-conflict", "falsified"):
         cube.actions = read_actions(violation, "Actions", spec)
-        count = 1 if kind == "precondition" else 2
+        count = 1 if kind in ("precondition", "falsified") else 2
         need(len(cube.actions) == count, f"a violation `{kind}` names {counted(count, 'action')}")
     elif kind == "reaction-rule":
         cube.rule = violation.get("Rule", "")
         need(isinstance(cube.rule, str), "`Rule` is a text")
-    elif kind == "unsafe":
+    if kind in ("unsafe", "falsified"):
         for strike in read_objects(violation, "Outcome"):
             need(isinstance(strike.get("Action"), str) and strike["Action"] in spec.actions, "`Action` is an action")
             cube.outcome.append((strike["Action"], read_effect(strike, "Effect", spec)))
-    else:
-        need(kind in ("idle", "nominal-unsafe"), f"there is no violation {kind!r}")
+    need(kind in VIOLATIONS, f"there is no violation {kind!r}")
     return cube
 
 
@@ -1718,7 +1748,7 @@ def unviolated(world: World, state: State, cube: Cube) -> str:
         return "" if not world.agree(cube.actions) else "the nominal effects of the two agree"
     if cube.kind == "reaction-rule":
         return kept_rule(world, state, cube)
-    if cube.kind == "unsafe":
+    if cube.kind in ("unsafe", "falsified"):
         return safe_outcome(world, state, cube)
     if cube.kind == "idle":
         changes = world.acts(set(world.spec.actions) - cube.idle)
@@ -1760,6 +1790,9 @@ def safe_outcome(world: World, state: State, cube: Cube) -> str:
         if effect not in world.effects(name):
             return f"`{name}` does not have the effect"
         state = world.apply(state, effect)
+    if cube.kind == "falsified":
+        late = cube.actions <= cube.executed.difference(names)
+        return "" if late and world.falsified(state, cube.actions) else "no precondition is falsified"
     return f"{world.show(state)} is safe" if world.meets(required, state) else ""
 
 

@@ -14,7 +14,7 @@ from multiprocessing import Pool
 from pathlib import Path
 
 from tests.differential import Case, Report, examine
-from tests.profiles import PROFILES
+from tests.profiles import ALL_PROFILES
 from tumato_symbolic.spec import Ordering
 
 Job = tuple[Case, int]
@@ -45,7 +45,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--count", type=int, default=2000, help="how many specifications (default 2000)")
     parser.add_argument("--seed", type=int, default=0, help="the first seed (default 0)")
     parser.add_argument("--ordering", choices=("any", "first", "both"), default="both")
-    parser.add_argument("--profile", choices=(*PROFILES, "all"), default="all")
+    parser.add_argument("--profile", choices=(*ALL_PROFILES, "all"), default="all")
     parser.add_argument("--mutants", type=int, default=3, help="changed policies per realizable case (default 3)")
     parser.add_argument("--processes", type=int, default=2)
     parser.add_argument("--failures", type=Path, help="a file for the cases that disagree")

@@ -9,7 +9,7 @@ from random import Random
 
 from tests.generate import random_spec
 from tests.oracle import OracleVerdict, Together, World, decide_world
-from tests.profiles import PROFILES
+from tests.profiles import ALL_PROFILES
 from tests.reference_policy import reference_policy
 from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.policy import Policy, Table, as_table, dumps, loads, policy_from_rows, unrealizable_file
@@ -35,7 +35,7 @@ class Case:
     @property
     def spec(self) -> Spec:
         """The specification itself."""
-        return random_spec(self.seed, PROFILES[self.profile])
+        return random_spec(self.seed, ALL_PROFILES[self.profile])
 
 
 @dataclass

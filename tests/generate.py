@@ -10,7 +10,7 @@ from random import Random
 from typing import Literal
 
 from tests.printing import formula_text, print_spec
-from tests.profiles import MIXED, PROFILES, Profile, Range
+from tests.profiles import ALL_PROFILES, MIXED, PROFILES, Profile, Range
 from tumato_symbolic.diagnostics import Span
 from tumato_symbolic.semantics import all_states, holds, is_valid
 from tumato_symbolic.spec import (
@@ -36,7 +36,7 @@ from tumato_symbolic.spec import (
     variables_of,
 )
 
-__all__ = ["NOWHERE", "PROFILES", "Profile", "denoted", "random_spec", "random_text"]
+__all__ = ["ALL_PROFILES", "NOWHERE", "PROFILES", "Profile", "denoted", "random_spec", "random_text"]
 
 NOWHERE = Span(1, 1, 1, 1)
 
@@ -95,6 +95,7 @@ class _Maker:
             bodies=tuple(self._rule(body) for body in self.bodies),
             max_plan_length=self._count(profile.bound) if self._chance(profile.bounded) else None,
             effect_ordering=self.random.choice((None, None, "any", "first")),
+            preconditions="throughout" if profile.throughout and self._chance(profile.throughout) else "at_start",
         )
         return spec if any(is_valid(spec, state) for state in all_states(spec)) else replace(spec, assumptions=())
 
@@ -171,16 +172,17 @@ class _Maker:
         return Not(And((action, self._literal())))
 
     def _action(self, number: int, resource_count: int) -> Action:
-        strong = self._chance(self.profile.helpers)
+        effectless = self.profile.effectless > 0 and self._chance(self.profile.effectless)
+        strong = not effectless and self._chance(self.profile.helpers)
         alternatives: tuple[Alternative, ...] = ()
-        if not strong and self._chance(self.profile.alternatives):
+        if not strong and not effectless and self._chance(self.profile.alternatives):
             alternatives = tuple(self._alternative() for _ in range(self.random.choice((1, 1, 2, 3))))
         return Action(
             name=f"act{number}",
             duration=self._count(self.profile.durations),
             resources=frozenset(held for held in range(resource_count) if self._chance(self.profile.owns)),
             preconditions=() if strong else self._rules(self.profile.preconditions, self._predicate),
-            nominal=self._assignment(1 if strong else self.random.choice((0, 1, 1, 1, 1, 2, 2))),
+            nominal=self._assignment(0 if effectless else 1 if strong else self.random.choice((0, 1, 1, 1, 1, 2, 2))),
             alternatives=alternatives,
             span=NOWHERE,
         )

@@ -150,6 +150,8 @@ def _config(spec: Spec) -> list[str]:
         lines.append(f"  max_plan_length: {spec.max_plan_length}")
     if spec.effect_ordering is not None:
         lines.append(f"  effect_ordering: {spec.effect_ordering}")
+    if spec.preconditions != "at_start":
+        lines.append(f"  preconditions: {spec.preconditions}")
     if spec.restoration != "one_step":
         lines.append(f"  restoration: {spec.restoration}")
     return _block("CONFIG", lines) if lines else []

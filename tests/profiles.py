@@ -38,6 +38,8 @@ class Profile:
     bounded: float = 0.5
     bound: Range = (1, 6)
     aliases: float = 0.15
+    effectless: float = 0.0  # an action has no effects
+    throughout: float = 0.0  # preconditions have to hold until the action takes effect
 
 
 MIXED = Profile()
@@ -108,4 +110,47 @@ CONCURRENT = Profile(
 )
 """Sets of actions for which the order of effects matters: one in five has states where `any` and `first` differ."""
 
+NOTIFYING = Profile(
+    variables=(2, 4),
+    values=(2, 3),
+    states=(4, 40),
+    actions=(3, 5),
+    preconditions=(0, 1),
+    state_rules=(1, 2),
+    reaction_rules=(0, 2),
+    goals=(1, 2),
+    resources=(0, 1),
+    durations=(0, 2),
+    alternatives=0.3,
+    owns=0.2,
+    helpers=0.3,
+    together=0.5,
+    effectless=0.35,
+    throughout=0.5,
+)
+"""Actions without effects beside those that restore safety; half of the time, preconditions have to hold throughout."""
+
+OVERLAPPING = Profile(
+    variables=(2, 3),
+    values=(2, 3),
+    states=(4, 27),
+    actions=(3, 5),
+    preconditions=(1, 1),
+    state_rules=(0, 1),
+    reaction_rules=(0, 1),
+    assumptions=(0, 0),
+    goals=(1, 2),
+    resources=(0, 0),
+    alternatives=0.3,
+    helpers=0.2,
+    together=0.7,
+    bounded=0.3,
+    effectless=0.1,
+    throughout=1.0,
+)
+"""Preconditions that have to hold throughout, and others' effects that falsify them."""
+
 PROFILES = {"mixed": MIXED, "interacting": INTERACTING, "restoring": RESTORING, "concurrent": CONCURRENT}
+
+ALL_PROFILES = {**PROFILES, "notifying": NOTIFYING, "overlapping": OVERLAPPING}
+"""`PROFILES`, which stay as they are, so that what is made from them can be compared over time, and later ones."""

@@ -8,7 +8,7 @@ from itertools import combinations
 from random import Random
 from typing import Literal, TypeVar
 
-from tests.generate import PROFILES, random_spec
+from tests.generate import ALL_PROFILES, random_spec
 from tests.oracle import Together, World
 from tumato_symbolic.diagrams import rebuild
 from tumato_symbolic.policy import Vocabulary
@@ -52,7 +52,7 @@ def certified(spec: Spec, ordering: Ordering) -> Unrealizability | None:
 def unrealizable_specs(profile: str, seeds: range, ordering: Ordering) -> Iterator[tuple[Spec, Unrealizability]]:
     """Generated specifications without a policy, with their certificates."""
     for seed in seeds:
-        spec = random_spec(seed, PROFILES[profile])
+        spec = random_spec(seed, ALL_PROFILES[profile])
         certificate = certified(spec, ordering)
         if certificate is not None:
             yield spec, certificate

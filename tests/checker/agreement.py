@@ -10,7 +10,7 @@ from random import Random
 from tests.checker.standalone import ask
 from tests.generate import random_spec, random_text
 from tests.oracle import World, decide_world
-from tests.profiles import PROFILES
+from tests.profiles import ALL_PROFILES
 from tumato_symbolic.policy import as_diagram, dumps, policy_from_rows
 from tumato_symbolic.semantics import ActionSet, Judgement, State, judge
 
@@ -22,7 +22,7 @@ def disagreements(folder: Path, profile: str, seed: int, mutants: int = 3) -> tu
 
     Each is judged as a table, every second one also as a diagram.
     """
-    spec, text = random_spec(seed, PROFILES[profile]), random_text(seed, PROFILES[profile])
+    spec, text = random_spec(seed, ALL_PROFILES[profile]), random_text(seed, ALL_PROFILES[profile])
     judged, found = 0, []
     for ordering in ("any", "first"):
         world = World(spec, ordering)

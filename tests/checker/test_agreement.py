@@ -9,7 +9,7 @@ import pytest
 from tests.checker.agreement import disagreements
 from tests.checker.standalone import ask, checker, sizes
 from tests.generate import random_spec, random_text
-from tests.profiles import PROFILES, RESTORING
+from tests.profiles import ALL_PROFILES, RESTORING
 from tumato_symbolic import Realizable, synthesize
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.policy import dumps
@@ -19,7 +19,7 @@ from tumato_symbolic.spec import canonical_text, load
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.tum"))
 
 
-@pytest.mark.parametrize("profile", PROFILES)
+@pytest.mark.parametrize("profile", ALL_PROFILES)
 @pytest.mark.parametrize("start", [0, 10])
 def test_judges_agree(profile: str, start: int, tmp_path: Path) -> None:
     """Under both orderings every property fails in as many states as the explicit meaning says."""

@@ -13,7 +13,7 @@ from tests.checker.refusals import spec_text
 from tests.checker.standalone import checker
 from tests.checker.test_forged import text_of
 from tests.checker.test_witnesses import TWO
-from tests.generate import PROFILES, random_text
+from tests.generate import ALL_PROFILES, random_text
 from tests.semantics import literal
 from tests.verify.test_forged_ranks import restoring
 from tests.verify.test_forged_steps import ORDERINGS, SPECS
@@ -21,7 +21,7 @@ from tumato_symbolic import parse
 from tumato_symbolic.semantics import active_goals, duration, residual_goal
 from tumato_symbolic.spec import Ordering, Spec, canonical_text
 
-GENERATED = [random_text(seed, PROFILES[profile]) for profile in PROFILES for seed in (3000, 3001, 3002)]
+GENERATED = [random_text(seed, ALL_PROFILES[profile]) for profile in ALL_PROFILES for seed in (3000, 3001, 3002)]
 BY_TEXT = [*((spec, text_of(spec)) for spec in SPECS), *((parse(text), text) for text in GENERATED)]
 ALL = [(spec, text) for spec, text in BY_TEXT if len(spec.actions) <= 5]
 

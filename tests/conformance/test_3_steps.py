@@ -292,3 +292,36 @@ def test_a_plan_that_meets_a_state_twice_is_a_plan(refuter: Refuter) -> None:
     assert isinstance(outcome, Unrealizable) and outcome.certificate is not None
     assert refuter.believes(world(shorter), outcome.certificate)
     assert not refuter.believes(world(shorter.replace("2", "3")), outcome.certificate)
+
+
+RACE = text(
+    {"x": "ab", "y": "ab", "z": "ab"},
+    ACTIONS="action spoil nominal effects: x is b alternative effects: y is b"
+    " action go preconditions: x is a nominal effects: z is b"
+    " action watch preconditions: y is a",
+    CONFIG="preconditions: throughout",
+)
+
+
+@rule("3.12")
+def test_preconditions_may_have_to_hold_throughout(stepper: Stepper) -> None:
+    """Until the action takes effect, whatever the others do; one without effects never does."""
+    for asked in under_both(stepper, RACE):
+        assert asked.allowed("aaa") == ["", "spoil", "go", "watch", "go watch"]
+        assert asked.allowed("aab") == ["", "spoil", "go", "watch", "go watch"]
+        assert asked.allowed("baa") == ["", "spoil", "watch"]
+    for asked in under_both(stepper, RACE.replace("throughout", "at_start")):
+        assert asked.allowed("baa") == ["", "spoil", "watch", "spoil watch"]
+
+
+@rule("3.12")
+def test_what_several_effects_falsify_counts_under_any(stepper: Stepper) -> None:
+    """After one of them the precondition still holds, after both it does not; nor in the nominal successor."""
+    actions = (
+        "action one nominal effects: x is b action two nominal effects: y is b"
+        " action go preconditions: x is a OR y is a nominal effects: z is b"
+    )
+    asked_text = text({"x": "ab", "y": "ab", "z": "ab"}, ACTIONS=actions, CONFIG="preconditions: throughout")
+    pairs = ["", "one", "two", "go", "one two", "one go", "two go"]
+    assert Asked(stepper, asked_text, "any").allowed("aaa") == pairs
+    assert Asked(stepper, asked_text, "first").allowed("aaa") == [*pairs, "one two go"]

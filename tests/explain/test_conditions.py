@@ -5,20 +5,20 @@ from random import Random
 
 import pytest
 
-from tests.generate import PROFILES, random_spec
+from tests.generate import ALL_PROFILES, random_spec
 from tumato_symbolic.explain.conditions import Conditions
 from tumato_symbolic.explain.elements import elements_of, keep_only, without
 from tumato_symbolic.spec import Ordering
 from tumato_symbolic.symbolic import build_steps
 
 
-@pytest.mark.parametrize("profile", PROFILES)
+@pytest.mark.parametrize("profile", ALL_PROFILES)
 @pytest.mark.parametrize("ordering", ["any", "first"])
 def test_allowed_steps_are_a_conjunction_over_elements(profile: str, ordering: Ordering) -> None:
     """With any elements dropped, the allowed steps are those of the specification without them."""
     random = Random(profile)
     for seed in range(12):
-        spec = random_spec(seed, PROFILES[profile])
+        spec = random_spec(seed, ALL_PROFILES[profile])
         conditions = Conditions(spec, ordering, "autoref")
         for share in (0.3, 0.7, 1.0):
             kept = frozenset(each for each in elements_of(spec) if random.random() < share)

@@ -4,7 +4,7 @@ from random import Random
 
 import pytest
 
-from tests.generate import PROFILES, random_spec
+from tests.generate import ALL_PROFILES, random_spec
 from tumato_symbolic import parse
 from tumato_symbolic.explain import plans
 from tumato_symbolic.explain.conditions import Conditions
@@ -17,12 +17,12 @@ from tumato_symbolic.symbolic import Bdd
 from tumato_symbolic.synthesis import Unrealizable, repair, synthesize
 
 
-@pytest.mark.parametrize("profile", PROFILES)
+@pytest.mark.parametrize("profile", ALL_PROFILES)
 def test_what_is_remembered_is_so(profile: str) -> None:
     """Asked about one set of elements after another, for all states and for one: the answer is the computed one."""
     random = Random(profile)
     for seed in range(12):
-        conditions = Conditions(random_spec(seed, PROFILES[profile]), "any", "autoref")
+        conditions = Conditions(random_spec(seed, ALL_PROFILES[profile]), "any", "autoref")
         known, encoding = Plans(conditions), conditions.encoding
         for _ in range(12):
             share = random.random()
@@ -36,7 +36,7 @@ def test_what_is_remembered_is_so(profile: str) -> None:
 
 def test_an_answer_answers_for_more_and_for_less(monkeypatch: pytest.MonkeyPatch) -> None:
     """What fails does when more is kept, and what does not fail does not when less is: nothing is computed again."""
-    conditions = Conditions(random_spec(1, PROFILES["mixed"]), "any", "autoref")
+    conditions = Conditions(random_spec(1, ALL_PROFILES["mixed"]), "any", "autoref")
     known = Plans(conditions)
     computed: list[Elements] = []
 
@@ -73,7 +73,7 @@ def test_what_no_repair_drops_is_named_first() -> None:
 
 def test_a_conflict_that_is_too_hard_is_not_made_smaller(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where no question about a conflict is answered, all elements are to blame: they suffice."""
-    spec = random_spec(101314, PROFILES["interacting"])
+    spec = random_spec(101314, ALL_PROFILES["interacting"])
     conditions = Conditions(spec, "any", "autoref")
     outcome = synthesize(spec, "any", certify=False)
     assert isinstance(outcome, Unrealizable)

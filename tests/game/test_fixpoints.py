@@ -6,7 +6,7 @@ from random import Random
 
 import pytest
 
-from tests.generate import PROFILES, random_spec
+from tests.generate import ALL_PROFILES, random_spec
 from tumato_symbolic import parse
 from tumato_symbolic.game import fixpoints
 from tumato_symbolic.game.fixpoints import closed_loop, mixed, preimage
@@ -19,7 +19,7 @@ SEEDS = range(12)
 
 def problems(profile: str) -> list[Problem]:
     """Some generated problems, each with a safe state."""
-    found = [build_problem(random_spec(seed, PROFILES[profile]), "any", available_backend()) for seed in SEEDS]
+    found = [build_problem(random_spec(seed, ALL_PROFILES[profile]), "any", available_backend()) for seed in SEEDS]
     return [problem for problem in found if problem.steps.safe != problem.false]
 
 
@@ -39,7 +39,7 @@ def policies(problem: Problem, random: Random) -> tuple[Bdd, Bdd]:
 
 
 @pytest.mark.parametrize("taken", ["moves", "functions", "pairs"])
-@pytest.mark.parametrize("profile", sorted(PROFILES))
+@pytest.mark.parametrize("profile", sorted(ALL_PROFILES))
 def test_a_course_is_the_predecessor_of_its_policy(profile: str, taken: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Move by move, as functions or as a relation, it leads where the pairs of the policy nominally lead."""
     most = fixpoints.MOST_MOVES if taken == "moves" else 0
@@ -56,7 +56,7 @@ def test_a_course_is_the_predecessor_of_its_policy(profile: str, taken: str, mon
 
 
 @pytest.mark.parametrize("most", [0, fixpoints.MOST_MOVES], ids=["functions", "moves"])
-@pytest.mark.parametrize("profile", sorted(PROFILES))
+@pytest.mark.parametrize("profile", sorted(ALL_PROFILES))
 def test_a_mixed_course_is_that_of_the_mixed_policy(profile: str, most: int) -> None:
     """Mixing where two policies lead, and what they owe, is the same as mixing the policies."""
     for problem in problems(profile):
@@ -70,7 +70,7 @@ def test_a_mixed_course_is_that_of_the_mixed_policy(profile: str, most: int) -> 
         assert found.predecessor(states, target) == anew.predecessor(states, target)
 
 
-@pytest.mark.parametrize("profile", sorted(PROFILES))
+@pytest.mark.parametrize("profile", sorted(ALL_PROFILES))
 def test_what_leads_into_a_set(profile: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Pairs are found move by move as they are found all at once."""
     for problem in problems(profile):
@@ -81,7 +81,7 @@ def test_what_leads_into_a_set(profile: str, monkeypatch: pytest.MonkeyPatch) ->
             assert preimage(problem, problem.steps.allowed)(target) == expected
 
 
-@pytest.mark.parametrize("profile", sorted(PROFILES))
+@pytest.mark.parametrize("profile", sorted(ALL_PROFILES))
 def test_whether_all_are_served_is_whether_none_fails(profile: str) -> None:
     """The quick question and the whole judgement agree on every policy, whatever target is asked first."""
     seen = set()

@@ -16,7 +16,7 @@ from pathlib import Path
 
 from tests.mutants.campaign import Tally, examine
 from tests.mutants.refusals import examine_conflict, examine_refusal
-from tests.profiles import PROFILES
+from tests.profiles import ALL_PROFILES
 
 CONFLICT = "conflict"
 Job = tuple[str, int, int]
@@ -38,7 +38,7 @@ def run(job: Job) -> Tally:
 
 def jobs(first: int, each: int) -> Iterator[Job]:
     """The profiles in turn, without end, and a conflict after each round."""
-    return ((profile, seed, each) for seed in count(first) for profile in (*PROFILES, CONFLICT))
+    return ((profile, seed, each) for seed in count(first) for profile in (*ALL_PROFILES, CONFLICT))
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -16,7 +16,7 @@ from tests.checker.standalone import ask
 from tests.generate import random_text
 from tests.mutants import policies, specs
 from tests.mutants.truth import is_right
-from tests.profiles import PROFILES
+from tests.profiles import ALL_PROFILES
 from tumato_symbolic import Realizable, parse, synthesize
 from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.policy import Policy, dumps, loads
@@ -66,7 +66,7 @@ class Tally:
 
 def examine(profile: str, seed: int, count: int, folder: Path) -> Tally:
     """Up to `count` mutants of one specification, none where it is too large or not realizable."""
-    text, tally = random_text(seed, PROFILES[profile]), Tally()
+    text, tally = random_text(seed, ALL_PROFILES[profile]), Tally()
     spec = parse(text)
     if count_states(spec) > LARGEST:
         return tally

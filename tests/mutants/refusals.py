@@ -22,7 +22,7 @@ from tests.mutants.campaign import LARGEST, Tally
 from tests.oracle import World, decide_world
 from tests.policy.mutations import mutate
 from tests.printing import print_spec
-from tests.profiles import PROFILES
+from tests.profiles import ALL_PROFILES
 from tests.unrealizability import CONFLICTS
 from tumato_symbolic import Unrealizable, parse, synthesize
 from tumato_symbolic.diagnostics import UserError
@@ -36,7 +36,7 @@ WAYS = ("layout", "meaning", "file", "both", "certificate", "certificate", "cert
 
 def examine_refusal(profile: str, seed: int, count: int, folder: Path) -> Tally:
     """Up to `count` mutants of one specification, none where it is too large or has a policy."""
-    text = random_text(seed, PROFILES[profile])
+    text = random_text(seed, ALL_PROFILES[profile])
     if count_states(parse(text)) > LARGEST:
         return Tally()
     return examine_text(text, f"{profile} {seed}", count, folder)
@@ -45,7 +45,7 @@ def examine_refusal(profile: str, seed: int, count: int, folder: Path) -> Tally:
 def examine_conflict(number: int, count: int, folder: Path) -> Tally:
     """Mutants of a specification whose goals conflict, with the bound that the number gives it."""
     seed, bound = CONFLICTS[number % len(CONFLICTS)], number // len(CONFLICTS) % 8 or None
-    spec = replace(random_spec(seed, PROFILES["interacting"]), max_plan_length=bound)
+    spec = replace(random_spec(seed, ALL_PROFILES["interacting"]), max_plan_length=bound)
     return examine_text(print_spec(spec, Random(seed)), f"conflict {number}", count, folder)
 
 

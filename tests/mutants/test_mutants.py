@@ -8,10 +8,10 @@ import pytest
 
 from tests.mutants.campaign import Tally, examine
 from tests.mutants.refusals import examine_conflict, examine_refusal
-from tests.profiles import PROFILES
+from tests.profiles import ALL_PROFILES
 
 
-@pytest.mark.parametrize("profile", PROFILES)
+@pytest.mark.parametrize("profile", ALL_PROFILES)
 def test_every_tier_tells_right_from_wrong(profile: str, tmp_path: Path) -> None:
     """Z3, the walk and the stand-alone checker accept every right mutant and reject every wrong one, strictly."""
     total = Tally()
@@ -21,7 +21,7 @@ def test_every_tier_tells_right_from_wrong(profile: str, tmp_path: Path) -> None
     assert 0 < total.right < total.mutants
 
 
-@pytest.mark.parametrize("profile", PROFILES)
+@pytest.mark.parametrize("profile", ALL_PROFILES)
 def test_both_judges_accept_the_same_answers_no(profile: str, tmp_path: Path) -> None:
     """What `verify` or the checker accepts has no policy, and is accepted by both; a new layout loses nothing."""
     total = Tally()

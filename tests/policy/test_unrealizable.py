@@ -40,7 +40,7 @@ def cubes(draw, vocabulary):
     numbers = range(len(vocabulary.actions))
     sets = st.frozensets(st.sampled_from(numbers)) if numbers else st.just(frozenset())
     kinds = ["reaction-rule", "idle", "nominal-unsafe"]
-    kinds += ["precondition", "unsafe"] if numbers else []
+    kinds += ["precondition", "unsafe", "falsified"] if numbers else []
     kinds += ["resource", "nominal-conflict"] if len(numbers) > 1 else []
     kind = draw(st.sampled_from(kinds))
     violation = Violation(kind)
@@ -50,10 +50,11 @@ def cubes(draw, vocabulary):
         violation = Violation(kind, tuple(actions))
     elif kind == "reaction-rule":
         violation = Violation(kind, rule=draw(NAMES))
-    elif kind == "unsafe":
+    elif kind in ("unsafe", "falsified"):
         effect = st.lists(pairs(vocabulary), max_size=3, unique_by=lambda pair: pair[0])
         strikes = st.tuples(st.sampled_from(numbers), effect.map(lambda found: tuple(sorted(found))))
-        violation = Violation(kind, outcome=tuple(draw(st.lists(strikes, max_size=3))))
+        pending = (draw(st.sampled_from(numbers)),) if kind == "falsified" else ()
+        violation = Violation(kind, pending, outcome=tuple(draw(st.lists(strikes, max_size=3))))
     return Cube(draw(sets), draw(sets), violation)
 
 

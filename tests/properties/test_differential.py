@@ -7,13 +7,13 @@ import pytest
 from tests.differential import Case, examine
 from tests.generate import random_spec
 from tests.oracle import decide
-from tests.profiles import PROFILES
+from tests.profiles import ALL_PROFILES
 from tests.repeats.specs import crossroads
 from tumato_symbolic import parse
 from tumato_symbolic.spec import Ordering
 from tumato_symbolic.synthesis import Undecided, repair, synthesize
 
-PLAIN = [(profile, seed) for profile in PROFILES for seed in range(8)]
+PLAIN = [(profile, seed) for profile in ALL_PROFILES for seed in range(8)]
 INTERACTING = [("interacting", 37), ("interacting", 45), ("interacting", 80), ("restoring", 123), ("mixed", 148)]
 CONFLICTING = [("interacting", 48), ("interacting", 189), ("restoring", 74)]
 SAMPLE = [*PLAIN, *INTERACTING, *CONFLICTING]
@@ -29,14 +29,14 @@ def test_synthesizer_and_verifier_agree_with_the_explicit_meaning(profile: str, 
 @pytest.mark.parametrize(("profile", "seed"), INTERACTING)
 def test_the_sample_has_goals_that_interact(profile: str, seed: int) -> None:
     """These have a policy, though runs inside the goals' own regions do not make one."""
-    verdict = decide(random_spec(seed, PROFILES[profile]), "any")
+    verdict = decide(random_spec(seed, ALL_PROFILES[profile]), "any")
     assert (verdict.kind, verdict.own_region) == ("realizable", False)
 
 
 @pytest.mark.parametrize(("profile", "seed"), CONFLICTING)
 def test_the_sample_has_goals_that_conflict(profile: str, seed: int) -> None:
     """In these every state taken alone has a plan, and no policy serves them all."""
-    assert decide(random_spec(seed, PROFILES[profile]), "any").kind == "conflict"
+    assert decide(random_spec(seed, ALL_PROFILES[profile]), "any").kind == "conflict"
 
 
 @pytest.mark.parametrize(("profile", "seed"), [*INTERACTING, *CONFLICTING])

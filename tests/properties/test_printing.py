@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from tests.generate import NOWHERE, random_spec, random_text
-from tests.profiles import PROFILES, Profile
+from tests.profiles import ALL_PROFILES, Profile
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.spec import Spec, load
 
@@ -29,7 +29,7 @@ def loaded(seed: int, profile: Profile) -> Spec | None:
     return load(Source(f"{seed}.tum", random_text(seed, profile))).spec
 
 
-@pytest.mark.parametrize("profile", PROFILES.values(), ids=PROFILES)
+@pytest.mark.parametrize("profile", ALL_PROFILES.values(), ids=ALL_PROFILES)
 def test_a_printed_specification_loads_as_the_same_record(profile: Profile) -> None:
     """Parser and resolver give back what the generator made, through aliases, commas, parentheses and nesting."""
     for seed in range(70):

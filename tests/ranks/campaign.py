@@ -11,7 +11,7 @@ from random import Random
 from tests.checker.standalone import ask
 from tests.generate import random_text
 from tests.mutants.truth import claims_hold
-from tests.profiles import PROFILES
+from tests.profiles import ALL_PROFILES
 from tests.ranks.lines import LENGTHS, line, rows_of
 from tests.ranks.numbers import CHANGES, KINDS
 from tests.verify.policies import Ranks, Rows, certified, exact_ranks, near_policies
@@ -81,7 +81,7 @@ def _policies(seed: int, random: Random) -> Iterator[tuple[str, Rows]]:
         for _ in range(2):
             yield text, rows_of(random, parse(text))
         return
-    text = random_text(seed, PROFILES["restoring"])
+    text = random_text(seed, ALL_PROFILES["restoring"])
     spec = parse(text)
     if count_states(spec) <= LARGEST:
         for rows in near_policies(spec, spec.effect_ordering or "any", random, count=1):

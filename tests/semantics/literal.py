@@ -131,8 +131,20 @@ def broken(spec: Spec, state: State, chosen: Actions, ordering: Ordering) -> Ite
         yield "reaction-rule"
     if any(not safe(spec, after) for after in outcomes(spec, state, chosen, ordering)):
         yield "unsafe"
+    if spec.preconditions == "throughout" and set(falsified(spec, state, chosen, ordering)):
+        yield "falsified"
     if agrees(spec, chosen) and not safe(spec, successor(spec, state, chosen)):
         yield "nominal-unsafe"
+
+
+def falsified(spec: Spec, state: State, chosen: Actions, ordering: Ordering) -> Iterator[int]:
+    """The actions with a precondition that is false in a state that the others lead to, before they take effect."""
+    for action in chosen:
+        for others in sets(spec):
+            if others and others <= chosen - {action}:
+                for way in ways(spec, state, others, ordering):
+                    if any(not true(rule.formula, way[-1]) for rule in spec.actions[action].preconditions):
+                        yield action
 
 
 def allowed(spec: Spec, state: State, ordering: Ordering) -> list[Actions]:

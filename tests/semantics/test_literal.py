@@ -7,7 +7,7 @@ from random import Random
 
 import pytest
 
-from tests.generate import PROFILES, random_spec
+from tests.generate import ALL_PROFILES, random_spec
 from tests.semantics import literal
 from tests.semantics.build import Build, chosen
 from tumato_symbolic.semantics import (
@@ -36,7 +36,7 @@ from tumato_symbolic.semantics import (
 from tumato_symbolic.spec import And, Constant, Executing, Formula, Iff, Is, Not, Or, Ordering, Spec
 
 BOTH: tuple[Ordering, ...] = ("any", "first")
-SPECS = [random_spec(seed, PROFILES[profile]) for profile in PROFILES for seed in range(2000, 2003)]
+SPECS = [random_spec(seed, ALL_PROFILES[profile]) for profile in ALL_PROFILES for seed in range(2000, 2003)]
 
 
 def _some(spec: Spec, count: int) -> list[literal.State]:

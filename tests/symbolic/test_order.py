@@ -7,7 +7,7 @@ from random import Random
 import pytest
 
 from benchmarks.families import FAMILIES
-from tests.generate import PROFILES, random_spec
+from tests.generate import ALL_PROFILES, random_spec
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.policy import Table
 from tumato_symbolic.spec import Spec, load
@@ -35,19 +35,19 @@ def answer(outcome: Outcome) -> object:
             return limit
 
 
-@pytest.mark.parametrize("profile", sorted(PROFILES))
+@pytest.mark.parametrize("profile", sorted(ALL_PROFILES))
 def test_every_variable_has_a_place(profile: str) -> None:
     """The order is a permutation, and the same specification has the same one."""
     for seed in range(20):
-        spec = random_spec(seed, PROFILES[profile])
+        spec = random_spec(seed, ALL_PROFILES[profile])
         assert sorted(variable_order(spec)) == list(range(len(spec.variables)))
-        assert variable_order(spec) == variable_order(random_spec(seed, PROFILES[profile]))
+        assert variable_order(spec) == variable_order(random_spec(seed, ALL_PROFILES[profile]))
 
 
-@pytest.mark.parametrize("profile", sorted(PROFILES))
+@pytest.mark.parametrize("profile", sorted(ALL_PROFILES))
 def test_no_decision_depends_on_the_order(profile: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Policies and failing states are the same whatever the order of the variables."""
-    specs = [random_spec(seed, PROFILES[profile]) for seed in range(15)]
+    specs = [random_spec(seed, ALL_PROFILES[profile]) for seed in range(15)]
     found = [answer(synthesize(spec)) for spec in specs]
     for shuffle in (1, 2):
         monkeypatch.setattr(encoding, "variable_order", lambda spec, seed=shuffle: _shuffled(spec, seed))

@@ -6,7 +6,7 @@ from itertools import chain, combinations
 
 import pytest
 
-from tests.generate import PROFILES, random_spec
+from tests.generate import ALL_PROFILES, random_spec
 from tests.semantics.build import Build
 from tumato_symbolic.semantics import (
     ActionSet,
@@ -73,7 +73,7 @@ def encodes(encoding: Encoding, chosen: ActionSet) -> bool:
 @pytest.mark.parametrize("seed", SEEDS)
 def test_allowed_pairs_are_those_of_the_semantics(seed: int, ordering: Ordering, backend: Backend) -> None:
     """`Ok(s, A)` of section 3, for every state and set of a generated specification."""
-    spec = random_spec(seed, PROFILES["restoring" if seed % 2 else "mixed"])
+    spec = random_spec(seed, ALL_PROFILES["restoring" if seed % 2 else "mixed"])
     steps = build_steps(encode(spec, backend), ordering)
     valid = [state for state in all_states(spec) if is_valid(spec, state)]
     assert relation(steps) == {(state, chosen) for state in valid for chosen in allowed_sets(spec, state, ordering)}
@@ -84,7 +84,7 @@ def test_allowed_pairs_are_those_of_the_semantics(seed: int, ordering: Ordering,
 @pytest.mark.parametrize("seed", SEEDS)
 def test_predecessors_and_successors_follow_all_nominal_effects_at_once(seed: int) -> None:
     """`before` and `successors` agree with `δ`."""
-    spec = random_spec(seed, PROFILES["mixed"])
+    spec = random_spec(seed, ALL_PROFILES["mixed"])
     steps = build_steps(encode(spec, available_backend()), "any")
     encoding, false = steps.encoding, steps.encoding.manager.false
     states = list(all_states(spec))
@@ -102,7 +102,7 @@ def test_predecessors_and_successors_follow_all_nominal_effects_at_once(seed: in
 @pytest.mark.parametrize("seed", SEEDS)
 def test_regions_and_targets_are_the_active_and_residual_goals(seed: int) -> None:
     """Every valid state lies in the region of `Γ(s)` alone, every allowed pair owes the target of its residual goal."""
-    spec = random_spec(seed, PROFILES["interacting"])
+    spec = random_spec(seed, ALL_PROFILES["interacting"])
     steps = build_steps(encode(spec, available_backend()), "any")
     encoding = steps.encoding
     active = regions(encoding, steps.valid)
@@ -124,7 +124,7 @@ def test_regions_and_targets_are_the_active_and_residual_goals(seed: int) -> Non
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_preferred_set_is_the_smallest_then_the_one_declared_first(seed: int) -> None:
     """Section 6: fewest actions, then the first in the order of sorted positions; `lasting` sums durations exactly."""
-    spec = random_spec(seed, PROFILES["restoring"])
+    spec = random_spec(seed, ALL_PROFILES["restoring"])
     steps = build_steps(encode(spec, available_backend()), "any")
     encoding = steps.encoding
     chosen = preferred(encoding, steps.allowed)
@@ -142,7 +142,7 @@ def test_the_preferred_set_is_the_smallest_then_the_one_declared_first(seed: int
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_next_state_of_a_policy_and_its_moves(seed: int) -> None:
     """`next_state` is `δ(s, π(s))` bit by bit; `moves` splits a relation by all that its sets nominally write."""
-    spec = random_spec(seed, PROFILES["restoring" if seed % 2 else "mixed"])
+    spec = random_spec(seed, ALL_PROFILES["restoring" if seed % 2 else "mixed"])
     steps = build_steps(encode(spec, available_backend()), "any")
     encoding, manager = steps.encoding, steps.encoding.manager
     states = list(all_states(spec))
@@ -194,7 +194,7 @@ def test_an_order_in_which_one_action_hurts(turned: bool) -> None:
 @pytest.mark.parametrize("ordering", ["any", "first"])
 def test_one_more_assumption(ordering: Ordering) -> None:
     """Steps within a set of states: what is outside is neither valid nor safe, so nothing may lead there."""
-    spec = random_spec(3, PROFILES["restoring"])
+    spec = random_spec(3, ALL_PROFILES["restoring"])
     encoding = encode(spec, available_backend())
     whole = build_steps(encoding, ordering)
     valid = list(encoding.states_in(whole.valid))

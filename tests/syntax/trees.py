@@ -17,6 +17,7 @@ RESERVED = frozenset({"true", "false", "none", "executing"})
 
 Part = TypeVar("Part")
 
+PRECONDITIONS: tuple[Literal["at_start", "throughout"], ...] = ("at_start", "throughout")
 RESTORATIONS: tuple[Literal["one_step", "bounded", "fair"], ...] = ("one_step", "bounded", "fair")
 ORDERINGS: tuple[Literal["any", "first"], ...] = ("any", "first")
 
@@ -80,6 +81,7 @@ blocks = st.one_of(
         st.integers(-5, 10**6).map(ast.MaxPlanLength)
         | st.sampled_from(ORDERINGS).map(ast.EffectOrdering)
         | st.sampled_from(RESTORATIONS).map(ast.Restoration)
+        | st.sampled_from(PRECONDITIONS).map(ast.PreconditionsHold)
     ).map(ast.Config),
 )
 specifications = st.lists(blocks, max_size=4).map(lambda each: ast.Specification(tuple(each)))

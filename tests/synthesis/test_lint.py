@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.conftest import Cli, cli
-from tests.generate import PROFILES, random_text
+from tests.generate import ALL_PROFILES, random_text
 from tests.repo.documents import ROOT
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.game.problem import build_problem
@@ -39,11 +39,11 @@ def agree(spec: Spec) -> int:
     return found
 
 
-@pytest.mark.parametrize("profile", PROFILES)
+@pytest.mark.parametrize("profile", ALL_PROFILES)
 def test_both_ways_warn_of_the_same(profile: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Generated specifications; most of them have something that is surely not meant."""
     monkeypatch.setattr(explicit, "MAX_WORK", 10**9)
-    assert sum(agree(spec_of(random_text(seed, PROFILES[profile]))) for seed in range(10)) > 0
+    assert sum(agree(spec_of(random_text(seed, ALL_PROFILES[profile]))) for seed in range(10)) > 0
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "examples").glob("*.tum")), ids=lambda path: path.stem)

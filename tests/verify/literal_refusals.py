@@ -105,7 +105,7 @@ def violated(meaning: Meaning, state: literal.State, cube: Cube) -> bool:
             rules = [rule.formula for rule in spec.reaction_rules if canonical_text(spec, rule.formula) == given.rule]
             sets = [cube.executed | chosen for chosen in literal.sets(spec) if chosen <= still_open]
             return bool(rules) and not any(literal.true(rules[0], state, chosen) for chosen in sets)
-        case "unsafe":
+        case "unsafe" | "falsified":
             striking = [action for action, _ in given.outcome]
             after = state
             for action, effect in given.outcome:
@@ -113,7 +113,14 @@ def violated(meaning: Meaning, state: literal.State, cube: Cube) -> bool:
                     return False
                 after = literal.changed(after, effect)
             once = 0 < len(striking) == len(set(striking)) and (meaning.ordering == "any" or len(striking) == 1)
-            return once and not literal.safe(spec, after)
+            if given.kind == "unsafe":
+                return once and not literal.safe(spec, after)
+            if not once or spec.preconditions != "throughout" or len(given.actions) != 1:
+                return False
+            (waiting,) = given.actions
+            rules = spec.actions[waiting].preconditions
+            late = waiting in cube.executed and waiting not in striking
+            return late and not all(literal.true(rule.formula, after) for rule in rules)
         case "idle":
             may_act = [action for action in cube.executed | still_open if literal.effects(spec, action)]
             return not may_act and not literal.safe(spec, state)

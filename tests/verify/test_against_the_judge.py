@@ -5,7 +5,7 @@ from random import Random
 import pytest
 
 from tests.generate import random_spec
-from tests.profiles import PROFILES
+from tests.profiles import ALL_PROFILES
 from tests.verify.policies import certified, dressed, exact_ranks, leaving, near_policies, wrong_ranks
 from tumato_symbolic.policy import Policy
 from tumato_symbolic.semantics import State, better_sets, duration, judge
@@ -52,13 +52,13 @@ def _assert_witness(spec: Spec, rows: Rows, ordering: Ordering, refutation: Refu
 
 
 @pytest.mark.parametrize("prover", ["auto", "explicit"])
-@pytest.mark.parametrize("profile", PROFILES)
+@pytest.mark.parametrize("profile", ALL_PROFILES)
 @pytest.mark.parametrize("ordering", ["any", "first"])
 def test_strangers_are_judged_as_by_the_explicit_meaning(profile: str, ordering: Ordering, prover: ProverName) -> None:
     """Every verdict is the judge's, and every witness is one: the first state for total and minimal, the best set."""
     met = set()
     for seed in range(7):
-        spec, random = random_spec(seed, PROFILES[profile]), Random(seed)
+        spec, random = random_spec(seed, ALL_PROFILES[profile]), Random(seed)
         for rows in near_policies(spec, ordering, random):
             answer = _assert_as_judged(spec, rows, ordering, dressed(spec, rows, random), prover)
             for result in answer.properties:
@@ -78,7 +78,7 @@ def test_a_certificate_changes_no_verdict(prover: ProverName, parts: bool, monke
     met = set()
     for seed in range(16):
         profile = ("restoring", "interacting")[seed % 2]
-        spec, random = random_spec(seed, PROFILES[profile]), Random(seed)
+        spec, random = random_spec(seed, ALL_PROFILES[profile]), Random(seed)
         for rows in near_policies(spec, "any", random, count=1):
             judged = judge(spec, rows, "any")
             if judged.not_allowed:

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from tests.generate import PROFILES, random_spec
+from tests.generate import ALL_PROFILES, random_spec
 from tests.semantics import literal
 from tests.semantics.build import Build, chosen
 from tests.verify.policies import certified
@@ -23,7 +23,7 @@ from tumato_symbolic.verify.by_states.packed import Packing, valid_states
 from tumato_symbolic.verify.by_states.prover import StateProver
 from tumato_symbolic.verify.by_states.steps import Steps
 
-GENERATED = [random_spec(seed, PROFILES[profile]) for profile in PROFILES for seed in (3000, 3001)]
+GENERATED = [random_spec(seed, ALL_PROFILES[profile]) for profile in ALL_PROFILES for seed in (3000, 3001)]
 GOAL = Residual(frozenset((0,)), frozenset())
 
 

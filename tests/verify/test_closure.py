@@ -8,7 +8,7 @@ from random import Random
 
 import pytest
 
-from tests.generate import PROFILES, random_spec
+from tests.generate import ALL_PROFILES, random_spec
 from tests.verify.policies import leaving, near_policies
 from tumato_symbolic import parse
 from tumato_symbolic.limits import Context, LimitReachedError, Limits
@@ -34,11 +34,11 @@ def total(
 
 
 @pytest.mark.parametrize("ordering", ["any", "first"])
-@pytest.mark.parametrize("profile", sorted(PROFILES))
+@pytest.mark.parametrize("profile", sorted(ALL_PROFILES))
 def test_an_undecided_outcome_is_the_witness(profile: str, ordering: Ordering) -> None:
     """Where a decision has one, every prover names it, and the same; where none has, the policy is closed."""
     for seed in range(4):
-        spec, random = random_spec(seed, PROFILES[profile]), Random(seed)
+        spec, random = random_spec(seed, ALL_PROFILES[profile]), Random(seed)
         for policy in near_policies(spec, ordering, random, 1):
             rows = {state: chosen for state, chosen in policy.items() if random.random() < 0.7}
             if all(state in rows for state in all_states(spec) if is_valid(spec, state)):

@@ -8,7 +8,7 @@ from typing import Literal
 
 import pytest
 
-from tests.generate import PROFILES, random_spec
+from tests.generate import ALL_PROFILES, random_spec
 from tests.semantics import literal
 from tests.semantics.build import Build
 from tumato_symbolic.policy import as_diagram, policy_from_rows
@@ -99,7 +99,7 @@ SPECS = [ruled(), writers().spec(state_rules=[Not(And((Is(0, 3), Is(1, 1)))), No
 @pytest.mark.parametrize("ordering", ORDERINGS)
 def test_what_the_walk_takes_for_allowed(ordering: Ordering) -> None:
     """`Ok(s, A)` as a function of the walk, for every valid state and set without two actions of one group."""
-    generated = [random_spec(seed, PROFILES[profile]) for profile in PROFILES for seed in range(3000, 3002)]
+    generated = [random_spec(seed, ALL_PROFILES[profile]) for profile in ALL_PROFILES for seed in range(3000, 3002)]
     for spec in [*SPECS, *(each for each in generated if len(each.actions) <= 5)]:
         model = Model(spec, as_diagram(policy_from_rows(spec, {})), ordering)
         for state in [state for state in literal.states(spec) if literal.valid(spec, state)][:12]:

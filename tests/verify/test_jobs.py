@@ -14,7 +14,7 @@ from random import Random
 import pytest
 
 from tests.generate import random_spec
-from tests.profiles import PROFILES
+from tests.profiles import ALL_PROFILES
 from tests.repo.documents import ROOT
 from tests.verify.policies import certified, exact_ranks, near_policies, wrong_ranks
 from tests.verify.test_forged_ranks import exact, restoring
@@ -69,12 +69,12 @@ def _policies(spec: Spec, ordering: Ordering, random: Random) -> Iterator[Policy
             yield certified(spec, rows, wrong_ranks(ranks, random))
 
 
-@pytest.mark.parametrize("profile", PROFILES)
+@pytest.mark.parametrize("profile", ALL_PROFILES)
 @pytest.mark.parametrize("ordering", ["any", "first"])
 def test_the_answer_does_not_depend_on_the_jobs(profile: str, ordering: Ordering, asked: list[int]) -> None:
     """Verdicts, witnesses, numbers of obligations, provers and certificate are the same with 1, 2 and 3 processes."""
     for seed in range(400, 404):
-        spec, random = random_spec(seed, PROFILES[profile]), Random(seed)
+        spec, random = random_spec(seed, ALL_PROFILES[profile]), Random(seed)
         for policy in _policies(spec, ordering, random):
             for name in ("walk", random.choice(("auto", "both"))):
                 ask = partial(_ask, policy, spec, ordering, name)

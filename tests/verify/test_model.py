@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from tests.generate import PROFILES, random_spec
+from tests.generate import ALL_PROFILES, random_spec
 from tests.semantics import literal
 from tests.semantics.build import Build, chosen, constraint, priority, when
 from tests.verify.test_forged_steps import ORDERINGS, SPECS
@@ -60,7 +60,7 @@ def when_list(build: Build, condition: Any, body: Any) -> Any:
     return priority(when(condition, build.goal(body)), constraint(build.goal(condition), build.goal(Executing(0))))
 
 
-GENERATED = [random_spec(seed, PROFILES[profile]) for profile in PROFILES for seed in (3000, 3001)]
+GENERATED = [random_spec(seed, ALL_PROFILES[profile]) for profile in ALL_PROFILES for seed in (3000, 3001)]
 ALL = [*SPECS, nested(), *GENERATED]
 
 

@@ -5,7 +5,7 @@ from itertools import combinations, islice
 import pytest
 
 from tests.generate import random_spec
-from tests.profiles import PROFILES
+from tests.profiles import ALL_PROFILES
 from tests.semantics.build import Build, chosen
 from tumato_symbolic.policy import policy_from_rows
 from tumato_symbolic.semantics import all_states, allowed, is_safe
@@ -46,7 +46,7 @@ def test_sought_outcomes_are_those_of_the_explicit_meaning(ordering: Ordering, m
     monkeypatch.setattr(outcomes, "LISTED_ACTIONS", 1)
     found = 0
     for seed in range(15):
-        spec = random_spec(seed, PROFILES["restoring"])
+        spec = random_spec(seed, ALL_PROFILES["restoring"])
         actions = range(len(spec.actions))
         sets = [frozenset(each) for size in (2, 3) for each in combinations(actions, size)]
         for state in islice((state for state in all_states(spec) if is_safe(spec, state)), 4):

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 import z3
 
-from tests.generate import PROFILES, random_spec
+from tests.generate import ALL_PROFILES, random_spec
 from tests.semantics import literal
 from tests.semantics.build import Build
 from tests.verify.test_forged_steps import SPECS
@@ -50,7 +50,7 @@ from tumato_symbolic.verify.by_z3.terms import (
 )
 from tumato_symbolic.verify.no_policy.allowed_step import is_state
 
-GENERATED = [random_spec(seed, PROFILES[profile]) for profile in PROFILES for seed in (3000, 3001)]
+GENERATED = [random_spec(seed, ALL_PROFILES[profile]) for profile in ALL_PROFILES for seed in (3000, 3001)]
 
 
 def _values(term: Term, unknowns: Sequence[Any]) -> Iterator[tuple[tuple[bool, ...], bool]]:

@@ -5,7 +5,7 @@ from random import Random
 
 import pytest
 
-from tests.generate import PROFILES, random_spec
+from tests.generate import ALL_PROFILES, random_spec
 from tests.oracle import World, decide_world
 from tests.semantics.build import rules
 from tests.unrealizability import (
@@ -25,7 +25,7 @@ ORDERINGS = pytest.mark.parametrize("ordering", ["any", "first"])
 
 
 @ORDERINGS
-@pytest.mark.parametrize("profile", PROFILES)
+@pytest.mark.parametrize("profile", ALL_PROFILES)
 def test_certificates_of_generated_specifications_are_proved(profile, ordering):
     """What `synthesize` gives is proved, as it is and through its file; without cubes Z3 proves it as well."""
     kinds = set()
@@ -41,7 +41,7 @@ def test_certificates_of_generated_specifications_are_proved(profile, ordering):
 
 
 @ORDERINGS
-@pytest.mark.parametrize("profile", PROFILES)
+@pytest.mark.parametrize("profile", ALL_PROFILES)
 def test_changed_certificates_are_never_wrongly_proved(profile, ordering):
     """Cubes and layers that were changed are proved only where all that they claim is true."""
     met = set()
@@ -55,7 +55,7 @@ def test_changed_certificates_are_never_wrongly_proved(profile, ordering):
 @pytest.mark.parametrize("seed", CONFLICTS)
 def test_conflicts_of_generated_specifications(seed):
     """A conflict is proved; changed, it is proved only where the states still cannot be served together."""
-    spec = random_spec(seed, PROFILES["interacting"])
+    spec = random_spec(seed, ALL_PROFILES["interacting"])
     certificate = certified(spec, "any")
     assert isinstance(certificate.reason, Conflict)
     assert verify_unrealizable(loads(dumps(certificate)), spec, ordering="any").verdict == "proved"
@@ -69,7 +69,7 @@ def test_a_certificate_does_not_carry_over_to_a_realizable_specification(orderin
     """A certificate for a specification made harder proves nothing about the one that has a policy."""
     tried = 0
     for seed in range(30):
-        spec = random_spec(seed, PROFILES["interacting" if seed % 2 else "restoring"])
+        spec = random_spec(seed, ALL_PROFILES["interacting" if seed % 2 else "restoring"])
         world = World(spec, ordering)
         if decide_world(world).kind != "realizable":
             continue

@@ -8,7 +8,7 @@ from random import Random
 import pytest
 
 from tests.generate import random_spec
-from tests.profiles import PROFILES
+from tests.profiles import ALL_PROFILES
 from tests.semantics.build import Build, chosen
 from tests.verify.policies import certified, dressed, exact_ranks, leaving, near_policies, wrong_ranks
 from tumato_symbolic.policy import policy_from_rows
@@ -125,7 +125,7 @@ def _assert_first_witness(spec: Spec, rows: Rows, ordering: Ordering, refutation
 
 
 @pytest.mark.parametrize("cases", [0, 128], ids=["by-variable", "by-case"])
-@pytest.mark.parametrize("profile", PROFILES)
+@pytest.mark.parametrize("profile", ALL_PROFILES)
 @pytest.mark.parametrize("ordering", ["any", "first"])
 def test_the_walk_judges_as_the_explicit_meaning_does(
     cases: int, profile: str, ordering: Ordering, monkeypatch: pytest.MonkeyPatch
@@ -134,7 +134,7 @@ def test_the_walk_judges_as_the_explicit_meaning_does(
     monkeypatch.setattr(import_module("tumato_symbolic.verify.by_walk.model"), "MOST_CASES", cases)
     met = set()
     for seed in range(300, 308):
-        spec, random = random_spec(seed, PROFILES[profile]), Random(seed)
+        spec, random = random_spec(seed, ALL_PROFILES[profile]), Random(seed)
         for rows in near_policies(spec, ordering, random):
             judged, answer = judge(spec, rows, ordering), _walked(spec, rows, ordering, random)
             wrong = (judged.missing, judged.not_allowed, judged.goal_missed, judged.not_minimal)
@@ -150,7 +150,7 @@ def test_both_provers_agree_also_on_certificates() -> None:
     """`both` raises where Z3 and the walk differ: right and false ranks, right and wrong policies, both orderings."""
     met = set()
     for seed in range(20):
-        spec, random = random_spec(seed, PROFILES[("restoring", "interacting")[seed % 2]]), Random(seed)
+        spec, random = random_spec(seed, ALL_PROFILES[("restoring", "interacting")[seed % 2]]), Random(seed)
         ordering: Ordering = ("any", "first")[seed // 2 % 2]
         for rows in near_policies(spec, ordering, random, count=1):
             ranks = exact_ranks(spec, rows, ordering)

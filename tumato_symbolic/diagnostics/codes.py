@@ -65,6 +65,7 @@ class Code(Enum):
     TUM351 = ("warning", "a goal that is never entered")
     TUM352 = ("warning", "a rule that no valid state breaks")
     TUM353 = ("warning", "an action that is allowed nowhere")
+    TUM354 = ("warning", "actions executed together, of which one may falsify a precondition of another")
 
     TUM401 = ("error", "states without an allowed set of actions")
     TUM402 = ("error", "states without a plan")

@@ -52,7 +52,7 @@ class Conditions:
         self.valid: Bdd = self.encoding.domain() & self.encoding.all_of(rule.formula for rule in spec.assumptions)
         self.regions = regions(self.encoding, self.valid)
         self._free: Bdd = self.encoding.domain() & compatible_sets(self.encoding)
-        self._relevant = {rule: self._relevant_alternatives(rule) for rule in self.elements if _is_lasting(rule)}
+        self._relevant = {rule: self._relevant_alternatives(rule) for rule in self.elements if self._is_lasting(rule)}
         self._known: dict[Demand, Bdd] = {}
         self._here: tuple[State, dict[Demand, Bdd]] | None = None
 
@@ -87,7 +87,7 @@ class Conditions:
         """Compute anew, when it is asked next, what was found about an element."""
         self._known = {demand: found for demand, found in self._known.items() if demand.element != element}
         self._here = None
-        if _is_lasting(element):
+        if self._is_lasting(element):
             self._relevant = self._relevant | {element: self._relevant_alternatives(element)}
 
     def bounded(self, bound: int) -> Conditions:
@@ -131,7 +131,7 @@ class Conditions:
         """What the elements that are kept demand together; a resource demands something of all its users."""
         users: dict[int, list[Element]] = {}
         for element in self._sorted(kept):
-            if _is_lasting(element):
+            if self._is_lasting(element):
                 yield Demand(element, kept & self._relevant[element])
             elif element.kind in ("precondition", "reaction-rule"):
                 yield Demand(element)
@@ -153,9 +153,18 @@ class Conditions:
         if element.kind == "reaction-rule":
             return holds
         if element.kind == "precondition":
-            return ~self.encoding.executing(element.number) | holds
-        encoding = replace(self.encoding, spec=keep_only(self.spec, demand.given))
-        return staying_in(encoding, self.ordering, self.encoding.domain() & holds, self.manager.true)
+            holds = ~self.encoding.executing(element.number) | holds
+        if not self._is_lasting(element):
+            return holds
+        encoding, domain = replace(self.encoding, spec=keep_only(self.spec, demand.given)), self.encoding.domain()
+        if element.kind == "precondition":
+            return holds & staying_in(encoding, self.ordering, domain, holds)
+        return staying_in(encoding, self.ordering, domain & holds, self.manager.true)
+
+    def _is_lasting(self, element: Element) -> bool:
+        """Whether the element must hold in states that effects lead to."""
+        throughout = self.spec.preconditions == "throughout"
+        return element.kind in ("state-rule", "assumption") or (throughout and element.kind == "precondition")
 
     def _at_most_one(self, actions: list[int]) -> Bdd:
         nobody, somebody = self.manager.true, self.manager.false
@@ -181,11 +190,6 @@ class Conditions:
     def formula(self, formula: Formula) -> Bdd:
         """The valid states where a formula over the state holds."""
         return self.valid & self.encoding.formula(formula)
-
-
-def _is_lasting(element: Element) -> bool:
-    """Whether every outcome must keep the element."""
-    return element.kind in ("state-rule", "assumption")
 
 
 def _on(assignment: Assignment, variables: frozenset[int]) -> Assignment:

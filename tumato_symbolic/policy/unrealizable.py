@@ -26,11 +26,22 @@ class Violation:
     `precondition`: the executed action of `actions` has a precondition that is false. `resource`, `nominal-conflict`:
     the two executed actions of `actions` exclude each other. `reaction-rule`: `rule` is false however the open actions
     are chosen. `unsafe`: the executed actions of `outcome` can strike in this order, and lead to a state that is not
-    safe. `idle`: the state is not safe, and every action that has effects is idle. `nominal-unsafe`: all nominal
-    effects together lead to a state that is not safe; every action is settled.
+    safe. `falsified`: so they can, and what they lead to falsifies a precondition of the executed action of `actions`,
+    which has not taken effect; preconditions have to hold throughout. `idle`: the state is not safe, and every action
+    that has effects is idle. `nominal-unsafe`: all nominal effects together lead to a state that is not safe; every
+    action is settled.
     """
 
-    kind: Literal["precondition", "resource", "nominal-conflict", "reaction-rule", "unsafe", "idle", "nominal-unsafe"]
+    kind: Literal[
+        "precondition",
+        "resource",
+        "nominal-conflict",
+        "reaction-rule",
+        "unsafe",
+        "falsified",
+        "idle",
+        "nominal-unsafe",
+    ]
     actions: tuple[int, ...] = ()
     rule: str | None = None
     outcome: tuple[Strike, ...] = ()

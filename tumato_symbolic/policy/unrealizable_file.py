@@ -113,12 +113,13 @@ class _Names:
                 return {"Kind": violation.kind, "Actions": self.actions(violation.actions)}
             case "reaction-rule":
                 return {"Kind": violation.kind, "Rule": violation.rule}
-            case "unsafe":
+            case "unsafe" | "falsified":
                 strikes = [
                     {"Action": self.actions([action])[0], "Effect": self.assignment(effect)}
                     for action, effect in violation.outcome
                 ]
-                return {"Kind": violation.kind, "Outcome": strikes}
+                pending = {"Actions": self.actions(violation.actions)} if violation.kind == "falsified" else {}
+                return {"Kind": violation.kind, **pending, "Outcome": strikes}
             case _:
                 return {"Kind": violation.kind}
 

@@ -91,23 +91,32 @@ class _Reader:
         section = as_object(value, where)
         kind = as_text(member(section, "Kind", where), f"`Kind` in {where}")
         match kind:
-            case "precondition" | "resource" | "nominal-conflict":
-                actions = self._action_list(member(section, "Actions", where), f"`Actions` in {where}")
-                wanted = 1 if kind == "precondition" else 2
-                if len(actions) != wanted:
-                    message = f"`Actions` in {where} has {count(len(actions), 'entry', 'entries')}, expected {wanted}"
-                    raise fault(Code.TUM502, message)
-                return Violation(kind, actions)
+            case "precondition":
+                return Violation(kind, self._named(section, where, 1))
+            case "resource" | "nominal-conflict":
+                return Violation(kind, self._named(section, where, 2))
             case "reaction-rule":
                 return Violation(kind, rule=as_text(member(section, "Rule", where), f"`Rule` in {where}"))
             case "unsafe":
-                entries = as_list(member(section, "Outcome", where), f"`Outcome` in {where}")
-                strikes = [self._strike(entry, f"strike {n} of {where}") for n, entry in enumerate(entries, 1)]
-                return Violation(kind, outcome=tuple(strikes))
+                return Violation(kind, outcome=self._strikes(section, where))
+            case "falsified":
+                return Violation(kind, self._named(section, where, 1), outcome=self._strikes(section, where))
             case "idle" | "nominal-unsafe":
                 return Violation(kind)
             case _:
                 raise fault(Code.TUM502, f"`Kind` in {where} is {show(kind)}, which is no condition")
+
+    def _named(self, section: dict[str, Any], where: str, wanted: int) -> tuple[int, ...]:
+        """`Actions` of a violation, which names so many."""
+        actions = self._action_list(member(section, "Actions", where), f"`Actions` in {where}")
+        if len(actions) != wanted:
+            message = f"`Actions` in {where} has {count(len(actions), 'entry', 'entries')}, expected {wanted}"
+            raise fault(Code.TUM502, message)
+        return actions
+
+    def _strikes(self, section: dict[str, Any], where: str) -> tuple[Strike, ...]:
+        entries = as_list(member(section, "Outcome", where), f"`Outcome` in {where}")
+        return tuple(self._strike(entry, f"strike {n} of {where}") for n, entry in enumerate(entries, 1))
 
     def _strike(self, value: object, where: str) -> Strike:
         section = as_object(value, where)

@@ -200,8 +200,11 @@ def near_story(place: Place, near: NearMiss) -> list[str]:
         told = objection_text(place, first).split("\n")[0].removeprefix("when ").rstrip(",")
         if first.kind == "nominal-unsafe":
             told = "all nominal effects strike"
-        shown = _facts(place, first)
-        return [f"{doing}: if {told}, then {shown} holds", f"  and breaks {place.rule(first.rule)}{more}"]
+        shown, broken = _facts(place, first), f"breaks {place.rule(first.rule)}"
+        if first.kind == "falsified":
+            pending = place.spec.actions[first.actions[0]].name
+            broken = f"falsifies the precondition {place.rule(first.rule)} of {pending}, which is still to take effect"
+        return [f"{doing}: if {told}, then {shown} holds", f"  and {broken}{more}"]
     return [f"{doing}: {objection_text(place, first)}{more}"]
 
 

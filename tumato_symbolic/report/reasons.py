@@ -96,6 +96,8 @@ def objection_text(place: Place, objection: Objection) -> str:
             return f"when {story(place, objection.outcome)},\n  {rule} is broken"
         case "unsafe":
             return f"{rule} stays broken"
+        case "falsified":
+            return f"when {story(place, objection.outcome)},\n  the precondition {rule} of {names[0]} no longer holds"
         case "nominal-unsafe":
             return f"after all nominal effects, {rule} is broken"
 

@@ -42,6 +42,16 @@ def outcomes_in_turn(
         yield state, ()
         return
     reached: set[State] = set()
+    for there, _, way in _in_turn(spec, state, chosen, ordering):
+        if there not in reached:
+            reached.add(there)
+            yield there, way
+
+
+def _in_turn(
+    spec: Spec, state: State, chosen: ActionSet, ordering: Ordering
+) -> Iterator[tuple[State, ActionSet, Outcome]]:
+    """The states that effects lead to, each with the actions that have not taken effect then, shortest ways first."""
     seen: set[tuple[State, ActionSet]] = set()
     frontier: list[tuple[State, ActionSet, Outcome]] = [(state, chosen, ())]
     while frontier:
@@ -52,12 +62,10 @@ def outcomes_in_turn(
                 for effect in spec.actions[action].effects:
                     there = apply(effect, here)
                     way = (*past, Effectuation(action, effect, there))
-                    if there not in reached:
-                        reached.add(there)
-                        yield there, way
                     if (there, rest) not in seen:
                         seen.add((there, rest))
                         following.append((there, rest, way))
+                        yield there, rest, way
         frontier = following if ordering == "any" else []
 
 
@@ -88,10 +96,13 @@ class Objection:
     """Why a set is not allowed: the first condition of section 3 that fails, with what it fails on.
 
     `actions` are those to blame, `rule` the user's precondition or rule that is broken, and `outcome` the way into
-    the unsafe state (kinds `unsafe` and `nominal-unsafe`; empty when it is the state itself that is unsafe).
+    the unsafe state (kinds `unsafe` and `nominal-unsafe`; empty when it is the state itself that is unsafe). Kind
+    `falsified`: the precondition `rule` of an action, which has not taken effect yet, does not hold after `outcome`.
     """
 
-    kind: Literal["precondition", "resource", "nominal-conflict", "reaction-rule", "unsafe", "nominal-unsafe"]
+    kind: Literal[
+        "precondition", "resource", "nominal-conflict", "reaction-rule", "unsafe", "falsified", "nominal-unsafe"
+    ]
     actions: tuple[int, ...]
     rule: Rule | None = None
     outcome: Outcome = ()
@@ -117,11 +128,43 @@ def objections(spec: Spec, state: State, chosen: ActionSet, ordering: Ordering) 
         broken = first_broken(required, reached)
         if broken is not None:
             yield Objection("unsafe", tuple(sorted(chosen)), broken, way, reached)
+    if spec.preconditions == "throughout":
+        yield from falsified(spec, state, chosen, ordering)
     if nominal_agrees(spec, chosen):
         end = successor(spec, state, chosen)
         broken = first_broken(required, end)
         if broken is not None:
             yield Objection("nominal-unsafe", tuple(sorted(chosen)), broken, (), end)
+
+
+def falsified(spec: Spec, state: State, chosen: ActionSet, ordering: Ordering) -> Iterator[Objection]:
+    """Preconditions of actions that have not taken effect, where others falsify them; each once, by a shortest way."""
+    told: set[tuple[int, Rule]] = set()
+    for there, waiting, way in _in_turn(spec, state, chosen, ordering):
+        for number in sorted(waiting):
+            for rule in spec.actions[number].preconditions:
+                if (number, rule) not in told and not holds(rule.formula, there):
+                    told.add((number, rule))
+                    yield Objection("falsified", (number,), rule, way, there)
+
+
+def fault_after(spec: Spec, state: State, chosen: ActionSet, way: Outcome) -> Objection | None:
+    """What is wrong when `chosen` is executed in `state` and effects have struck in this way, if anything is."""
+    end = way[-1].after
+    broken = first_broken(required_rules(spec, state), end)
+    if broken is not None:
+        return Objection("unsafe", tuple(sorted(chosen)), broken, way, end)
+    waiting = chosen - {step.action for step in way} if spec.preconditions == "throughout" else frozenset[int]()
+    for number in sorted(waiting):
+        broken = first_broken(spec.actions[number].preconditions, end)
+        if broken is not None:
+            return Objection("falsified", (number,), broken, way, end)
+    return None
+
+
+def pending(spec: Spec, state: State, chosen: ActionSet, ordering: Ordering) -> Iterator[tuple[State, ActionSet]]:
+    """The states that effects lead to, each with the actions that have not taken effect then."""
+    return ((there, waiting) for there, waiting, _ in _in_turn(spec, state, chosen, ordering))
 
 
 def next_states(spec: Spec, state: State, chosen: ActionSet, ordering: Ordering) -> set[State]:

@@ -58,6 +58,8 @@ def digest(spec: Spec) -> str:
     }
     if len(spec.tiers) > 1:
         meaning["severities"] = [_texts(spec, tier) for tier in spec.tiers]
+    if spec.preconditions != "at_start":
+        meaning["preconditions"] = spec.preconditions
     text = json.dumps(meaning, sort_keys=True, separators=(",", ":"), ensure_ascii=True)
     return f"sha256:{hashlib.sha256(text.encode('ascii')).hexdigest()}"
 

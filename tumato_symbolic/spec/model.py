@@ -13,6 +13,9 @@ Ordering: TypeAlias = Literal["any", "first"]
 Restoration: TypeAlias = Literal["one_step", "bounded", "fair"]
 """How safety is restored: in one step; in several, whatever happens; or in several, where nominal effects recur."""
 
+PreconditionsHold: TypeAlias = Literal["at_start", "throughout"]
+"""When the preconditions of an action have to hold: when it starts, or also until it takes effect."""
+
 Assignment: TypeAlias = tuple[tuple[int, int], ...]
 """What an effect writes: pairs (variable, value), sorted by variable, each variable once. Empty: no change."""
 
@@ -111,7 +114,7 @@ class Spec:
     once (aliases expanded), so that two goals are the same exactly when their body numbers are. `max_plan_length`
     is None where plans are unbounded, `effect_ordering` is None where the text does not say.
     `bound_span` is where the plan bound is set. `restoration` is how safety is to be restored: what the text says,
-    or the command line in its place.
+    or the command line in its place. `preconditions` is when those of actions have to hold.
     """
 
     variables: tuple[Variable, ...]
@@ -126,6 +129,7 @@ class Spec:
     effect_ordering: Ordering | None
     bound_span: Span | None = field(default=None, compare=False)
     restoration: Restoration = "one_step"
+    preconditions: PreconditionsHold = "at_start"
 
     @property
     def tiers(self) -> tuple[tuple[Rule, ...], ...]:

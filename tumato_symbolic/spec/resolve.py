@@ -181,6 +181,7 @@ _SETTINGS: dict[type[ast.Setting], str] = {
     ast.MaxPlanLength: "max_plan_length",
     ast.EffectOrdering: "effect_ordering",
     ast.Restoration: "restoration",
+    ast.PreconditionsHold: "preconditions",
 }
 
 
@@ -192,6 +193,8 @@ def _with_setting(spec: Spec, setting: ast.Setting) -> Spec:
             return replace(spec, effect_ordering=value)
         case ast.Restoration(value):
             return replace(spec, restoration=value)
+        case ast.PreconditionsHold(value):
+            return replace(spec, preconditions=value)
 
 
 def _settings(tree: ast.Specification, findings: Findings) -> list[ast.Setting]:

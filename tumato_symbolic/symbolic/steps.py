@@ -101,34 +101,30 @@ def build_steps(encoding: Encoding, ordering: Ordering, within: Bdd | None = Non
 
     `within` is one more assumption, as a set of states.
     """
-    spec, manager = encoding.spec, encoding.manager
-    domain = encoding.domain()
+    spec, domain = encoding.spec, encoding.domain()
     valid = domain & encoding.all_of(rule.formula for rule in spec.assumptions)
     valid = valid if within is None else valid & within
     tiers = tuple(
         accumulate((encoding.all_of(rule.formula for rule in tier) for tier in spec.tiers), and_, initial=valid)
     )
     safe = tiers[-1]
-    compatible = compatible_sets(encoding)
-    applicable = manager.intersection(
-        ~encoding.executing(number) | encoding.all_of(rule.formula for rule in action.preconditions)
-        for number, action in enumerate(spec.actions)
-    )
+    compatible, applicable = compatible_sets(encoding), applicable_sets(encoding)
     candidates = valid & compatible & applicable
     allowed = candidates & encoding.all_of(rule.formula for rule in spec.reaction_rules)
+    pending = compatible & applicable if spec.preconditions == "throughout" else compatible
     if spec.restores_stepwise:
-        allowed = _keeping(encoding, ordering, tiers, compatible, allowed)
+        allowed = _keeping(encoding, ordering, tiers, pending, allowed)
     else:
-        allowed = allowed & staying_in(encoding, ordering, safe, compatible, allowed)
+        allowed = allowed & staying_in(encoding, ordering, safe, pending, allowed)
     return Steps(encoding, ordering, valid, safe, candidates, allowed, tiers)
 
 
-def _keeping(encoding: Encoding, ordering: Ordering, tiers: tuple[Bdd, ...], compatible: Bdd, asked: Bdd) -> Bdd:
+def _keeping(encoding: Encoding, ordering: Ordering, tiers: tuple[Bdd, ...], pending: Bdd, asked: Bdd) -> Bdd:
     """Those of the pairs asked about after which all rules hold that have to (sections 9 and 10)."""
     spec, false = encoding.spec, encoding.manager.false
 
     def into(target: Bdd, pairs: Bdd) -> Bdd:
-        return pairs & staying_in(encoding, ordering, target, compatible, pairs)
+        return pairs & staying_in(encoding, ordering, target, pending, pairs)
 
     kept = into(tiers[-1], asked & tiers[-1])
     for tier, (lower, upper) in zip(spec.tiers, pairwise(tiers), strict=True):
@@ -143,18 +139,19 @@ def _keeping(encoding: Encoding, ordering: Ordering, tiers: tuple[Bdd, ...], com
     return kept
 
 
-def staying_in(encoding: Encoding, ordering: Ordering, safe: Bdd, among: Bdd, asked: Bdd | None = None) -> Bdd:
+def staying_in(encoding: Encoding, ordering: Ordering, safe: Bdd, pending: Bdd, asked: Bdd | None = None) -> Bdd:
     """The sets whose outcomes are all in `safe`: conditions 5 and 6.
 
-    Right for compatible sets only, and for the pairs that are `asked` about (None: all); `among` holds the compatible
-    sets, and may hold others, if that is smaller.
+    Right for compatible sets only, and for the pairs that are `asked` about (None: all). `pending` is what has to hold
+    of a state on the way and of the actions that have not taken effect there: preconditions, where they have to hold
+    throughout. It also tells which sets are compatible, but may hold others, if that is smaller.
     """
     somebody = ~encoding.manager.intersection(_without_effect(encoding, group) for group in encoding.groups)
     asked = somebody if asked is None else asked & somebody
     if ordering == "first":
-        found = _after_any_first_effect(encoding, safe & among, asked) & nominal_predecessor(encoding, safe)
+        found = _after_any_first_effect(encoding, safe & pending, asked) & nominal_predecessor(encoding, safe)
         return found | (safe & ~somebody)
-    stays_safe = _always_safe(encoding, safe & among)
+    stays_safe = _always_safe(encoding, safe & pending)
     return stays_safe | _after_any_first_effect(encoding, stays_safe, asked & ~safe)
 
 
@@ -165,6 +162,14 @@ def nominal_predecessor(encoding: Encoding, target: Bdd) -> Bdd:
             choices & encoding.manager.cofactor(target, written) for written, choices in moves
         )
     return target
+
+
+def applicable_sets(encoding: Encoding) -> Bdd:
+    """The pairs in which every precondition of the chosen actions holds (condition 1)."""
+    return encoding.manager.intersection(
+        ~encoding.executing(number) | encoding.all_of(rule.formula for rule in action.preconditions)
+        for number, action in enumerate(encoding.spec.actions)
+    )
 
 
 def compatible_sets(encoding: Encoding) -> Bdd:

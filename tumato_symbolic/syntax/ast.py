@@ -258,7 +258,15 @@ class Restoration(Node):
     span: Span = NOWHERE
 
 
-Setting: TypeAlias = MaxPlanLength | EffectOrdering | Restoration
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class PreconditionsHold(Node):
+    """`preconditions: at_start` or `throughout`."""
+
+    value: Literal["at_start", "throughout"]
+    span: Span = NOWHERE
+
+
+Setting: TypeAlias = MaxPlanLength | EffectOrdering | Restoration | PreconditionsHold
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)

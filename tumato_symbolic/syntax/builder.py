@@ -151,6 +151,11 @@ def restoration(children: Children) -> ast.Restoration:
     )
 
 
+def preconditions_hold(children: Children) -> ast.PreconditionsHold:
+    value = children[-1].text
+    return ast.PreconditionsHold("throughout" if value == "throughout" else "at_start", _span(children))
+
+
 def severity(children: Children) -> ast.Severity:
     return ast.Severity(int(children[-1].text), _span(children))
 

@@ -134,3 +134,5 @@ def _setting(setting: ast.Setting) -> str:
             return f"effect_ordering: {value}"
         case ast.Restoration(value):
             return f"restoration: {value}"
+        case ast.PreconditionsHold(value):
+            return f"preconditions: {value}"

@@ -19,13 +19,16 @@ from tumato_symbolic.policy.unrealizable import (
     Layers,
     NoAllowedSet,
     NoPlan,
+    Strike,
     Unrealizability,
     Violation,
 )
 from tumato_symbolic.semantics import (
     ActionSet,
+    Outcome,
     Residual,
     State,
+    falsified,
     holds,
     is_safe,
     nominal_agrees,
@@ -34,7 +37,7 @@ from tumato_symbolic.semantics import (
     successor,
     takes_effect,
 )
-from tumato_symbolic.spec import Rule, Spec, canonical_text, digest
+from tumato_symbolic.spec import Ordering, Rule, Spec, canonical_text, digest
 from tumato_symbolic.symbolic import Bdd, Extractor
 from tumato_symbolic.synthesis.certificate import goal_names
 from tumato_symbolic.synthesis.repair import Impossible
@@ -96,16 +99,28 @@ def _violations(problem: Problem, state: State, executed: ActionSet, idle: Actio
             yield Violation("reaction-rule", rule=_name(spec, rule))
     settled = len(executed) + len(idle) == len(spec.actions)
     if takes_effect(spec, executed):
-        effects = [len(spec.actions[action].effects) for action in executed]
-        if (prod(1 + count for count in effects) if ordering == "any" else sum(effects)) > MOST_OUTCOMES:
-            raise _TooManyOutcomesError
-        for reached, way in outcomes_in_turn(spec, state, executed, ordering):
-            if not is_safe(spec, reached):
-                yield Violation("unsafe", outcome=tuple((strike.action, strike.effect) for strike in way))
+        yield from _by_outcomes(spec, state, executed, ordering)
     elif not takes_effect(spec, frozenset(range(len(spec.actions))) - idle) and not is_safe(spec, state):
         yield Violation("idle")
     if settled and not is_safe(spec, successor(spec, state, executed)):
         yield Violation("nominal-unsafe")
+
+
+def _by_outcomes(spec: Spec, state: State, executed: ActionSet, ordering: Ordering) -> Iterator[Violation]:
+    """What is wrong with what effects lead to. Raises `_TooManyOutcomesError`."""
+    effects = [len(spec.actions[action].effects) for action in executed]
+    if (prod(1 + count for count in effects) if ordering == "any" else sum(effects)) > MOST_OUTCOMES:
+        raise _TooManyOutcomesError
+    for reached, way in outcomes_in_turn(spec, state, executed, ordering):
+        if not is_safe(spec, reached):
+            yield Violation("unsafe", outcome=_strikes(way))
+    if spec.preconditions == "throughout":
+        for objection in falsified(spec, state, executed, ordering):
+            yield Violation("falsified", objection.actions, outcome=_strikes(objection.outcome))
+
+
+def _strikes(way: Outcome) -> tuple[Strike, ...]:
+    return tuple((strike.action, strike.effect) for strike in way)
 
 
 def _name(spec: Spec, rule: Rule) -> str:

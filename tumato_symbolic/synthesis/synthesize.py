@@ -41,6 +41,7 @@ from tumato_symbolic.synthesis.outcome import (
     Unrealizable,
 )
 from tumato_symbolic.synthesis.overriding import override, revert_unneeded
+from tumato_symbolic.synthesis.races import races
 from tumato_symbolic.synthesis.restoring import restoring_policy
 
 TABLE_LIMIT = 10_000
@@ -129,8 +130,8 @@ def _solve(problem: Problem, policy_format: PolicyFormat, certify: bool) -> Outc
         if isinstance(resolved, Undecided | Unrealizable):
             return resolved
         evaluation, statistics = resolved.evaluation, resolved.statistics
-    complete, statistics = _finish(problem, evaluation, statistics)
-    return Realizable(_as(complete, policy_format, statistics.valid), statistics, warnings)
+    complete, statistics, raced = _finish(problem, evaluation, statistics)
+    return Realizable(_as(complete, policy_format, statistics.valid), statistics, (*warnings, *raced))
 
 
 def _answer_no(
@@ -199,8 +200,13 @@ def _resolve(
     return _Resolved(judge.evaluate(changed), statistics)
 
 
-def _finish(problem: Problem, found: Evaluation, statistics: Statistics) -> tuple[Policy, Statistics]:
-    """Add restoring sets and the certificate to a policy for the safe states that serves every valid state."""
+def _finish(
+    problem: Problem, found: Evaluation, statistics: Statistics
+) -> tuple[Policy, Statistics, tuple[Diagnostic, ...]]:
+    """Add restoring sets and the certificate to a policy for the safe states that serves every valid state.
+
+    With it, what there is to warn of.
+    """
     steps, near, tell = problem.steps, in_time(problem, found.ranks), problem.context.tell
     tell("choosing restoring sets")
     if found.restoration is not None:
@@ -214,9 +220,10 @@ def _finish(problem: Problem, found: Evaluation, statistics: Statistics) -> tupl
     longest = _longest_run(problem, policy, near)
     tell("extracting the policy and its certificate")
     statistics = replace(statistics, longest_run=longest, restoring_durations=len(durations))
+    raced = races(problem, policy)
     if found.restoration is not None:
-        return policy_diagram(problem, policy, found.restoration.ranks, found.restoration), statistics
-    return policy_diagram(problem, policy, found.ranks), statistics
+        return policy_diagram(problem, policy, found.restoration.ranks, found.restoration), statistics, raced
+    return policy_diagram(problem, policy, found.ranks), statistics, raced
 
 
 def _longest_run(problem: Problem, policy: Bdd, ranks: Sequence[Layers]) -> int:

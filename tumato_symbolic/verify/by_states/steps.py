@@ -6,7 +6,16 @@ from collections.abc import Callable, Iterable, Iterator
 from itertools import combinations
 from math import prod
 
-from tumato_symbolic.semantics import ActionSet, State, duration, nominal_agrees, outcomes, successor, takes_effect
+from tumato_symbolic.semantics import (
+    ActionSet,
+    State,
+    duration,
+    nominal_agrees,
+    outcomes,
+    pending,
+    successor,
+    takes_effect,
+)
 from tumato_symbolic.spec import Assignment, Ordering, Spec
 from tumato_symbolic.verify.by_states.packed import Code, Packing, Remembered, all_hold
 
@@ -35,6 +44,7 @@ class Steps:
         self._tiers = [sum(1 << n for n, rule in enumerate(spec.state_rules) if rule in tier) for tier in tiers]
         self._broken: dict[Code, int] = {}
         self._writes: dict[ActionSet, list[tuple[int, int]]] = {}
+        self._pending: dict[ActionSet, list[tuple[int, int, ActionSet]]] = {}
         self._nominal: dict[ActionSet, tuple[int, int] | None] = {}
         self._applicable = [all_hold(packing, action.preconditions) for action in spec.actions]
         self._rules: dict[ActionSet, Callable[[Code], bool]] = {}
@@ -127,6 +137,7 @@ class Steps:
             and all(self._applicable[action](code) for action in chosen)
             and self._rules_hold(code, chosen)
             and self.keeps(code, self.outcomes(code, chosen))
+            and self.preconditions_last(code, chosen)
             and self.keeps(code, (after,))
         )
 
@@ -145,6 +156,19 @@ class Steps:
         if rules is None:
             rules = self._rules[chosen] = all_hold(self._packing, self._spec.reaction_rules, chosen)
         return rules(code)
+
+    def preconditions_last(self, code: Code, chosen: ActionSet) -> bool:
+        """Whether preconditions that have to hold throughout do, of the actions that have not taken effect."""
+        if self._spec.preconditions == "at_start":
+            return True
+        found = self._pending.get(chosen)
+        if found is None:
+            self.writes(chosen)
+            open_state = (_OPEN,) * len(self._spec.variables)
+            ways = pending(self._spec, open_state, chosen, self._ordering)
+            found = self._pending[chosen] = [(*self._packing.writes(_written(here)), rest) for here, rest in ways]
+        self._spend(len(found))
+        return all(self._applicable[action](code & keep | put) for keep, put, rest in found for action in rest)
 
     def cheaper_sets(self, code: Code, limit: int) -> Iterator[ActionSet]:
         """The allowed sets of a smaller duration than `limit` in an unsafe state.
@@ -174,6 +198,7 @@ class Steps:
             self.may_be_together(chosen)
             and may_grow(chosen)
             and (not takes_effect(self._spec, chosen) or self.keeps(code, self.outcomes(code, chosen)))
+            and self.preconditions_last(code, chosen)
         )
 
 

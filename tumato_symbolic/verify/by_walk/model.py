@@ -85,6 +85,17 @@ class Model:
         """Where an action may be executed, as far as it alone is concerned."""
         return self.walk.all_of(self.formula(rule.formula) for rule in self.spec.actions[action].preconditions)
 
+    @cached_property
+    def applicable(self) -> Function:
+        """All actions of `A` may be executed, as far as each alone is concerned."""
+        each = enumerate(self.chosen)
+        return self.walk.all_of(self.walk.select(chosen, (TRUE, self.preconditions(action))) for action, chosen in each)
+
+    @cached_property
+    def lasting(self) -> Function:
+        """What has to hold in a state on the way, of the actions `A` that have not taken effect there."""
+        return self.applicable if self.spec.preconditions == "throughout" else TRUE
+
     def together(self, pairs: Sequence[tuple[int, int]], executed: Sequence[Function]) -> Function:
         """Two actions of one of these pairs are both executed."""
         walk, others = self.walk, dict[int, list[Function]]()
@@ -120,13 +131,19 @@ class Model:
 
     @cached_property
     def safe_from_here(self) -> Function:
-        """`s` is safe, and stays so whatever effects of `A` are still to come, in any order."""
-        return self._stays_in(self.safe)
+        """`s` is safe and `lasting` holds, and so it stays whatever effects of `A` are still to come."""
+        return self._stays_in(self._fine)
+
+    @cached_property
+    def _fine(self) -> Function:
+        """`s` is safe, and `lasting` holds."""
+        return self.walk.all_of((self.safe, self.lasting))
 
     def _stays_in(self, target: Function) -> Function:
         """`s` is in `target`, and stays there whatever effects of `A` are still to come, in any order.
 
-        The one solution of `f(s, A) ⇔ s ∈ target and f(e(s), A \\ a)` for every effect `e` of every `a ∈ A`.
+        The one solution of `f(s, A) ⇔ s ∈ target and f(e(s), A \\ a)` for every effect `e` of every `a ∈ A`; `target`
+        may speak of `A` as well.
         """
         walk, before = self.walk, FALSE
         found = walk.all_of((target, self.compatible))
@@ -139,7 +156,7 @@ class Model:
     @cached_property
     def outcomes_safe(self) -> Function:
         """Condition 5: every outcome of `A` in `s` is safe. Speaks of sets without conflicts only."""
-        return self._outcomes_in(self.safe, self.safe_from_here if self._ordering == "any" else self.safe)
+        return self._outcomes_in(self.safe, self.safe_from_here if self._ordering == "any" else self._fine)
 
     def _outcomes_in(self, target: Function, then: Function) -> Function:
         """Every outcome of `A` in `s` is in `target`, where `then` has to hold after each effect."""
@@ -238,8 +255,7 @@ class Model:
     def allowed(self) -> Function:
         """`Ok(s, A)`."""
         spec, walk = self.spec, self.walk
-        parts = [walk.select(chosen, (TRUE, self.preconditions(action))) for action, chosen in enumerate(self.chosen)]
-        parts.append(self.compatible)
+        parts = [self.applicable, self.compatible]
         parts += [self.formula(rule.formula, self.chosen) for rule in spec.reaction_rules]
         if self._ordering == "first":
             parts.append(walk.substitute(self.safe, self.successor(self.chosen)))

@@ -11,10 +11,9 @@ from tumato_symbolic.semantics import (
     Run,
     State,
     apply,
-    broken_rule,
     duration,
+    fault_after,
     follow,
-    is_safe,
     is_valid,
     objections,
 )
@@ -59,15 +58,14 @@ class Witnesses:
         for objection in objections(self._spec, state, chosen, "first"):
             if self._ordering == "first" or objection.kind != "nominal-unsafe":
                 return objection
-        way = self._unsafe_way(state, chosen)
-        end = way[-1].after
-        return Objection("unsafe", tuple(sorted(chosen)), broken_rule(self._spec, end), way, end)
+        return self._fault(state, chosen)
 
-    def _unsafe_way(self, state: State, chosen: ActionSet) -> Outcome:
-        """Effects that lead into an unsafe state, those left out that it does not take."""
+    def _fault(self, state: State, chosen: ActionSet) -> Objection:
+        """What is wrong after some effects, those left out that it does not take."""
         steps: list[tuple[int, Assignment]] = []
         here, waiting = state, chosen
-        while not steps or is_safe(self._spec, here):
+        fault: Objection | None = None
+        while fault is None:
             options = [(number, effect) for number in sorted(waiting) for effect in self._spec.actions[number].effects]
             number, effect = next(
                 (number, effect)
@@ -76,11 +74,13 @@ class Witnesses:
             )
             steps.append((number, effect))
             here, waiting = apply(effect, here), waiting - {number}
+            fault = fault_after(self._spec, state, chosen, _replayed(state, steps))
         for step in list(steps):
             shorter = [kept for kept in steps if kept is not step]
-            if shorter and not is_safe(self._spec, _replayed(state, shorter)[-1].after):
-                steps = shorter
-        return _replayed(state, steps)
+            found = fault_after(self._spec, state, chosen, _replayed(state, shorter)) if shorter else None
+            if found is not None:
+                steps, fault = shorter, found
+        return fault
 
     def goal_missed(self, state: State) -> PropertyResult | None:
         """The refutation by the run from `state`; None where it reaches its goal."""

@@ -57,14 +57,20 @@ class Choice:
     def lemma(self, objection: Objection) -> Term:
         """What an unsafe outcome of a proposed set teaches of all states.
 
-        Where these actions are executed, their effects in this order lead to a safe state.
+        Where these actions are executed, their effects in this order lead to a safe state; or keep the preconditions of
+        an action that is executed with them.
         """
-        if objection.kind != "unsafe" or len(objection.outcome) < 2:
+        pending = objection.actions[0] if objection.kind == "falsified" else None
+        if pending is None and (objection.kind != "unsafe" or len(objection.outcome) < 2):
             raise RuntimeError(f"the solver proposes a set that violates what it knows: {objection}")
         written = dict(pair for step in objection.outcome for pair in step.effect)
         reached = self._here.after(tuple(sorted(written.items())))
         together = conjunction(self.executed[step.action] for step in objection.outcome)
-        return implies(together, safe_term(self._spec, reached))
+        if pending is None:
+            return implies(together, safe_term(self._spec, reached))
+        rules = self._spec.actions[pending].preconditions
+        kept = conjunction(formula_term(rule.formula, reached) for rule in rules)
+        return implies(conjunction((together, self.executed[pending])), kept)
 
     def cheaper_than(self, other: Sequence[Term]) -> Term:
         """`A` has a smaller duration than the set `other`."""

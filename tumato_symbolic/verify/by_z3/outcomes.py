@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import combinations, islice
 from typing import Any
 
@@ -16,12 +16,11 @@ from tumato_symbolic.semantics import (
     Outcome,
     State,
     apply,
-    broken_rule,
-    is_safe,
+    fault_after,
     objections,
 )
 from tumato_symbolic.spec import Action, Ordering, Spec
-from tumato_symbolic.verify.by_z3.encoding import Place, agreement_terms, is_true, safe_term
+from tumato_symbolic.verify.by_z3.encoding import Place, agreement_terms, formula_term, is_true, safe_term
 from tumato_symbolic.verify.by_z3.solver import Solver, UndecidedError
 from tumato_symbolic.verify.by_z3.terms import (
     Context,
@@ -42,6 +41,7 @@ OBJECTIONS_AT_ONCE = 20
 class UnsafeOutcome:
     """Some executed actions take effect, one effect each, in some order, and what they lead to is not safe.
 
+    Or, where preconditions have to hold throughout, it falsifies one of an executed action that has not taken effect.
     Of the effects that write a variable the last one, its *winner*, gives the value. An order is needed only among
     actions that may run together and write a common variable; for the others any order is the same.
     """
@@ -65,7 +65,16 @@ class UnsafeOutcome:
             *self._exclusions(ordering),
         ]
         reached = Place([self._code(variable, code) for variable, code in enumerate(place.bits)])
-        self.constraints.append(negation(safe_term(spec, reached)))
+        faults = [negation(safe_term(spec, reached)), *self._falsified(executed, reached)]
+        self.constraints.append(disjunction(faults))
+
+    def _falsified(self, executed: Sequence[Term], reached: Place) -> Iterator[Term]:
+        """The preconditions of an action that has not taken effect do not hold, where they have to."""
+        if self._spec.preconditions == "throughout":
+            for number, used in self._used.items():
+                rules = self._spec.actions[number].preconditions
+                holds = conjunction(formula_term(rule.formula, reached) for rule in rules)
+                yield conjunction((executed[number], negation(used), negation(holds)))
 
     def _exclusions(self, ordering: Ordering) -> list[Term]:
         """Who does not take effect beside whom: nobody under `first`, and never two that may not run together."""
@@ -154,16 +163,16 @@ class UnsafeOutcome:
             for effect, term in enumerate(self._taken[number])
             if is_true(model, term)
         ]
-        way = replay(state, steps)
-        if not steps or not {number for number, _ in steps} <= chosen or is_safe(self._spec, way[-1].after):
+        striking = {number for number, _ in steps} <= chosen
+        fault = fault_after(self._spec, state, chosen, replay(state, steps)) if steps and striking else None
+        if fault is None:
             raise RuntimeError(f"the outcome {steps} of {sorted(chosen)} in {state} is safe, against the solver")
         for step in list(steps):
             shorter = [kept for kept in steps if kept is not step]
-            if shorter and not is_safe(self._spec, replay(state, shorter)[-1].after):
-                steps = shorter
-        way = replay(state, steps)
-        end = way[-1].after
-        return Objection("unsafe", tuple(sorted(chosen)), broken_rule(self._spec, end), way, end)
+            found = fault_after(self._spec, state, chosen, replay(state, shorter)) if shorter else None
+            if found is not None:
+                steps, fault = shorter, found
+        return fault
 
 
 def objections_to(

@@ -105,6 +105,8 @@ def _unproved(step: AllowedStep, state: State, cube: Cube, ordering: Ordering) -
             return _reaction_rule(step, state, cube)
         case "unsafe":
             return _unsafe(spec, state, cube, ordering)
+        case "falsified":
+            return _falsified(spec, state, cube, ordering)
         case "idle":
             if any(action.effects for number, action in enumerate(spec.actions) if number not in cube.idle):
                 return "some of its sets execute an action that has effects"
@@ -118,10 +120,17 @@ def _unproved(step: AllowedStep, state: State, cube: Cube, ordering: Ordering) -
 
 
 def _precondition(spec: Spec, state: State, cube: Cube) -> str | None:
-    if len(cube.violation.actions) != 1 or not cube.executed.issuperset(cube.violation.actions):
-        return "it names no action that all its sets execute"
+    wrong = _precondition_of(cube)
+    if wrong is not None:
+        return wrong
     action = spec.actions[cube.violation.actions[0]]
     return "all preconditions hold" if all(holds(rule.formula, state) for rule in action.preconditions) else None
+
+
+def _precondition_of(cube: Cube) -> str | None:
+    """Why a cube does not name one action that all its sets execute."""
+    named = len(cube.violation.actions) == 1 and cube.executed.issuperset(cube.violation.actions)
+    return None if named else "it names no action that all its sets execute"
 
 
 def _exclusion(spec: Spec, cube: Cube) -> str | None:
@@ -160,6 +169,28 @@ def _reaction_rule(step: AllowedStep, state: State, cube: Cube) -> str | None:
 
 
 def _unsafe(spec: Spec, state: State, cube: Cube, ordering: Ordering) -> str | None:
+    wrong = _not_struck(spec, cube, ordering)
+    if wrong is not None:
+        return wrong
+    return "the outcome is safe" if is_safe(spec, replay(state, cube.violation.outcome)[-1].after) else None
+
+
+def _falsified(spec: Spec, state: State, cube: Cube, ordering: Ordering) -> str | None:
+    wrong = _precondition_of(cube) or _not_struck(spec, cube, ordering)
+    if wrong is not None:
+        return wrong
+    if spec.preconditions != "throughout":
+        return "preconditions have to hold at the start only"
+    (number,), strikes = cube.violation.actions, cube.violation.outcome
+    if number in {action for action, _ in strikes}:
+        return "the action has taken effect"
+    reached = replay(state, strikes)[-1].after
+    kept = all(holds(rule.formula, reached) for rule in spec.actions[number].preconditions)
+    return "all preconditions hold" if kept else None
+
+
+def _not_struck(spec: Spec, cube: Cube, ordering: Ordering) -> str | None:
+    """Why the effects that a cube names cannot strike in this order, whichever of its sets is executed."""
     strikes = cube.violation.outcome
     striking = [action for action, _ in strikes]
     if not strikes or not cube.executed.issuperset(striking):
@@ -170,4 +201,4 @@ def _unsafe(spec: Spec, state: State, cube: Cube, ordering: Ordering) -> str | N
         return "only the first effect counts"
     if any(effect not in spec.actions[action].effects for action, effect in strikes):
         return "an action does not have the effect"
-    return "the outcome is safe" if is_safe(spec, replay(state, strikes)[-1].after) else None
+    return None

@@ -1,0 +1,78 @@
+"""The warning about actions that a policy executes together although one may falsify a precondition of another."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import permutations
+
+from tumato_symbolic.diagnostics import Code, Diagnostic, Note
+from tumato_symbolic.game import Problem
+from tumato_symbolic.semantics import State, apply, exclude_each_other, holds, named
+from tumato_symbolic.spec import Assignment, Rule, Spec, variables_of
+from tumato_symbolic.symbolic import Bdd
+
+
+@dataclass(frozen=True, slots=True)
+class _Race:
+    """In some states, the action `writer` has an effect that falsifies a precondition of the action `pending`."""
+
+    pending: int
+    writer: int
+    states: Bdd
+
+
+def races(problem: Problem, policy: Bdd) -> tuple[Diagnostic, ...]:
+    """The warning about a policy, where preconditions have to hold at the start only; none where all is well."""
+    spec, encoding = problem.spec, problem.encoding
+    if spec.preconditions != "at_start":
+        return ()
+    found = [race for race in _races(problem, policy) if race.states != problem.false]
+    if not found:
+        return ()
+    everywhere = encoding.manager.union(race.states for race in found)
+    state = encoding.first_state(everywhere)
+    race = next(race for race in found if encoding.contains(race.states, state))
+    return (_warning(spec, race, state, encoding.count_states(everywhere)),)
+
+
+def _races(problem: Problem, policy: Bdd) -> Iterator[_Race]:
+    """Only pairs that may run together, of which one writes what the other's preconditions speak of, are looked at."""
+    spec, encoding = problem.spec, problem.encoding
+    speaks_of = [{v for rule in action.preconditions for v in variables_of(rule.formula)} for action in spec.actions]
+    written = [{v for effect in action.effects for v, _ in effect} for action in spec.actions]
+    for pending, writer in permutations(range(len(spec.actions)), 2):
+        if speaks_of[pending].isdisjoint(written[writer]) or exclude_each_other(spec, pending, writer):
+            continue
+        both = policy & encoding.executing(pending) & encoding.executing(writer)
+        if both != problem.false:
+            holds_there = encoding.all_of(rule.formula for rule in spec.actions[pending].preconditions)
+            lost = both & ~encoding.after_every_effect(writer, holds_there)
+            yield _Race(pending, writer, problem.steps.states_of(lost))
+
+
+def _warning(spec: Spec, race: _Race, state: State, count: int) -> Diagnostic:
+    pending, writer = spec.actions[race.pending], spec.actions[race.writer]
+    effect, rule = _falsifying(spec, race, state)
+    places = "1 state" if count == 1 else f"{count:,} states"
+    here = " ".join(f"{name}={value}" for name, value in named(spec, state).items())
+    change = " ".join(f"{spec.variables[v].name}={spec.variables[v].values[value]}" for v, value in effect)
+    return Diagnostic(
+        Code.TUM354,
+        f"in {places} the policy executes actions together of which one may falsify a precondition of another before "
+        f"that takes effect. For example in {here}: `{writer.name}` ({change}) falsifies "
+        f"`{' '.join(rule.text.split())}` of `{pending.name}`",
+        rule.span,
+        "with `preconditions: throughout` in CONFIG such sets are not allowed",
+        (Note(f"`{writer.name}` is declared here", writer.span),),
+    )
+
+
+def _falsifying(spec: Spec, race: _Race, state: State) -> tuple[Assignment, Rule]:
+    """The first effect, and the precondition that it falsifies."""
+    return next(
+        (effect, rule)
+        for effect in spec.actions[race.writer].effects
+        for rule in spec.actions[race.pending].preconditions
+        if not holds(rule.formula, apply(effect, state))
+    )
