@@ -11,10 +11,13 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=50)
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--profile", default="", help="only profiles that begin so")
     options = parser.parse_args()
     tally = Tally()
     for seed in range(options.seed, options.seed + options.count):
         for name, spec in specifications(seed):
+            if not name.startswith(options.profile):
+                continue
             for ordering in ("any", "first"):
                 tally.complaints += [f"{name}, {ordering}: {each}" for each in examine(spec, ordering, tally)]
     for (restoration, answer), count in sorted(tally.answers.items()):

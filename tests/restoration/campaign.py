@@ -9,13 +9,30 @@ from random import Random
 from typing import get_args
 
 from tests.generate import random_spec
-from tests.profiles import PROFILES
+from tests.profiles import INTERACTING, PROFILES
 from tests.restoration.truth import World
 from tumato_symbolic import Realizable, Unrealizable, synthesize
 from tumato_symbolic.policy import Policy, as_table
 from tumato_symbolic.semantics import count_states, judge
 from tumato_symbolic.spec import Ordering, Restoration, Spec
 from tumato_symbolic.symbolic import Backend
+
+STEPWISE = replace(
+    INTERACTING,
+    variables=(1, 2),
+    values=(3, 5),
+    states=(4, 16),
+    actions=(4, 7),
+    preconditions=(1, 1),
+    state_rules=(1, 3),
+    goals=(1, 2),
+    durations=(0, 9),
+    alternatives=0.25,
+    wide=0.0,
+    executing=0.1,
+    bounded=0.1,
+)
+"""Few states, most of them unsafe, and goals that unsafe states have to reach through each other."""
 
 LARGEST = 48
 """The most states of a specification that is taken."""
@@ -44,7 +61,7 @@ def severe(spec: Spec, restoration: Restoration, random: Random) -> Spec:
 
 def specifications(seed: int) -> Iterator[tuple[str, Spec]]:
     """The specifications of a seed that are small enough, and where safety may take several steps to restore."""
-    for name, profile in PROFILES.items():
+    for name, profile in {**PROFILES, "stepwise": STEPWISE}.items():
         base = random_spec(seed, profile)
         if count_states(base) > LARGEST or len(base.actions) > MOST_ACTIONS:
             continue

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from tumato_symbolic.game.fixpoints import preimage
 from tumato_symbolic.game.problem import Problem
-from tumato_symbolic.symbolic import Bdd, compatible_sets, staying_in
+from tumato_symbolic.symbolic import Bdd, compatible_sets, staying_in, without_effect
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,7 @@ def _staying_in_place(problem: Problem) -> Bdd:
     The last effect on the way back writes what was there: then it alone changes nothing either.
     """
     encoding, manager = problem.encoding, problem.encoding.manager
-    still = manager.intersection(encoding.idle(group) for group in encoding.groups)
+    still = without_effect(encoding)
     for number, action in enumerate(problem.spec.actions):
         unchanged = manager.union(manager.cube(encoding.assignment_bits(effect)) for effect in action.effects)
         still = still | (encoding.executing(number) & unchanged)

@@ -43,10 +43,20 @@ def winning(problem: Problem, ranks: Sequence[Layers], relation: Bdd) -> Bdd:
 
 
 class Judge:
-    """Judges policies that are defined in every safe state; unsafe states may take any allowed set."""
+    """Judges policies that are defined in every safe state; unsafe states may take any allowed set.
 
-    def __init__(self, problem: Problem) -> None:
+    Where safety may take several steps to restore, `forced` has the only pairs that its states may take, and states
+    outside `required` need not reach their goals.
+    """
+
+    def __init__(self, problem: Problem, forced: Bdd | None = None, required: Bdd | None = None) -> None:
         self.problem = problem
+        self._forced = problem.false if forced is None else forced
+        self._required = problem.steps.valid if required is None else required
+
+    def where(self, forced: Bdd, required: Bdd | None = None) -> Judge:
+        """The same judge with other pairs that are forced, and other states that are required."""
+        return Judge(self.problem, forced, required)
 
     @cached_property
     def _restorer(self) -> Restorer:
@@ -65,9 +75,9 @@ class Judge:
         ranks = tuple(attractor(problem, t.states, found.predecessor, steps.safe, None) for t in problem.targets)
         near = [union(layers) for layers in in_time(problem, ranks)]
         if problem.spec.restores_stepwise:
-            restoration = self._restorer.restore(ranks)
+            restoration = self._restorer.restore(ranks, self._forced, self._required)
             safe = union(found.predecessor(*pair) for pair in zip(found.owing, near, strict=True))
-            failing = (steps.safe & ~safe) | restoration.undecided
+            failing = (steps.safe & ~safe) | restoration.failing
             return Evaluation(found, ranks, failing, restoration)
         safe = union(found.predecessor(*pair) for pair in zip(found.owing, near, strict=True))
         return Evaluation(found, ranks, steps.valid & ~(safe | union(map(self._restored, range(len(near)), near))))

@@ -16,7 +16,7 @@ from tumato_symbolic.game.problem import Problem
 from tumato_symbolic.game.routing import shortest_decisions
 from tumato_symbolic.policy import Deviation
 from tumato_symbolic.semantics import AT_ONCE, Effort
-from tumato_symbolic.symbolic import Bdd, by_duration, compatible_sets, staying_in
+from tumato_symbolic.symbolic import Bdd, by_duration, compatible_sets, preferred, staying_in
 
 Efforts = dict[Effort, Bdd]
 """Disjoint sets of states, each with its effort."""
@@ -27,15 +27,16 @@ class Restoration:
     """What is decided in unsafe states, and what that comes to.
 
     `worst` has the states by their worst effort, `nominal` those where it is infinite by the effort along the nominal
-    run (under `fair`). `ranks[k]` are the layers of target `k`, of safe and of decided unsafe states. `deviations` are
-    the better sets that are not taken because another run would miss its goal.
+    run (under `fair`). `ranks[k]` are the layers of target `k`, of safe and of decided unsafe states. `failing` are the
+    unsafe states where nothing serves; `deviations` the better sets that are not taken because another run would miss
+    its goal.
     """
 
     policy: Bdd
     worst: Efforts
     nominal: Efforts
     ranks: tuple[Layers, ...]
-    undecided: Bdd
+    failing: Bdd
     deviations: tuple[Deviation, ...] = ()
 
 
@@ -45,21 +46,21 @@ class Restorer:
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
 
-    def restore(self, ranks: Sequence[Layers], forced: Bdd | None = None) -> Restoration:
+    def restore(self, ranks: Sequence[Layers], forced: Bdd, required: Bdd) -> Restoration:
         """Decide unsafe states by quality (section 9.6), where that serves; `ranks` are those of the safe states.
 
-        In states of `forced`, a relation, only its pairs are taken.
+        In states of `forced`, a relation, only its pairs are taken. States outside `required` need not reach a goal.
         """
         problem, steps = self.problem, self.problem.steps
         pairs = steps.allowed & steps.unsafe
-        if forced is not None:
+        if forced != problem.false:
             pairs = (pairs & ~steps.states_of(forced)) | (forced & steps.unsafe)
-        work = _Work(problem, self.durations, ranks)
+        work = _Work(problem, self.durations, ranks, steps.unsafe & ~required)
         for lower, upper in reversed(list(zip(steps.tiers, steps.tiers[1:], strict=False))):
             if (lower & ~upper) != problem.false:
                 work.restore_level(pairs & lower & ~upper, lower & ~upper, upper)
-        undecided = steps.unsafe & ~steps.states_of(work.policy)
-        return Restoration(work.policy, work.worst, work.nominal, tuple(work.ranks), undecided)
+        failing = steps.unsafe & required & ~steps.states_of(work.policy)
+        return Restoration(work.policy, work.worst, work.nominal, tuple(work.ranks), failing)
 
     @cached_property
     def durations(self) -> dict[int, Bdd]:
@@ -71,8 +72,9 @@ class Restorer:
 class _Work:
     """One restoration under way: decisions, efforts and ranks so far."""
 
-    def __init__(self, problem: Problem, durations: dict[int, Bdd], ranks: Sequence[Layers]) -> None:
+    def __init__(self, problem: Problem, durations: dict[int, Bdd], ranks: Sequence[Layers], free: Bdd) -> None:
         self.problem = problem
+        self._free = free
         self.durations = durations
         self.ranks: list[Layers] = [list(layers) for layers in ranks]
         self.policy = problem.false
@@ -153,6 +155,8 @@ class _Work:
             return candidates
         near = [layers[: problem.spec.max_plan_length] for layers in self.ranks]
         policy = shortest_decisions(problem, near, steps.states_of(candidates), candidates)
+        if self._free != problem.false:
+            policy = policy | preferred(problem.encoding, candidates & self._free & ~steps.states_of(policy))
         decided = steps.states_of(policy)
         if decided == problem.false:
             return decided

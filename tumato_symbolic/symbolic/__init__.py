@@ -5,7 +5,7 @@ from tumato_symbolic.symbolic.encoding import Encoding, encode
 from tumato_symbolic.symbolic.extract import Extractor
 from tumato_symbolic.symbolic.goals import Regions, Target, never_entered, regions, targets
 from tumato_symbolic.symbolic.manager import Backend, Bdd, Manager, available_backend
-from tumato_symbolic.symbolic.steps import Steps, build_steps, compatible_sets, staying_in
+from tumato_symbolic.symbolic.steps import Steps, build_steps, compatible_sets, staying_in, without_effect
 
 __all__ = [
     "Backend",
@@ -27,4 +27,5 @@ __all__ = [
     "regions",
     "staying_in",
     "targets",
+    "without_effect",
 ]

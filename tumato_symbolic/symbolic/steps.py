@@ -146,7 +146,7 @@ def staying_in(encoding: Encoding, ordering: Ordering, safe: Bdd, pending: Bdd, 
     of a state on the way and of the actions that have not taken effect there: preconditions, where they have to hold
     throughout. It also tells which sets are compatible, but may hold others, if that is smaller.
     """
-    somebody = ~encoding.manager.intersection(_without_effect(encoding, group) for group in encoding.groups)
+    somebody = ~without_effect(encoding)
     asked = somebody if asked is None else asked & somebody
     if ordering == "first":
         found = _after_any_first_effect(encoding, safe & pending, asked) & nominal_predecessor(encoding, safe)
@@ -221,10 +221,13 @@ def _after_any_first_effect(encoding: Encoding, stays_safe: Bdd, asked: Bdd) -> 
     return asked
 
 
-def _without_effect(encoding: Encoding, group: Group) -> Bdd:
-    """The choices by which a group adds no outcome: it is idle, or its action has no effects."""
-    actions = (action for action in group.actions if not encoding.spec.actions[action].effects)
-    return encoding.manager.union([encoding.idle(group), *map(encoding.executing, actions)])
+def without_effect(encoding: Encoding) -> Bdd:
+    """The sets that add no outcome: every group is idle, or its action has no effects."""
+    parts = []
+    for group in encoding.groups:
+        actions = (action for action in group.actions if not encoding.spec.actions[action].effects)
+        parts.append(encoding.manager.union([encoding.idle(group), *map(encoding.executing, actions)]))
+    return encoding.manager.intersection(parts)
 
 
 def _after_effect_of(encoding: Encoding, group: Group, following: Bdd) -> Bdd:

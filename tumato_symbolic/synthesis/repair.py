@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from tumato_symbolic.game import Judge, Layers
+from tumato_symbolic.game import Evaluation, Judge, Layers
 from tumato_symbolic.semantics import ActionSet, State, successor
 from tumato_symbolic.symbolic import Bdd, preferred
 from tumato_symbolic.synthesis.solver import Choices, Pick
@@ -27,11 +27,15 @@ RUNS_PER_ROUND = 64
 
 @dataclass(frozen=True, slots=True)
 class Option:
-    """One way to act in a state: where it nominally leads, which target it owes, and the preferred set that does so."""
+    """One way to act in a state: where it nominally leads, which target it owes, and the preferred set that does so.
+
+    `following` are the outcomes that are not restored, where these matter.
+    """
 
     successor: State
     target: int
     chosen: ActionSet
+    following: frozenset[State] = frozenset()
 
 
 ROUNDS = 5_000
@@ -99,11 +103,14 @@ class Repair:
                 return picked
             self._picked = picked
             candidate = self._current()
-            failing = self._judge.evaluate(candidate).failing & required
+            failing = self._evaluate(candidate).failing & required
             if failing == self._problem.false:
                 return candidate
             self._explain_some(failing)
         raise RoundsExhaustedError
+
+    def _evaluate(self, candidate: Bdd) -> Evaluation:
+        return self._judge.evaluate(candidate)
 
     def _impossible(self, starts: list[int]) -> Impossible:
         """The proof that these starts cannot be served together, without the cuts that it does not need."""
@@ -161,7 +168,7 @@ class Repair:
         return seen
 
     def _explain_option(self, start: int, first: Option) -> set[State]:
-        """The clause that the run of `first`, continued by the current policy, violates; the run's states.
+        """The clause that the run of `first`, continued by the current policy, violates, if it fails; its states.
 
         The run either closes a loop, or meets a state from which no continuation is short enough. In a loop, some state
         has to leave the loop's states or hit the target; before the point of no return, some state has to turn off.
@@ -175,6 +182,8 @@ class Repair:
             distance = self._distance_to(goal, here)
             if distance is None or (bound is not None and steps + distance > bound):
                 self._cut(start, goal, path, self._turning_off(path, here, goal), here)
+                break
+            if distance == 0:
                 break
             number = self._touch(here)
             if number in path[1:]:
@@ -257,10 +266,14 @@ class Repair:
             self._picked.append(0)
         return self._numbers[state]
 
+    def _today(self, state: State) -> Bdd:
+        """What was decided in a state before."""
+        return self._problem.encoding.at(self._policy, state)
+
     def _options_of(self, state: State) -> Iterator[Option]:
         """Every option of a state: today's decision first, then the preferred sets, in their order."""
         problem, encoding = self._problem, self._problem.encoding
-        today = encoding.at(self._policy, state)
+        today = self._today(state)
         left = encoding.at(problem.steps.allowed, state)
         while left != problem.false:
             pool = today if today != problem.false else left

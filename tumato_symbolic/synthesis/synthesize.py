@@ -8,6 +8,7 @@ from typing import Literal
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.game import (
+    Alone,
     Evaluation,
     Judge,
     Layers,
@@ -126,7 +127,7 @@ def _solve(problem: Problem, policy_format: PolicyFormat, certify: bool) -> Outc
                 return answer
             reason = no_plan(problem, state, apart) if stuck == problem.false else no_allowed_set(problem, state)
             return replace(answer, certificate=certified(problem, reason))
-        resolved = _resolve(judge, policy, apart, Undecided("", statistics, warnings), certify)
+        resolved = _resolve(judge, policy, apart, Undecided("", statistics, warnings), way=taken_alone, certify=certify)
         if isinstance(resolved, Undecided | Unrealizable):
             return resolved
         evaluation, statistics = resolved.evaluation, resolved.statistics
@@ -153,11 +154,12 @@ class _Resolved:
 
 
 def _resolve(
-    judge: Judge, policy: Bdd, apart: tuple[Layers, ...], so_far: Undecided, certify: bool
+    judge: Judge, policy: Bdd, apart: tuple[Layers, ...], so_far: Undecided, *, way: Alone | None, certify: bool
 ) -> _Resolved | Unrealizable | Undecided:
     """Decide what the own regions leave open, changing earlier decisions only where that is needed.
 
-    `apart` are the distances from the targets.
+    `apart` are the distances from the targets; `way` has the steps that runs may take, where safety may take several
+    steps to restore.
     """
     problem, steps, statistics, tell = judge.problem, judge.problem.steps, so_far.statistics, judge.problem.context.tell
     assert statistics is not None, "states are counted first"
@@ -173,14 +175,18 @@ def _resolve(
     tell("overriding decisions of other goals")
     found = override(judge, found, apart)
     changed = found.closed_loop.policy
-    if found.failing != problem.false and problem.spec.restores_stepwise:
-        return Undecided("how the goals interact in unsafe states was not settled", statistics, so_far.warnings)
+    forced = problem.false
     if found.failing != problem.false:
         from tumato_symbolic.synthesis.repair import ROUNDS, Impossible, Repair, RoundsExhaustedError
+        from tumato_symbolic.synthesis.stepwise_repair import StepwiseRepair
 
         tell("repairing decisions where goals interact")
         try:
-            repaired = Repair(judge, changed, apart).run()
+            if way is None:
+                repaired = Repair(judge, changed, apart).run()
+            else:
+                repair = StepwiseRepair(judge, changed, apart, way)
+                repaired, forced = repair.run(), repair.forced
         except RoundsExhaustedError:
             limit = f"{ROUNDS:,} rounds of repair did not settle how the goals interact"
             return Undecided(limit, statistics, so_far.warnings)
@@ -190,14 +196,19 @@ def _resolve(
             states = repaired.states
             failure = Failure("conflict", len(states), states[0], states)
             answer = _answer_no(problem, (failure,), statistics, so_far.warnings)
-            if not certify:
+            if not certify or way is not None:
                 return answer
             return replace(answer, certificate=certified(problem, conflict(problem, apart, repaired)))
         changed = repaired
     tell("giving back decisions that need not change")
-    changed = revert_unneeded(judge, policy, changed)
+    changed = revert_unneeded(judge.where(forced), policy, changed)
     statistics = replace(statistics, changed=_count_decided(problem, policy & ~changed))
-    return _Resolved(judge.evaluate(changed), statistics)
+    if forced == problem.false:
+        return _Resolved(judge.evaluate(changed), statistics)
+    from tumato_symbolic.synthesis.improving import Improving
+
+    tell("improving decisions in unsafe states")
+    return _Resolved(Improving(judge, changed, forced).run(), statistics)
 
 
 def _finish(
