@@ -1371,7 +1371,7 @@ def text_of(formula: Formula, spec: Specification) -> str:
 # 7. The certificate (docs/certificate.md, docs/policy.md): for every residual goal a diagram with the ranks of the safe
 #    states. It is wrong when a rank is 0 where the goal does not hold, is otherwise not larger than that of the
 #    successor, or is not below L in the first successor of a state that owes the goal; incomplete where ranks miss.
-#    With a section `Restoring`, the ranks are those of all valid states, and the efforts have to be right.
+#    With a section `Restoring`, the ranks are those of all valid states, and efforts must not be too small.
 
 
 def judge_certificate(judge: Judge, document: dict[str, Any]) -> tuple[str, str]:
@@ -1429,8 +1429,8 @@ def check_bound(judge: Judge, state: State, ranks: dict[Residual, dict[State, in
     world, after = judge.world, judge.after[state]
     goal = world.residual_goal(state, judge.decided[state])
     own = ranks.get(goal, {}).get(after)
-    if not goal[0]:
-        return ""  # nothing is owed
+    if not goal[0] and (world.is_safe(state) or not world.stepwise):
+        return ""  # nothing is owed, not even a run to safety
     if own is None:
         return f"{world.show(after)}, which follows {world.show(state)}, has no rank"
     below = world.spec.bound is None or own < world.spec.bound
@@ -1451,66 +1451,81 @@ def check_rank(judge: Judge, goal: Residual, rank: dict[State, Any], state: Stat
 
 
 @dataclass
-class Restorings:
-    """The section `Restoring`: the claimed efforts, and why some states are not restored better."""
+class Claimed:
+    """The section `Restoring`: efforts of unsafe valid states, and why some states are not restored better."""
 
-    diagram: Diagram
-    worst: int
-    nominal: int
+    worst: dict[State, Effort]
+    nominal: dict[State, Effort]  # under `fair`, where there is no worst one
     deviations: list[tuple[State, ActionSet, State]]  # a state, a better set, and whose run would miss its goal
 
-    def effort(self, root: int, state: State) -> Effort | None:
-        """The claimed effort of a state."""
-        leaf = self.diagram.value(root, state)
-        return None if leaf is None else (leaf[0], leaf[1])
 
-
-def read_restoring(world: World, document: dict[str, Any]) -> Restorings | None:
+def read_restoring(world: World, document: dict[str, Any]) -> Claimed | None:
     """The section `Restoring` where there is one; what is wrong in its form counts under every restoration."""
     need(isinstance(document["Certificate"], dict), "`Certificate` is an object")
-    section: Any = document["Certificate"].get("Restoring")
     if "Restoring" not in document["Certificate"]:
         return None
+    section: Any = document["Certificate"]["Restoring"]
     diagram = Diagram(section, document["States"], world.spec)
     pairs = [leaf for leaf in diagram.leaves if leaf is not None]
     fits = all(isinstance(leaf, list) and len(leaf) == 2 and all(map(is_number, leaf)) for leaf in pairs)
     need(fits and len(set(map(str, diagram.leaves))) == len(diagram.leaves), "`Leaves` are not different efforts")
-    deviations = [
-        (
-            read_state(entry, "State", world.spec),
-            read_actions(entry, "Better", world.spec),
-            read_state(entry, "Missed", world.spec),
-        )
-        for entry in read_objects(section, "Deviations")
-    ]
-    worst, nominal = (diagram.reference(section.get(root)) for root in ("Worst", "Nominal"))
-    return Restorings(diagram, worst, nominal, deviations)
+    diagram.leaves = [None if leaf is None else tuple(leaf) for leaf in diagram.leaves]
+    tables: list[dict[State, Effort]] = []
+    for root in ("Worst", "Nominal"):
+        reference = diagram.reference(section.get(root))
+        found = {state: diagram.value(reference, state) for state in world.valid if not world.is_safe(state)}
+        tables.append({state: effort for state, effort in found.items() if effort is not None})
+    worst, nominal = tables
+    claimed = Claimed(worst, {}, [])
+    if world.restoration == "fair":
+        claimed.nominal = {state: effort for state, effort in nominal.items() if state not in worst}
+    for entry in read_objects(section, "Deviations"):
+        state, missed = read_state(entry, "State", world.spec), read_state(entry, "Missed", world.spec)
+        claimed.deviations.append((state, read_actions(entry, "Better", world.spec), missed))
+    return claimed
 
 
-def check_restoring(judge: Judge, claimed: Restorings | None) -> str:
-    """Refuse an effort that is not that of the policy, and a deviation that is none; tell what is missing."""
-    if claimed is None:
-        return "it does not say how safety is restored"
+def check_restoring(judge: Judge, claimed: Claimed | None) -> str:
+    """Refuse efforts that are too small, and deviations that are none; tell what is missing or larger than it is."""
     world, true = judge.world, judge.restoring
-    unsafe = [state for state in judge.decided if not world.is_safe(state)]
-    for state in unsafe:
-        worst = true.worst.get(state)
-        claim = claimed.effort(claimed.worst, state)
-        need(claim == worst, f"the worst effort of {world.show(state)} is {worst}, not {claim}")
-        if worst is None and world.restoration == "fair":
-            nominal, claim = true.nominal(state, judge.decided[state]), claimed.effort(claimed.nominal, state)
-            need(claim == nominal, f"the nominal effort of {world.show(state)} is {nominal}, not {claim}")
+    if claimed is None:
+        return "it does not say how safety is restored" if true.open else ""
+    for state in (*claimed.worst, *claimed.nominal):
+        need(is_enough(judge, claimed, state), f"the effort of {world.show(state)} is not enough")
     for state, better, missed in claimed.deviations:
-        need(
-            state in unsafe, f"{world.show(state)} is listed as a deviation, and is not an unsafe state that is decided"
-        )
-        shown = f"{world.show_set(better)} in {world.show(state)}"
-        need(better in judge.rivals(state), f"{shown} is not better, or does not serve the state itself")
-        need(missed in judge.losers(state, better), f"with {shown}, {world.show(missed)} does not lose its goal")
+        shown = f"with {world.show_set(better)} in {world.show(state)}"
+        need(state in judge.decided and not world.is_safe(state), f"{world.show(state)} is not unsafe and decided")
+        need(world.agree(better), f"{shown}, nominal effects disagree")
+        spoiled = judge.run(state, better, {state: better}) is None
+        misses = spoiled if missed == state else missed in judge.losers(state, better)
+        need(misses, f"{shown}, {world.show(missed)} does not miss its goal for that")
+    for state in true.open:
+        worst, nominal = true.worst.get(state), true.nominal(state, judge.decided[state])
+        efforts = worst, nominal if worst is None and world.restoration == "fair" else None
+        given = claimed.worst.get(state), claimed.nominal.get(state)
+        if given != efforts or given == (None, None):
+            return f"the efforts of {world.show(state)} are {efforts}, not {given}"
     listed = {(state, better) for state, better, _ in claimed.deviations}
-    others = ((state, better) for state in unsafe for better in judge.rivals(state) if (state, better) not in listed)
-    found = next(others, None)
-    return "" if found is None else f"{world.show_set(found[1])} in {world.show(found[0])} is better, and is not listed"
+    rivals = ((state, better) for state in true.open for better in judge.rivals(state))
+    for state, better in rivals:
+        if (state, better) not in listed and judge.losers(state, better):
+            return f"{world.show_set(better)} in {world.show(state)} is better, and it is not said why it is not taken"
+    return ""
+
+
+def is_enough(judge: Judge, claimed: Claimed, state: State) -> bool:
+    """Whether a claimed effort is at least that of each state that it is about, and of the step there."""
+    true, after = judge.restoring, judge.after.get(state)
+    if after is None:
+        return False
+    if state in claimed.worst:
+        efforts = [claimed.worst.get(each) for each in true.open[state]]
+    else:
+        restored = judge.world.restored(state, after) or after in claimed.worst
+        efforts = [] if restored else [claimed.nominal.get(after)]
+    most = max((effort for effort in efforts if effort is not None), default=(0, 0))
+    own = claimed.worst.get(state) or claimed.nominal[state]
+    return None not in efforts and own >= true.longer(judge.decided[state], most)
 
 
 def bodies_of(goal: Goal | None) -> set[Formula]:

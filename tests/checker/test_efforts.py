@@ -12,12 +12,25 @@ from random import Random
 import pytest
 
 from tests.checker.standalone import Answer, ask
-from tests.checker.stepwise import Claims, Rows, claiming, policies, rivals, true_claims, ways
+from tests.checker.stepwise import Claims, Rows, claiming, losers, policies, true_claims, ways
 from tests.checker.test_stepwise import MODES
 from tests.printing import print_spec
+from tumato_symbolic import Realizable, synthesize
 from tumato_symbolic.policy import dumps
-from tumato_symbolic.semantics import ActionSet, State, is_safe, judge, nominal_agrees
+from tumato_symbolic.semantics import (
+    ActionSet,
+    State,
+    duration,
+    follow,
+    is_safe,
+    judge,
+    nominal_agrees,
+    restored,
+    successor,
+)
+from tumato_symbolic.semantics.step import next_states
 from tumato_symbolic.spec import Ordering, Restoration, Spec
+from tumato_symbolic.verify import verify
 
 ORDERINGS: tuple[Ordering, ...] = ("any", "first")
 
@@ -57,17 +70,31 @@ def test_true_claims_are_right_and_others_are_wrong(restoration: Restoration, ti
 
 
 def judged(spec: Spec, rows: Rows, claims: Claims, truth: Claims, ordering: Ordering) -> str:
-    """What docs/certificate.md says of claims of which the ranks are true."""
+    """What docs/certificate.md says of claims of which the ranks are true, about a policy that restores safety."""
     unsafe = [state for state in rows if not is_safe(spec, state)]
-    fair = spec.restoration == "fair"
-    efforts = all(claims.worst.get(state) == truth.worst.get(state) for state in unsafe) and all(
-        claims.nominal.get(state) == truth.nominal.get(state) for state in unsafe if fair and state not in truth.worst
+    worst = {state: effort for state, effort in claims.worst.items() if not is_safe(spec, state)}
+    read = claims.nominal.items() if spec.restoration == "fair" else ()
+    nominal = {state: effort for state, effort in read if state in unsafe and state not in worst}
+    for state, effort in (*worst.items(), *nominal.items()):
+        step, after = (duration(spec, rows[state]), 1), successor(spec, state, rows[state])
+        about = next_states(spec, state, rows[state], ordering) if state in worst else {after} - worst.keys()
+        efforts = [(worst if state in worst else nominal).get(t) for t in about if not restored(spec, state, t)]
+        if any(each is None or effort < (step[0] + each[0], step[1] + each[1]) for each in [(0, 0), *efforts]):
+            return "wrong"
+    for state, better, missed in claims.deviations:
+        if is_safe(spec, state) or not nominal_agrees(spec, better):
+            return "wrong"
+        spoiled = follow(spec, {**rows, state: better}, state, better).end != "goal"
+        if not (spoiled if missed == state else missed in losers(spec, rows, state, better)):
+            return "wrong"
+    exact = all(
+        (worst.get(state), nominal.get(state)) == (truth.worst.get(state), truth.nominal.get(state))
+        for state in unsafe
+        if spec.restoration == "fair" or state in truth.worst
     )
-    better = rivals(spec, rows, ordering)
-    true = all(missed in better.get((state, chosen), ()) for state, chosen, missed in claims.deviations)
-    if not (efforts and true):
-        return "wrong"
-    return "right" if better.keys() == {(state, chosen) for state, chosen, _ in claims.deviations} else "incomplete"
+    listed = {(state, better) for state, better, _ in claims.deviations}
+    needed = {(state, better) for state, better, _ in truth.deviations}
+    return "right" if exact and needed <= listed else "incomplete"
 
 
 def changed(spec: Spec, rows: Rows, truth: Claims, random: Random) -> Claims:
@@ -108,3 +135,43 @@ def test_no_certificate_changes_a_verdict(restoration: Restoration, tiers: int, 
             assert len({(answer.code, answer.out.partition("certificate")[0]) for answer in answers}) == 1
             if all(nominal_agrees(spec, chosen) for chosen in rows.values()) and spec.max_plan_length is None:
                 assert status(answers[0]) in ("right", "incomplete"), answers[0]
+
+
+@pytest.mark.parametrize(("restoration", "tiers"), MODES)
+def test_the_package_says_the_same(restoration: Restoration, tiers: int, tmp_path: Path) -> None:
+    """Of the policy and of its certificate, by explicit-state checking."""
+    met = Counter[str]()
+    for seed in range(300, 330):
+        spec, random = ways(seed, restoration, tiers), Random(seed)
+        text = print_spec(spec, random)
+        for rows in served(spec, seed, "any"):
+            truth = true_claims(spec, rows, "any")
+            for claims in (truth, *(changed(spec, rows, truth, random) for _ in range(3))):
+                policy = claiming(spec, rows, claims, "any")
+                answer, found = ask(tmp_path, dumps(policy), text, "--strict"), verify(policy, spec, prover="explicit")
+                said = {"used": "right"}.get(found.certificate.status, found.certificate.status)
+                refuted = {each.name for each in found.properties if each.verdict == "refuted"}
+                assert set(answer.failing) == refuted, (seed, answer)
+                assert status(answer) == said or refuted, (seed, claims, found.certificate, answer)
+                met[said] += 1
+        if sum(met.values()) >= 40:
+            break
+    assert {"right", "wrong"} <= met.keys(), met
+
+
+@pytest.mark.parametrize(("restoration", "tiers"), MODES)
+def test_what_is_synthesized_is_right(restoration: Restoration, tiers: int, tmp_path: Path) -> None:
+    """Policies of `synthesize` pass with their certificates."""
+    passed = 0
+    for seed in range(400, 460):
+        spec = ways(seed, restoration, tiers)
+        for ordering in ORDERINGS:
+            outcome = synthesize(spec, ordering=ordering)
+            if isinstance(outcome, Realizable):
+                text = print_spec(spec, Random(seed))
+                answer = ask(tmp_path, dumps(outcome.policy), text, "--effect-ordering", ordering, "--strict")
+                assert (answer.code, status(answer)) == (0, "right"), (seed, ordering, answer)
+                passed += 1
+        if passed >= 12:
+            break
+    assert passed >= 12
