@@ -39,6 +39,7 @@ class Prover:
             return True
         return False
 
+    @cache  # noqa: B019 - there is one engine of each prover
     def valid(self, world: World, state: State) -> bool:
         """Whether a policy for all other states is not *total*."""
         rows = {other: frozenset[int]() for other in all_states(world.spec) if other != state}
