@@ -58,20 +58,21 @@ class Coq:
         """The parts of `check`, which has to agree with them."""
         decided = {state: chosen for state, chosen in rows.items() if is_valid(world.spec, state)}
         spec, order, table = self._spec(world), _order(world.ordering), self._table(world.spec, decided)
-        safe, fuel = f"(keeps_rules {spec})", f"(length (all_states (sizes {spec})))"
+        states, valid, safe = f"(all_states (sizes {spec}))", f"(assumed {spec})", f"(keeps_rules {spec})"
         policy = f"(policy_of {table})"
         pairs = _list(f"({_list(state)}, {_list(sorted(chosen))})" for state, chosen in decided.items())
-        serves = f"serves {spec} {policy} {fuel} (fst p) (snd p)"
-        better = f"no_better {spec} {order} {safe} {policy} {fuel} (fst p) (snd p)"
+        serves = f"serves {spec} {safe} (length {states}) {policy} (fst p) (snd p)"
+        known = f"{valid} {safe} {states} (length {states}) {policy} no_efforts"
+        better = f"no_better {spec} {order} {known} (fst p) (snd p)"
         parts = {
-            "total": f"forallb (fun s => negb (assumed {spec} s) || (match lookup {table} s with Some (Some _) => true"
-            f" | _ => false end)) (all_states (sizes {spec}))",
+            "total": f"forallb (fun s => negb ({valid} s) || (match entry {table} s with Some _ => true"
+            f" | None => false end)) {states}",
             "safe": f"forallb (fun p => {self._ok(world)} (fst p) (snd p)) {pairs}",
             "goals": f"forallb (fun p => negb ({self._ok(world)} (fst p) (snd p)) || {serves}) {pairs}",
             "minimal": f"forallb (fun p => {safe} (fst p) || {better}) {pairs}",
         }
         found = {name for name, question in parts.items() if not self._truth(question)}
-        assert self._truth(f"check {spec} {order} {table}") == (not found)
+        assert self._truth(f"check {spec} {order} {table} no_efforts") == (not found)
         return found
 
     def _ok(self, world: World) -> str:
