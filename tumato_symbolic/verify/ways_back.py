@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
+from itertools import count
 
+from tumato_symbolic.policy import Deviation
 from tumato_symbolic.semantics import (
     ActionSet,
     Quality,
+    Residual,
     Restorations,
     Run,
     State,
@@ -16,6 +19,8 @@ from tumato_symbolic.semantics import (
     is_safe,
     nominal_agrees,
     outcomes_in_turn,
+    reached,
+    residual_goal,
     restored,
     successor,
 )
@@ -155,6 +160,45 @@ class RestoringWitnesses:
             raise RuntimeError(f"{sorted(better)} does not serve in {state}, against the prover")
         refutation = Refutation("not-minimal", state, decision, run=run, cheaper=better, qualities=qualities)
         return PropertyResult("minimal", "refuted", refutation=refutation)
+
+
+def spoils(spec: Spec, policy: Mapping[State, ActionSet], deviation: Deviation) -> bool:
+    """Whether what a deviation says is true.
+
+    The run of `missed` reaches its goal by the policy and misses it with the better set; or it is the run of the better
+    set itself that does.
+    """
+    state, better, missed = deviation.state, deviation.better, deviation.missed
+    if state not in policy or is_safe(spec, state) or not nominal_agrees(spec, better):
+        return False
+    changed = Changed(policy, state, better)
+    if missed == state:
+        return arrival(spec, changed, state, better) is None
+    first = policy.get(missed)
+    if first is None or not nominal_agrees(spec, first) or arrival(spec, policy, missed, first) is None:
+        return False
+    return arrival(spec, changed, missed, first) is None
+
+
+def arrival(
+    spec: Spec, policy: Mapping[State, ActionSet], start: State, first: ActionSet, goal: Residual | None = None
+) -> int | None:
+    """After how many steps the run that begins with `first` meets a goal, its own if none is given; None: never.
+
+    Nominal effects of `first` must agree.
+    """
+    wanted = residual_goal(spec, start, first) if goal is None else goal
+    here, chosen, met = start, first, set[State]()
+    for steps in count(1):
+        here = successor(spec, here, chosen)
+        if reached(spec, wanted, here):
+            return steps
+        decision = policy.get(here)
+        if steps == spec.max_plan_length or here in met or decision is None or not nominal_agrees(spec, decision):
+            return None
+        met.add(here)
+        chosen = decision
+    return None
 
 
 class Changed(Mapping[State, ActionSet]):

@@ -43,10 +43,11 @@ class WalkGoals:
         return parts
 
     def reached(self, goal: Residual) -> Function:
-        """Where a residual goal holds."""
+        """Where a residual goal is met: where safety may take several steps to restore, in safe states only."""
         executed = [int(action in goal.executed) for action in range(len(self._spec.actions))]
         bodies = [self._spec.bodies[body].formula for body in sorted(goal.bodies)]
-        return self._walk.all_of(self._model.formula(body, executed) for body in bodies)
+        holds = self._walk.all_of(self._model.formula(body, executed) for body in bodies)
+        return self._walk.all_of((holds, self._model.safe)) if self._spec.restores_stepwise else holds
 
     def within(self, goal: Residual) -> Function:
         """From where the run of the policy satisfies `goal` in at most `L - 1` steps, none included: layer by layer."""

@@ -47,7 +47,10 @@ class Model:
             self._is(self.group_variable(action), self._place[action][1]) for action in range(len(spec.actions))
         ]
         self.valid = walk.all_of(self.formula(rule.formula) for rule in spec.assumptions)
-        self.safe = walk.all_of((self.valid, *(self.formula(rule.formula) for rule in spec.state_rules)))
+        self.tiers = [self.valid]  # the valid states that satisfy no, one, … tiers of state rules, the severest first
+        for tier in spec.tiers:
+            self.tiers.append(walk.all_of((self.tiers[-1], *(self.formula(rule.formula) for rule in tier))))
+        self.safe = self.tiers[-1]
         self.decided = walk.all_of((self.valid, taken[decisions.defined]))
         self._next: dict[Function, Function] = {}
 
@@ -130,16 +133,34 @@ class Model:
         return self.walk.all_of(self.walk.substitute(function, effect) for effect in effects)
 
     @cached_property
+    def requirements(self) -> list[tuple[Function, Function]]:
+        """Conditions 5 and 6: where `s` is in the first, all of `Next(s, A)` has to be in the second.
+
+        Where safety is restored in one step that is: all safe. In several, a rule counts where it holds, and only with
+        those that are as severe as the severest broken ones, or more (sections 9 and 10).
+        """
+        spec, walk = self.spec, self.walk
+        if not spec.restores_stepwise:
+            return [(TRUE, self.safe)]
+        found = [(self.safe, self.safe), (walk.without(self.valid, self.safe), self.valid)]
+        for kept, tier in zip(self.tiers, spec.tiers, strict=False):
+            for rule in tier:
+                holds = self.formula(rule.formula)
+                counts = kept if spec.restoration == "one_step" else walk.all_of((kept, holds))
+                found.append((walk.without(counts, self.safe), walk.all_of((self.valid, holds))))
+        return [(where, target) for where, target in found if where != FALSE]
+
+    @cached_property
     def safe_from_here(self) -> Function:
         """`s` is safe and `lasting` holds, and so it stays whatever effects of `A` are still to come."""
-        return self._stays_in(self._fine)
+        return self.stays_in(self._fine)
 
     @cached_property
     def _fine(self) -> Function:
         """`s` is safe, and `lasting` holds."""
         return self.walk.all_of((self.safe, self.lasting))
 
-    def _stays_in(self, target: Function) -> Function:
+    def stays_in(self, target: Function) -> Function:
         """`s` is in `target`, and stays there whatever effects of `A` are still to come, in any order.
 
         The one solution of `f(s, A) ⇔ s ∈ target and f(e(s), A \\ a)` for every effect `e` of every `a ∈ A`; `target`
@@ -158,6 +179,15 @@ class Model:
         """Condition 5: every outcome of `A` in `s` is safe. Speaks of sets without conflicts only."""
         return self._outcomes_in(self.safe, self.safe_from_here if self._ordering == "any" else self._fine)
 
+    def outcomes_in(self, target: Function) -> Function:
+        """Every outcome of `A` in `s` is in `target`, and `lasting` holds. Speaks of sets without conflicts only."""
+        return self._outcomes_in(target, self.remains_in(target))
+
+    def remains_in(self, target: Function) -> Function:
+        """What has to hold after each effect so that all outcomes are in `target`, and `lasting` holds."""
+        fine = self.walk.all_of((target, self.lasting))
+        return self.stays_in(fine) if self._ordering == "any" else fine
+
     def _outcomes_in(self, target: Function, then: Function) -> Function:
         """Every outcome of `A` in `s` is in `target`, where `then` has to hold after each effect."""
         walk = self.walk
@@ -168,8 +198,8 @@ class Model:
     def leads_into(self, target: Function) -> Function:
         """`Next(s, π(s)) ⊆ target`, where the policy acts without conflicts."""
         if self._ordering == "any":  # then all nominal effects in turn are an outcome
-            return self.walk.all_of((self.acting, self._as_decided(self._outcomes_in(target, self._stays_in(target)))))
-        outcomes = self._as_decided(self._outcomes_in(target, target))
+            return self.walk.all_of((self.acting, self.as_decided(self._outcomes_in(target, self.stays_in(target)))))
+        outcomes = self.as_decided(self._outcomes_in(target, target))
         return self.walk.all_of((self.acting, outcomes, self.next(target)))
 
     def successor(self, executed: Sequence[Function]) -> dict[int, Function]:
@@ -236,11 +266,17 @@ class Model:
                 walk.without(self.decided, self.formula(rule.formula, policy)),
             )
         apart = walk.without(self.decided, conflict)
-        yield "every outcome is safe", walk.without(apart, self._as_decided(self.outcomes_safe))
+        if spec.restores_stepwise:
+            for where, target in self.requirements:
+                ends = [self.as_decided(self.outcomes_in(target))]
+                ends += [self.next(target)] if self._ordering == "first" else []
+                yield "the rules that have to be kept are", walk.without(walk.all_of((apart, where)), walk.all_of(ends))
+            return
+        yield "every outcome is safe", walk.without(apart, self.as_decided(self.outcomes_safe))
         if self._ordering == "first":
             yield "δ is safe", walk.without(apart, self.next(self.safe))
 
-    def _as_decided(self, function: Function) -> Function:
+    def as_decided(self, function: Function) -> Function:
         """`function` of `(s, π(s))`, where no two actions of `π(s)` are in conflict."""
         walk, policy = self.walk, self.policy
         for group, actions in enumerate(self.groups):
@@ -253,13 +289,23 @@ class Model:
 
     @cached_property
     def allowed(self) -> Function:
-        """`Ok(s, A)`."""
+        """`Ok(s, A)`; where safety may be restored in several steps, `Keep(s, A)`."""
         spec, walk = self.spec, self.walk
         parts = [self.applicable, self.compatible]
         parts += [self.formula(rule.formula, self.chosen) for rule in spec.reaction_rules]
+        if spec.restores_stepwise:
+            parts += [walk.select(where, (TRUE, self._into(target))) for where, target in self.requirements]
+            return walk.all_of(parts)
         if self._ordering == "first":
             parts.append(walk.substitute(self.safe, self.successor(self.chosen)))
         return walk.all_of((*parts, self.outcomes_safe))
+
+    def _into(self, target: Function) -> Function:
+        """`Next(s, A) ⊆ target`. Speaks of sets without conflicts only."""
+        outcomes, walk = self.outcomes_in(target), self.walk
+        if self._ordering == "any":  # then all nominal effects in turn are an outcome
+            return outcomes
+        return walk.all_of((outcomes, walk.substitute(target, self.successor(self.chosen))))
 
     # Durations
 
@@ -296,6 +342,10 @@ class Model:
                     where = rest
                     break
         return tuple(found)
+
+    def is_state(self, state: State) -> Function:
+        """One state."""
+        return self.walk.all_of(self._is(variable, value) for variable, value in enumerate(state))
 
     def holds(self, function: Function, state: State, chosen: ActionSet) -> bool:
         """Whether a predicate is true of one state and one set without conflicts."""

@@ -17,6 +17,7 @@ from tumato_symbolic.verify.by_walk.ahead import Ahead, Task
 from tumato_symbolic.verify.by_walk.goals import WalkGoals
 from tumato_symbolic.verify.by_walk.model import Model
 from tumato_symbolic.verify.by_walk.ranks import WalkRanks
+from tumato_symbolic.verify.by_walk.stepwise import Stepwise
 from tumato_symbolic.verify.by_walk.walk import FALSE, BudgetError, Function, given_up
 from tumato_symbolic.verify.by_walk.witnesses import Witnesses
 from tumato_symbolic.verify.decisions import Decisions
@@ -51,8 +52,6 @@ class WalkProver:
 
         `most` is how many results may be remembered for it alone.
         """
-        if self._spec.restores_stepwise and name != "total":
-            return PropertyResult(name, "undecided", reason="the walk is not asked where safety may take several steps")
         before = (self._ranks.use, self._ranks.roots) if self._ahead.answers else None
         try:
             self._model.walk.deadline = self._budget.until(self._ahead.seconds.get(name, 0.0))
@@ -122,8 +121,12 @@ class WalkProver:
                 return self._total
             case "safe":
                 return lambda: self._ahead.take(("safe", most), self._safe)
+            case "restoring":
+                return lambda: self._stepwise.restoring(lambda: self._not_allowed == FALSE)
             case "goals":
                 return self._goals
+            case _ if self._spec.restores_stepwise:
+                return lambda: self._stepwise.minimal()  # noqa: PLW0108 - made within the limits
             case _:
                 return self._minimal_joined
 
@@ -174,6 +177,11 @@ class WalkProver:
         return WalkGoals(self._model)
 
     @cached_property
+    def _stepwise(self) -> Stepwise:
+        decisions = Decisions(self._spec, self._policy)
+        return Stepwise(self._model, self._residual_goals, self._ranks, decisions, self._ordering)
+
+    @cached_property
     def _witnesses(self) -> Witnesses:
         return Witnesses(self._model, Decisions(self._spec, self._policy), self._ordering)
 
@@ -191,7 +199,7 @@ class WalkProver:
     def _goals(self) -> PropertyResult:
         model, walk, ranks = self._model, self._model.walk, self._ranks
         owing = walk.without(model.decided, self._not_allowed)
-        owed = [(goal, where) for goal, where in self._residual_goals.residuals(owing, model.policy) if goal.bodies]
+        owed = self._owed(owing)
         result = self._by_certificate(owed) if ranks.check_given(self._decreases) else None
         if result is not None:
             return result
@@ -202,6 +210,18 @@ class WalkProver:
         if refuted is None:
             raise RuntimeError("the run reaches its goal, against the walk")
         return refuted
+
+    def _owed(self, owing: Function) -> list[tuple[Residual, Function]]:
+        """The goals that are owed, each with the states of `owing` that owe it.
+
+        Without an active goal nothing is; in several steps an unsafe state owes a run to safety.
+        """
+        every = self._residual_goals.residuals(owing, self._model.policy)
+        if not self._spec.restores_stepwise:
+            return [(goal, where) for goal, where in every if goal.bodies]
+        walk, safe = self._model.walk, self._model.safe
+        parts = [(goal, where if goal.bodies else walk.without(where, safe)) for goal, where in every]
+        return [(goal, where) for goal, where in parts if where != FALSE]
 
     def _decreases(self, goal: Residual) -> bool:
         return self._ahead.take(("decreases", goal), partial(self._ranks.decreases, goal))

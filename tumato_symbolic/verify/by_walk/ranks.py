@@ -22,7 +22,7 @@ def at_most_one_more(one: int, other: int) -> int:
 class WalkRanks(GivenRanks):
     """What a step must lead to: states that the policy leads to a residual goal in at most `L - 1` steps.
 
-    Given ranks speak of safe states; those computed here of all.
+    Given ranks speak of safe states, and of all valid ones where efforts came with them; those computed here of all.
     """
 
     def __init__(self, model: Model, goals: WalkGoals, policy: Policy, policy_is_safe: Callable[[], bool]) -> None:
@@ -43,22 +43,26 @@ class WalkRanks(GivenRanks):
         """These states, by the ranks that came with the policy."""
         bound = self._model.spec.max_plan_length
         largest = self._never if bound is None else min(bound, self._never)
-        return self._model.walk.combine(operator.lt, self._given(goal), self._model.walk.constant(largest))
+        walk = self._model.walk
+        near = walk.combine(operator.lt, self._given(goal), walk.constant(largest))
+        return walk.all_of((near, self._spoken_of)) if self._model.spec.restores_stepwise else near
 
     def given_far(self, goal: Residual) -> Function:
         """The states with a given rank that is a number, and too large."""
         walk = self._model.walk
         ranked = walk.combine(operator.lt, self._given(goal), walk.constant(self._never))
+        if self._model.spec.restores_stepwise:
+            ranked = walk.all_of((ranked, self._spoken_of))
         return walk.without(ranked, self.given_near(goal))
 
     def prepare(self) -> None:
         """Compute what given ranks have in common, whatever their goals."""
         if self.roots:
-            self._taken, self._safe_after  # noqa: B018 - cached
+            self._taken, self._spoken_of_after  # noqa: B018 - cached
 
     def check_given(self, decreases: Callable[[Residual], bool]) -> bool:
         """Whether there is a certificate all of whose ranks decrease; a false one is set aside."""
-        if self.use != UNNEEDED:
+        if not self.stands or (self.use != UNNEEDED and not self._model.spec.restores_stepwise):
             return False
         for goal in self.roots:
             if not decreases(goal):
@@ -71,6 +75,8 @@ class WalkRanks(GivenRanks):
         if goal not in self.roots:
             if self.roots:
                 self.lacks(goal)
+            return self.near(goal)
+        if self._model.spec.restores_stepwise and not self.speaks_of_unsafe:
             return self.near(goal)
         if goal not in self._lower_bounds:
             self._lower_bounds[goal] = self._is_lower_bound(goal)
@@ -99,27 +105,32 @@ class WalkRanks(GivenRanks):
         return self._taken[self.roots[goal]]
 
     def decreases(self, goal: Residual) -> bool:
-        """`N = 0` only where the goal holds, and from `N = j > 0` a step to a safe state with a smaller rank."""
+        """`N = 0` only where the goal is met, and from `N = j > 0` a step to a state with a smaller rank."""
         model, walk = self._model, self._model.walk
         here = self._given(goal)
         after = model.next(here)
         known = walk.combine(operator.lt, here, walk.constant(self._never))
         at_goal = walk.combine(operator.eq, here, walk.constant(0))
-        goes_down = walk.all_of((model.acting, self._safe_after, walk.combine(operator.lt, after, here)))
+        goes_down = walk.all_of((model.acting, self._spoken_of_after, walk.combine(operator.lt, after, here)))
         right = walk.select(at_goal, (goes_down, self._goals.reached(goal)))
-        return walk.without(walk.all_of((model.safe, known)), right) == FALSE
+        return walk.without(walk.all_of((self._spoken_of, known)), right) == FALSE
 
     def _is_lower_bound(self, goal: Residual) -> bool:
-        """`N = 0` where the goal holds, and nowhere more than one above the next state's, which is safe."""
+        """`N = 0` where the goal is met, and nowhere more than one above the next state's, which is spoken of."""
         model, walk = self._model, self._model.walk
         here = self._given(goal)
         after = model.next(here)
-        follows = walk.all_of((self._safe_after, walk.combine(at_most_one_more, here, after)))
+        follows = walk.all_of((self._spoken_of_after, walk.combine(at_most_one_more, here, after)))
         at_goal = walk.combine(operator.eq, here, walk.constant(0))
         wrong = walk.select(self._goals.reached(goal), (walk.without(model.acting, follows), walk.negation(at_goal)))
-        return walk.all_of((model.safe, wrong)) == FALSE
+        return walk.all_of((self._spoken_of, wrong)) == FALSE
 
-    @cached_property
-    def _safe_after(self) -> Function:
-        """`δ(s, π(s)) ∈ S`, where the policy acts."""
-        return self._model.next(self._model.safe)
+    @property
+    def _spoken_of(self) -> Function:
+        """Where a number claims something: in `S`; where efforts came with the ranks, in `V`."""
+        return self._model.valid if self.speaks_of_unsafe else self._model.safe
+
+    @property
+    def _spoken_of_after(self) -> Function:
+        """`δ(s, π(s))` is such a state, where the policy acts."""
+        return self._model.next(self._spoken_of)

@@ -58,10 +58,14 @@ class Witnesses:
         for objection in objections(self._spec, state, chosen, "first"):
             if self._ordering == "first" or objection.kind != "nominal-unsafe":
                 return objection
-        return self._fault(state, chosen)
+        model = self._model
+        for where, target in model.requirements:
+            if model.holds(where, state, chosen) and not model.holds(model.outcomes_in(target), state, chosen):
+                return self._fault(state, chosen, model.remains_in(target))
+        raise RuntimeError(f"{sorted(chosen)} is allowed in {state}, against the walk")
 
-    def _fault(self, state: State, chosen: ActionSet) -> Objection:
-        """What is wrong after some effects, those left out that it does not take."""
+    def _fault(self, state: State, chosen: ActionSet, fine: Function) -> Objection:
+        """What is wrong after some effects, those left out that it does not take; `fine` is where nothing will be."""
         steps: list[tuple[int, Assignment]] = []
         here, waiting = state, chosen
         fault: Objection | None = None
@@ -70,7 +74,7 @@ class Witnesses:
             number, effect = next(
                 (number, effect)
                 for number, effect in options
-                if not self._model.holds(self._model.safe_from_here, apply(effect, here), waiting - {number})
+                if not self._model.holds(fine, apply(effect, here), waiting - {number})
             )
             steps.append((number, effect))
             here, waiting = apply(effect, here), waiting - {number}
