@@ -1599,7 +1599,7 @@ def judge_no(world: World, document: dict[str, Any]) -> str:
     if kind == "no-plan":
         return check_no_plan(world, reason, document["States"])
     if kind == "no-restoration":
-        raise NotKnown("certificates that safety is never restored are not known yet")
+        return check_no_restoration(world, reason, document["States"])
     need(kind == "conflict", "`Kind` is `no-allowed-set`, `no-restoration`, `no-plan` or `conflict`")
     return check_conflict(world, reason, document["States"])
 
@@ -1809,6 +1809,29 @@ def safe_outcome(world: World, state: State, cube: Cube) -> str:
         late = cube.actions <= cube.executed.difference(names)
         return "" if late and world.falsified(state, cube.actions) else "no precondition is falsified"
     return f"{world.show(state)} is safe" if world.meets(required, state) else ""
+
+
+# No restoration: a trap is the states of a set that have the level of `State`, which is not safe. Whatever is executed
+# in one of them, some outcome (under `fair` the nominal one) is in the trap again.
+
+
+def check_no_restoration(world: World, reason: dict[str, Any], states: Numbered) -> str:
+    """From `State` nothing surely leads to a state of a higher level."""
+    start = read_state(reason, "State", world.spec)
+    diagram = Diagram(reason, states, world.spec)
+    need(diagram.is_yes_or_no(), "`Leaves` is not [false, true]")
+    root = diagram.reference(reason.get("Root"))
+    check_decides(world, start)
+    level = [state for state in world.valid if world.level(state) == world.level(start)]
+    trap = {state: None for state in level if diagram.value(root, state)}
+    if world.is_safe(start) or start not in trap:
+        raise Refuted(f"{world.show(start)} is safe, or not in the trap")
+    for state in trap:
+        for chosen, after in world.steps(state):
+            ends = {after} if world.restoration == "fair" else world.next_states(state, chosen)
+            if ends.isdisjoint(trap):
+                raise Refuted(f"{world.step(state, chosen)}, and surely out of the trap")
+    return f"safety is never surely restored from {world.show(start)}, by a trap of {counted(len(trap), 'state')}"
 
 
 # No plan: whatever residual goal `State` can owe, the layers R_1, …, R_n hold all runs of allowed steps that owe it
@@ -2112,9 +2135,8 @@ def judge_policy(spec: Specification, policy: Policy, options: argparse.Namespac
     if options.effect_ordering is None and policy.document.get("EffectOrdering") == "first" and ordering == "any":
         print("ordering FAILS: the policy was made for `first`, but the specification means `any`")
         right = False
-    made_for = policy.document["Restoration"]
-    if options.restoration is None and weaker(made_for, world.restoration):
-        meant = world.restoration
+    made_for, meant = policy.document["Restoration"], world.restoration
+    if options.restoration is None and RESTORATIONS.index(made_for) > RESTORATIONS.index(meant):
         print(f"restoration FAILS: the policy was made for `{made_for}`, but the specification means `{meant}`")
         right = False
     for name, (states, reason) in judge.verdicts().items():
@@ -2127,11 +2149,6 @@ def judge_policy(spec: Specification, policy: Policy, options: argparse.Namespac
     return 0 if right else 1
 
 
-def weaker(restoration: str, other: str) -> bool:
-    """Whether a way to restore safety asks for less than another one."""
-    return RESTORATIONS.index(restoration) > RESTORATIONS.index(other)
-
-
 def shown_settings(world: World) -> str:
     """The ordering, and the restoration where it is not `one_step`."""
     restoration = "" if world.restoration == "one_step" else f"; restoration {world.restoration}"
@@ -2139,23 +2156,18 @@ def shown_settings(world: World) -> str:
 
 
 def judge_certificate_of_no(spec: Specification, document: dict[str, Any], options: argparse.Namespace) -> int:
-    """Ordering and restoration are the command line's, else the certificate's.
+    """The ordering is the command line's, else the certificate's; `any` proves nothing where `first` is written.
 
-    `any` proves nothing where `first` is written, and a restoration nothing where a weaker one is meant.
+    Safety is to be restored as the command line or the specification says, whatever the certificate was made for.
     """
     read_header(document, spec)
     need({"SpecificationDigest", "EffectOrdering"} <= set(document), "the digest or the ordering is missing")
     ordering = options.effect_ordering or document["EffectOrdering"]
-    restoration, meant = options.restoration or document["Restoration"], spec.restoration or "one_step"
-    world = World(spec, ordering, restoration)
+    world = World(spec, ordering, options.restoration)
     print(shown_settings(world))
     shown = why = ""
     if options.effect_ordering is None and (ordering, spec.ordering) == ("any", "first"):
         why = "it speaks of `any`, but the specification writes `first`, under which more sets are allowed"
-    elif options.restoration is None and weaker(meant, restoration):
-        why = (
-            f"it speaks of `{restoration}`, but the specification means `{meant}`, under which more policies are right"
-        )
     else:
         try:
             shown = judge_no(world, document)

@@ -220,17 +220,68 @@ def test_no_allowed_set_by_severity(tmp_path: Path) -> None:
     assert_refuted(answer, "doing nothing may be allowed")
 
 
-def test_what_a_certificate_of_no_was_made_for(tmp_path: Path) -> None:
-    """One for a weaker restoration proves the same of a stronger one, and not the other way round."""
+def test_a_certificate_of_no_is_judged_by_what_is_meant(tmp_path: Path) -> None:
+    """Whatever it was made for: no set keeps both reaction rules, and doing nothing keeps all others."""
     text = VALVES + "BEGIN REACTION RULES rule: executing close_a rule: NOT executing close_a END REACTION RULES "
     reason = no_set({"A": "open", "B": "open"})
     for made_for in ("one_step", "bounded", "fair"):
-        assert_proved(asked_no(tmp_path, text, reason, made_for=made_for))
-    fair = f"{text} BEGIN CONFIG restoration: fair END CONFIG"
-    assert_proved(asked_no(tmp_path, fair, reason, made_for="fair"))
-    for made_for in ("one_step", "bounded"):
-        assert_refuted(asked_no(tmp_path, fair, reason, made_for=made_for), "but the specification means `fair`")
-        assert_proved(asked_no(tmp_path, fair, reason, "--restoration", "bounded", made_for=made_for))
+        for meant in ("one_step", "bounded", "fair"):
+            answer = asked_no(
+                tmp_path, f"{text} BEGIN CONFIG restoration: {meant} END CONFIG", reason, made_for=made_for
+            )
+            assert_proved(answer)
+            assert (f"restoration {meant}" in answer.out) == (meant != "one_step")
+            answer = asked_no(tmp_path, VALVES, reason, "--restoration", meant, made_for=made_for)
+            assert (answer.code == 0) == (meant == "one_step"), answer
+    answer = asked_no(tmp_path, text, reason, made_for="never")
+    assert (answer.code, answer.out) == (2, "")
+
+
+TRAP = """
+BEGIN STATE VECTOR state P can be a, b, c, d, x END STATE VECTOR
+BEGIN RESOURCES resource LEGS END RESOURCES
+BEGIN ACTIONS
+action ab controlled resources: LEGS preconditions: P is a nominal effects: P is b alternative effects: none
+action bc controlled resources: LEGS preconditions: P is b nominal effects: P is c alternative effects: P is a
+action bx controlled resources: LEGS preconditions: P is b nominal effects: P is x alternative effects: P is a
+action dc controlled resources: LEGS preconditions: P is d nominal effects: P is c
+END ACTIONS
+BEGIN STATE RULES severity: {} rule: NOT P is c severity: 2 rule: P is x END STATE RULES
+"""
+
+
+@pytest.mark.parametrize("restoration", ["bounded", "fair"])
+@pytest.mark.parametrize(
+    ("start", "trap", "proved"),
+    [
+        ("a", "ab", "bounded"),  # from b nominally to x; but back to a for ever
+        ("b", "ab", "bounded"),
+        ("a", "abx", "bounded"),  # x does not count: it has another level
+        ("a", "a", "bounded"),  # a may stay where it is
+        ("b", "b", ""),  # nothing leads back to b itself
+        ("d", "d", "bounded fair"),  # c is worse, and d does nothing
+        ("d", "bd", ""),
+        ("d", "abd", "bounded"),
+        ("c", "c", "bounded fair"),
+        ("a", "b", ""),  # not in it
+        ("x", "x", ""),  # safe
+    ],
+)
+def test_traps(restoration: str, start: str, trap: str, proved: str, tmp_path: Path) -> None:
+    """No restoration: of which sets it is proved that nothing surely leads out."""
+    below = [int(place in trap) for place in "abcdx"]
+    reason = {"Kind": "no-restoration", "State": {"P": start}, "Order": ["P"], "Leaves": [False, True], "Root": 2}
+    answer = asked_no(tmp_path, TRAP.format(1), {**reason, "Nodes": [[0, below]]}, "--restoration", restoration)
+    assert (answer.code == 0) == (restoration in proved), answer
+    assert ("unrealizable holds: safety is never surely restored from" in answer.out) == (answer.code == 0)
+
+
+@pytest.mark.parametrize("change", [{"Root": 9}, {"Root": None}, {"Leaves": [0, 1]}, {"State": {}}, {"Nodes": {}}])
+def test_traps_that_have_not_the_form(change: dict[str, Any], tmp_path: Path) -> None:
+    """They cannot be judged."""
+    reason = {"Kind": "no-restoration", "State": {"P": "a"}, "Order": ["P"], "Leaves": [False, True], "Root": 2}
+    answer = asked_no(tmp_path, TRAP.format(1), {**reason, "Nodes": [[0, [1, 1, 0, 0, 0]]], **change})
+    assert (answer.code, answer.out.count("unrealizable")) == (2, 0), answer
 
 
 def test_no_verdict_on_what_is_not_known(tmp_path: Path) -> None:
