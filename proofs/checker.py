@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Judge a policy against a specification by the explicit meaning. One file; nothing but Python (3.9 or newer).
 
-    python3 checker.py policy.json spec.tum [--strict]
+    python3 checker.py policy.json spec.tum [--strict] [--guarantees guarantees.json]
         [--effect-ordering any|first] [--restoration one_step|bounded|fair]
 
 It is written from docs/semantics.md, language.md, policy.md and certificate.md and shares no code with the package: a
@@ -17,7 +17,8 @@ these properties of the policy, be it a table or a diagram:
 Exit codes: 0 all hold; 1 one fails; 2 unreadable input, or a specification with errors; 3 no verdict (too large to look
 at every state, or a kind of claim that is not known); 70 this program is broken. A certificate (ranks, efforts) is
 judged as well: one that is wrong, or stale (made for another specification), counts only with `--strict`; one that is
-absent or incomplete never does.
+absent or incomplete never does. With `--guarantees`, the certificate of what the policy guarantees beyond nominal runs
+has to be right as well.
 
 Not judged: whether the specification says what was meant.
 """
@@ -1585,7 +1586,134 @@ def meaning_of_goal(spec: Specification, goal: Goal) -> list[Any]:
 
 
 # ----------------------------------------------------------------------------------------------------------------------
-# 8. The answer no (docs/certificate.md): a certificate that there is no policy. What it claims is looked at state by
+# 8. What the policy guarantees beyond nominal runs (docs/certificate.md). A rank claims, of a state that still owes the
+#    goal, how many steps are left: nominal ones in W_k, of `Surviving`, the worst in G, of `Forced`. The ranks have to
+#    be the fixpoints exactly, so that both what they hold and what they leave out is shown, and each level follows.
+
+
+LEVELS = ("guaranteed", "fair", "survives", "nominal")
+Ranks = dict[State, Any]  # a number, or None outside
+
+
+class Guarantees:
+    """The claims of a file, by residual goal: the ranks of W_0, W_1, …, W_ω, and those of G, of every valid state."""
+
+    def __init__(self, judge: Judge, document: dict[str, Any]) -> None:
+        world = judge.world
+        self.world, self.judge = world, judge
+        self.next = {state: world.next_states(state, chosen) for state, chosen in judge.decided.items()}
+        section: Any = document.get("Ranks")
+        diagram = Diagram(section, document["States"], world.spec)
+        need(diagram.is_of_numbers(), "`Leaves` are not different numbers")
+        self.surviving: dict[Residual, list[Ranks]] = {}
+        self.forced: dict[Residual, Ranks] = {}
+        for entry in read_objects(section, "Goals"):
+            goal = read_goal(entry, world.spec)
+            need(goal[1] == set(entry["Executed"]), "`Executed` has an action of which the goal does not speak")
+            need(goal not in self.forced, f"it ranks {entry['Bodies']} twice")
+            need(read_list(entry, "Surviving") != [], "`Surviving` is empty")
+            roots = [diagram.reference(root) for root in (*entry["Surviving"], entry.get("Forced"))]
+            *ranks, self.forced[goal] = ({state: diagram.value(root, state) for state in world.valid} for root in roots)
+            self.surviving[goal] = ranks
+
+    def check_ranks(self) -> None:
+        """Every rank is right, and every state without one is outside the fixpoint."""
+        for goal, surviving in self.surviving.items():
+            for state in self.world.valid:
+                if self.world.reached(goal, state):
+                    right = all(ranks[state] == 0 for ranks in (*surviving, self.forced[goal]))
+                else:
+                    right = self.is_right(goal, state)
+                if not right:
+                    where = f"the ranks of {self.world.show(state)} for {goal_text(self.world, goal)}"
+                    raise Refuted(f"{where} are not those of its steps")
+
+    def is_right(self, goal: Residual, state: State) -> bool:
+        """Whether the ranks of a state where the goal does not hold are what those of the next states say."""
+        surviving, forced = self.surviving[goal], self.forced[goal]
+        nominal, after = self.judge.after[state], self.next[state]
+        worst = [forced[each] for each in after]
+        if forced[state] != (None if None in worst else 1 + max(worst)):
+            return False
+        for number, ranks in enumerate(surviving):
+            before = surviving[number - 1] if number else None
+            stays = before is None or all(before[each] is not None for each in after if each != nominal)
+            left = ranks[nominal] if stays else None
+            if ranks[state] != (None if left is None else 1 + left):
+                return False
+        last = surviving[-1]  # closed under all outcomes, and so a part of every W_k
+        return last[state] is None or all(last[each] is not None for each in after)
+
+    def level(self, state: State) -> tuple[str, int | None, int | None]:
+        """The level of a state, with the worst number of steps and the number of deviations."""
+        goal = self.world.residual_goal(state, self.judge.decided[state])
+        if goal not in self.forced:
+            raise Refuted(f"it has no ranks for {goal_text(self.world, goal)}, which {self.world.show(state)} owes")
+        surviving, forced = self.surviving[goal], self.forced[goal]
+        nominal, after = self.judge.after[state], self.next[state]
+        worst = [forced[each] for each in after]
+        if None not in worst:
+            return "guaranteed", 1 + max(worst), None
+        if all(surviving[-1][each] is not None for each in after):
+            return "fair", None, None
+        for number in reversed(range(1, len(surviving))):
+            others = all(surviving[number - 1][each] is not None for each in after if each != nominal)
+            if surviving[number][nominal] is not None and others:
+                return "survives", None, number
+        return "nominal", None, None
+
+    def levels(self) -> dict[tuple[str, int | None], list[tuple[State, int | None]]]:
+        """The states of every level, each with its worst number of steps."""
+        found: dict[tuple[str, int | None], list[tuple[State, int | None]]] = {}
+        for state in self.world.valid:
+            name, steps, deviations = self.level(state)
+            found.setdefault((name, deviations), []).append((state, steps))
+        return found
+
+
+def check_guarantees(judge: Judge, document: dict[str, Any]) -> str:
+    """The levels in words; `judge` has found the policy total and safe, and its goals met."""
+    world = judge.world
+    claims = Guarantees(judge, document)
+    claims.check_ranks()
+    found, told = claims.levels(), list[str]()
+    for entry in read_objects(document, "Levels"):
+        name, steps, deviations = str(entry.get("Level")), entry.get("Steps"), entry.get("Deviations")
+        need(name in LEVELS, f"`Level` is one of {', '.join(LEVELS)}")
+        need(all(number is None or is_number(number) for number in (steps, deviations)), "a number is wrong")
+        states = found.pop((name, deviations), [])
+        worst = max((each for _, each in states if each is not None), default=None)
+        title = name + ("" if deviations is None else f" {counted(deviations, 'deviation')}")
+        need(is_number(entry.get("States")), "`States` is a number")
+        if entry["States"] != len(states) or not states:
+            raise Refuted(f"{title}: there are {counted(len(states), 'such state')}, or it is told twice")
+        if steps != worst:
+            raise Refuted(f"{title}: the worst number of steps is {worst}")
+        check_cubes(world, entry.get("Cubes"), {state for state, _ in states}, title)
+        told.append(f"{len(states)} {title}" + ("" if worst is None else f" (at most {counted(worst, 'step')})"))
+    if found:
+        raise Refuted(f"it tells of no state that is {next(iter(found))[0]}")
+    return ", ".join(told)
+
+
+def check_cubes(world: World, cubes: Any, states: set[State], title: str) -> None:
+    """Cubes, if there are any, hold these valid states and no others."""
+    if cubes is None:
+        return
+    need(isinstance(cubes, list) and all(isinstance(cube, dict) for cube in cubes), "`Cubes` is a list of objects")
+    for cube in cubes:
+        known = set(cube) <= set(world.spec.variables) and all(map(is_names, cube.values()))
+        known = known and all(set(values) <= set(world.spec.variables[name]) for name, values in cube.items())
+        need(known, "a cube has an unknown variable or value")
+    places = {name: place for place, name in enumerate(world.spec.variables)}
+    for state in world.valid:
+        inside = any(all(state[places[name]] in values for name, values in cube.items()) for cube in cubes)
+        if inside != (state in states):
+            raise Refuted(f"{title}: the cubes are wrong about {world.show(state)}")
+
+
+# ----------------------------------------------------------------------------------------------------------------------
+# 9. The answer no (docs/certificate.md): a certificate that there is no policy. What it claims is looked at state by
 #    state, set by set; the first claim that is not so ends in `Refuted`.
 
 
@@ -2089,7 +2217,7 @@ def goal_text(world: World, goal: Residual) -> str:
 
 
 # ----------------------------------------------------------------------------------------------------------------------
-# 9. The command line.
+# 10. The command line.
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -2100,6 +2228,7 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("--effect-ordering", choices=("any", "first"))
     parser.add_argument("--restoration", choices=RESTORATIONS)
     parser.add_argument("--strict", action="store_true", help="a wrong or stale certificate makes the verdict no")
+    parser.add_argument("--guarantees", metavar="FILE", help="a certificate of what the policy guarantees")
     options = parser.parse_args(argv)
     recursion_limit = sys.getrecursionlimit()
     sys.setrecursionlimit(max(10_000, recursion_limit))
@@ -2146,7 +2275,29 @@ def judge_policy(spec: Specification, policy: Policy, options: argparse.Namespac
     if status in ("stale", "wrong"):
         status, right = status.upper(), right and not options.strict
     print(f"certificate: {status}" + (f": {why}" if why else ""))
+    if options.guarantees is not None:
+        right = judge_guarantees(judge, read_document(Path(options.guarantees).read_bytes())) and right
     return 0 if right else 1
+
+
+def judge_guarantees(judge: Judge, document: dict[str, Any]) -> bool:
+    """Whether the certificate of what the policy guarantees is right, for this specification and these settings."""
+    world, verdicts = judge.world, judge.verdicts()
+    read_header(document, world.spec)
+    need(document.get("Type") == "guarantees", "it is no certificate of guarantees")
+    made_for = document.get("SpecificationDigest"), document.get("EffectOrdering"), document["Restoration"]
+    why = shown = ""
+    if any(verdicts[name][0] for name in ("total", "safe", "goals")):
+        why = "the policy is not total and safe with its goals met, on which they build"
+    elif made_for != (digest(world.spec), world.ordering, world.restoration):
+        why = "they are for another specification, ordering or restoration"
+    else:
+        try:
+            shown = check_guarantees(judge, document)
+        except Refuted as problem:
+            why = str(problem)
+    print(f"guarantees FAIL: {why}" if why else f"guarantees hold: {shown}")
+    return not why
 
 
 def shown_settings(world: World) -> str:

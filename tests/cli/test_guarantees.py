@@ -101,3 +101,21 @@ def test_wrong_usage(cli: Cli, arguments: tuple[str, ...], said: str) -> None:
     """A folder, and properties that the levels build on."""
     ran = cli("verify", *arguments)
     assert (ran.code, said in ran.err) == (2, True)
+
+
+def test_a_certificate_is_written_where_it_is_asked_for(cli: Cli) -> None:
+    """To a file, which asks for the levels as well, or to the standard output, with the report beside it."""
+    command = _proved(cli)[:-1]
+    ran = cli(*command, "--write-guarantees", "shown.json")
+    assert (ran.code, "survives 1 deviation" in ran.out) == (0, True)
+    text = Path("shown.json").read_text(encoding="utf-8")
+    assert json.loads(text)["Type"] == "guarantees"
+    ran = cli(*command, "--write-guarantees", "-")
+    assert (ran.code, ran.out) == (0, text)
+    assert "survives 1 deviation" in ran.err
+
+
+def test_a_certificate_is_not_written_where_nothing_is_proved(cli: Cli) -> None:
+    """Of a policy that is refuted there is nothing to show."""
+    ran = cli("verify", "slower.json", "amr.tum", "--write-guarantees", "shown.json")
+    assert (ran.code, Path("shown.json").exists()) == (1, False)

@@ -98,6 +98,11 @@ VERIFY = (
     "-k",
     "not -7] and not depend",
 )
+GUARANTEES = (
+    "tests/verify/test_guarantees.py",
+    "tests/checker/test_guarantees.py",
+    "tests/cli/test_guarantees.py",
+)
 CHECKER = (
     "tests/checker/test_limits.py",
     "tests/checker/test_world.py",
@@ -114,10 +119,13 @@ CHECKER = (
     "tests/checker/test_restoration.py",
     "tests/checker/test_stepwise.py",
     "tests/checker/test_efforts.py",
+    "tests/checker/test_guarantees.py",
     "tests/readers/test_readers.py",
     "tests/readers/test_files.py",
 )
 TESTS: dict[str, tuple[str, ...]] = {
+    "tumato_symbolic/semantics/guarantees.py": ("tests/semantics/test_guarantees.py",),
+    "tumato_symbolic/semantics/shortcomings.py": ("tests/semantics/test_guarantees.py",),
     "tumato_symbolic/semantics": SEMANTICS,
     "tumato_symbolic/symbolic/steps.py": STEPS,
     "tumato_symbolic/policy/bind.py": BINDING,
@@ -128,6 +136,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "tumato_symbolic/verify/by_walk": WALK,
     "tumato_symbolic/verify/by_z3": Z3,
     "tumato_symbolic/verify/no_policy": NO_POLICY,
+    "tumato_symbolic/verify/guarantees": GUARANTEES,
     "tumato_symbolic/verify/children.py": PROCESSES,
     "tumato_symbolic/verify": VERIFY,
     "proofs/checker.py": CHECKER,

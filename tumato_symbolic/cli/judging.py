@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias, cast
 
+from tumato_symbolic.cli.console import write
 from tumato_symbolic.cli.exits import NO, UNDECIDED, YES
 from tumato_symbolic.cli.inputs import errors_in, read_spec
+from tumato_symbolic.cli.options import STANDARD_OUTPUT
 from tumato_symbolic.limits import Context
 from tumato_symbolic.policy import Policy
 from tumato_symbolic.report.verified import Verified
@@ -17,6 +20,7 @@ from tumato_symbolic.verify.guarantees.result import Guarantees
 from tumato_symbolic.verify.result import stopped
 
 if TYPE_CHECKING:
+    from tumato_symbolic.policy.guarantees_file import GuaranteesCertificate
     from tumato_symbolic.policy.unrealizable import Unrealizability
     from tumato_symbolic.report.unrealizable import Disproved
     from tumato_symbolic.spec import Ordering, Restoration
@@ -30,7 +34,7 @@ class Criteria:
     """What a claim is held to: an ordering and a restoration (None: the specification's), properties, and who proves.
 
     `strict`: its certificate has to hold as well. `guarantees`: what a policy guarantees beyond
-    nominal runs is asked as well.
+    nominal runs is asked as well, with a certificate where there is a file for it.
     """
 
     ordering: Ordering | None
@@ -39,6 +43,7 @@ class Criteria:
     prover: ProverName
     strict: bool
     guarantees: bool = False
+    guarantees_file: str | None = None
 
 
 def wanted_jobs(asked: int | None) -> int:
@@ -80,7 +85,10 @@ def judge(
             context.learn(done)
             from tumato_symbolic.verify.guarantees.analyse import guarantees
 
-            found = guarantees(claim, spec, verification.ordering, context=context)
+            certify = criteria.guarantees_file is not None
+            found = guarantees(claim, spec, verification.ordering, certify=certify, context=context)
+            if found.certificate is not None and criteria.guarantees_file is not None:
+                write_certificate(found.certificate, criteria.guarantees_file)
             return replace(done, guarantees=found, took=time.perf_counter() - started)
         from tumato_symbolic.report.unrealizable import Disproved
         from tumato_symbolic.verify import verify_unrealizable  # loads Z3, which --prover walk does without
@@ -92,6 +100,16 @@ def judge(
 
         part = context.within(learned=lambda found: context.learn(disproved(found)))
         return disproved(verify_unrealizable(claim, spec, ordering=criteria.ordering, context=part))
+
+
+def write_certificate(certificate: GuaranteesCertificate, target: str) -> None:
+    """Write it to a file; `-` is the standard output."""
+    from tumato_symbolic.policy.guarantees_file import dumps, save
+
+    if target == STANDARD_OUTPUT:
+        write(dumps(certificate).rstrip("\n"))
+    else:
+        save(certificate, Path(target))
 
 
 def _not_yet(verification: Verification) -> Guarantees:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from tumato_symbolic.cli import arguments
-from tumato_symbolic.cli.options import CommandOptions, OutputFormat, argument
+from tumato_symbolic.cli.options import CommandOptions, OutputFormat, Target, argument
 from tumato_symbolic.limits import Context
 
 if TYPE_CHECKING:
@@ -95,7 +95,18 @@ class Options(CommandOptions):
         help="say as well what a proved policy guarantees beyond nominal runs: with how many deviations from the "
         "nominal effects the goal is met, whether it is met once they stop, or whatever happens",
     )
+    guarantees_file: str | None = argument(
+        "--write-guarantees",
+        metavar="FILE",
+        help="write a certificate of what is guaranteed, which proofs/checker.py judges; asks for --guarantees as well",
+        writes=Target("certificate", "--write-guarantees", "guarantees.json"),
+    )
     output_format: OutputFormat = arguments.output_format("json", "github")
+
+    @property
+    def wants_guarantees(self) -> bool:
+        """Whether guarantees are asked for."""
+        return self.guarantees or self.guarantees_file is not None
 
     def mistake(self) -> str | None:
         """A policy needs one specification, a folder looks for its own; a certificate is judged with safe and goals."""
@@ -108,9 +119,9 @@ class Options(CommandOptions):
             return "--require-all is for a folder of policies"
         if self.strict and not {"safe", "goals"} <= set(self.properties):
             return "--strict judges the certificate, and needs safe and goals among the properties"
-        if self.guarantees and not self.specs:
+        if self.wants_guarantees and not self.specs:
             return "--guarantees is for one policy and its specification"
-        if self.guarantees and not {"total", "safe", "goals"} <= set(self.properties):
+        if self.wants_guarantees and not {"total", "safe", "goals"} <= set(self.properties):
             return "--guarantees builds on total, safe and goals, and needs them among the properties"
         return None
 
@@ -127,7 +138,8 @@ def run(options: Options, context: Context) -> int:
         options.properties,
         options.prover,
         options.strict,
-        options.guarantees,
+        options.wants_guarantees,
+        options.guarantees_file,
     )
     jobs = wanted_jobs(options.jobs)
     if options.specs:

@@ -9,12 +9,14 @@ from tumato_symbolic.limits import Budget, Context, LimitReachedError
 from tumato_symbolic.policy import Policy
 from tumato_symbolic.policy.bind import bind
 from tumato_symbolic.policy.convert import as_diagram
+from tumato_symbolic.policy.guarantees_file import GuaranteesCertificate
 from tumato_symbolic.semantics import Guarantee, Residual, Shortcoming, Shortcomings, State, residual_goal, shows
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.by_walk.goals import WalkGoals
 from tumato_symbolic.verify.by_walk.model import Model
 from tumato_symbolic.verify.by_walk.walk import BudgetError, given_up
 from tumato_symbolic.verify.decisions import Decisions
+from tumato_symbolic.verify.guarantees.certifying import certificate_of
 from tumato_symbolic.verify.guarantees.prospects import WalkProspects
 from tumato_symbolic.verify.guarantees.result import Guarantees, Level
 from tumato_symbolic.verify.guarantees.sets import StateSets
@@ -24,16 +26,24 @@ BUDGET = 300.0
 
 
 def guarantees(
-    policy: Policy, spec: Spec, ordering: Ordering, *, timeout: float | None = BUDGET, context: Context | None = None
+    policy: Policy,
+    spec: Spec,
+    ordering: Ordering,
+    *,
+    certify: bool = False,
+    timeout: float | None = BUDGET,
+    context: Context | None = None,
 ) -> Guarantees:
     """What a policy guarantees that is proved to be total, safe, and to reach its goals under `ordering`.
 
-    Undecided where the walk takes more time or memory than it is given.
+    `certify`: with a certificate. Undecided where the walk takes more time or memory than it is given.
     """
     context = context or Context()
     try:
         context.tell("looking for what is guaranteed")
-        return Guarantees("known", Analysis(spec, bind(policy, spec), ordering, Budget(timeout, context)).levels())
+        analysis = Analysis(spec, bind(policy, spec), ordering, Budget(timeout, context))
+        levels = analysis.levels()
+        return Guarantees("known", levels, certificate=analysis.certificate(levels) if certify else None)
     except (BudgetError, RecursionError) as error:
         reason = given_up(error)
     except LimitReachedError as limit:
@@ -64,6 +74,11 @@ class Analysis:
                     raise RuntimeError("a nominal run misses its goal, although that it does not is proved")
                 found.setdefault(guarantee, []).append(self._sets.of_walk(self._model.walk, states))
         return tuple(self._joined(found))
+
+    def certificate(self, levels: tuple[Level, ...]) -> GuaranteesCertificate:
+        """What shows that these are the levels."""
+        ranks = {goal: each.ranks() for goal, each in self._prospects.items()}
+        return certificate_of(self._spec, self._model.walk, self._ordering, ranks, levels)
 
     def _joined(self, found: dict[Guarantee, list[Reference]]) -> Iterator[Level]:
         """One level for all guaranteed states, and one for each weaker guarantee."""

@@ -11,6 +11,8 @@ from tumato_symbolic.verify.by_walk.goals import WalkGoals
 from tumato_symbolic.verify.by_walk.model import Model
 from tumato_symbolic.verify.by_walk.walk import FALSE, TRUE, Function
 
+NO_RANK = -1
+
 
 class WalkProspects:
     """The fixpoints of `semantics.Prospects` as functions for the walk.
@@ -20,13 +22,12 @@ class WalkProspects:
 
     def __init__(self, model: Model, goals: WalkGoals, goal: Residual) -> None:
         self._model, self._walk = model, model.walk
-        met = goals.reached(goal)
-        self._met = self._walk.all_of((met, model.safe)) if model.spec.restores_stepwise else met
+        self._met = goals.reached(goal)
 
     @cached_property
     def surviving(self) -> list[Function]:
         """`W_0, W_1, …` up to `W_ω`, each once."""
-        found = [self._nominally(self._model.acting)]
+        found = [self._nominal_layers[-1]]
         while (smaller := self._nominally(self._leads_into(found[-1]))) != found[-1]:
             found.append(smaller)
         return found
@@ -35,13 +36,22 @@ class WalkProspects:
         self._walk.make_room()
         return self._model.leads_into(target)
 
+    @cached_property
+    def _nominal_layers(self) -> list[Function]:
+        """The states of `W_0` by the number of nominal steps after which the goal is met, and all with fewer."""
+        return list(self._growing(self._model.acting))
+
     def _nominally(self, where: Function) -> Function:
         """`μX. c ∪ {t ∈ where : δ ∈ X}`."""
+        *_, found = self._growing(where)
+        return found
+
+    def _growing(self, where: Function) -> Iterator[Function]:
         found, before = self._met, None
         while found != before:
+            yield found
             before = found
             found = self._walk.any_of((self._met, self._walk.all_of((where, self._model.next(found)))))
-        return found
 
     @cached_property
     def layers(self) -> list[Function]:
@@ -77,6 +87,19 @@ class WalkProspects:
 
     def _split(self, states: Function, predicate: Function) -> tuple[Function, Function]:
         return self._walk.all_of((states, predicate)), self._walk.without(states, predicate)
+
+    def ranks(self) -> tuple[list[Function], Function]:
+        """For every `W_k` the number of nominal steps to the goal, for `G` that at worst; `NO_RANK` outside."""
+        nominal = self._numbered(self._nominal_layers)
+        nowhere = self._walk.constant(NO_RANK)
+        surviving = [self._walk.select(each, (nowhere, nominal)) for each in self.surviving]
+        return surviving, self._numbered(self.layers)
+
+    def _numbered(self, layers: list[Function]) -> Function:
+        found = self._walk.constant(NO_RANK)
+        for steps in reversed(range(len(layers))):
+            found = self._walk.select(layers[steps], (found, self._walk.constant(steps)))
+        return found
 
     def endures(self, state: State) -> float:
         """As `semantics.Prospects.endures`."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
+from tumato_symbolic.policy.guarantees_file import GuaranteesCertificate
 from tumato_symbolic.semantics import Guarantee, Shortcoming
 
 StateCube: TypeAlias = tuple[tuple[int, ...], ...]
@@ -30,9 +31,10 @@ class Guarantees:
     """The levels of all valid states, the strongest first.
 
     `unproved`: the policy's own properties are not proved, so that nothing was looked at. `undecided`: a limit was met,
-    as `reason` says.
+    as `reason` says. `certificate`: where one was asked for.
     """
 
     status: Literal["known", "undecided", "unproved"]
     levels: tuple[Level, ...] = ()
     reason: str | None = None
+    certificate: GuaranteesCertificate | None = None
