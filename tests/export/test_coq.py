@@ -174,3 +174,10 @@ def test_the_build_refuses_gaps(planted: str, tmp_path: Path) -> None:
     path = tmp_path / "Semantics.v"
     path.write_text(path.read_text(encoding="utf-8") + planted + "\n", encoding="utf-8")
     assert library.build().returncode != 0
+
+
+def test_preconditions_throughout_are_refused() -> None:
+    """The theory does not know them: no theorem is written that means less (TUM313)."""
+    policy = load(str(ROOT / "proofs" / "amr.policy.json"))
+    with pytest.raises(UserError, match="does not support"):
+        export(policy, replace(example("amr"), preconditions="throughout"), "any")

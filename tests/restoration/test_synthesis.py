@@ -89,7 +89,7 @@ def test_what_one_step_restores_is_decided_as_before(name: str, examples: dict[s
     before = synthesize(spec)
     assert isinstance(before, Realizable)
     for restoration in ("bounded", "fair"):
-        found = synthesize(replace(spec, restoration=restoration))  # type: ignore[arg-type]
+        found = synthesize(replace(spec, restoration=restoration))
         assert isinstance(found, Realizable)
         assert found.policy.decisions == before.policy.decisions
 

@@ -5,8 +5,6 @@ from dataclasses import replace
 import pytest
 
 from tumato_symbolic import parse
-from tumato_symbolic.diagnostics import UserError
-from tumato_symbolic.explain.explain import explain
 from tumato_symbolic.semantics import (
     NOTHING,
     ActionSet,
@@ -106,10 +104,3 @@ def test_only_the_order_of_severities_is_part_of_the_meaning() -> None:
     assert digest(parse(EDGE.format(1, 2))) == digest(parse(EDGE.format(3, 9)))
     assert digest(parse(EDGE.format(1, 2))) != digest(parse(EDGE.format(2, 1)))
     assert digest(restoring(VALVES, "fair")) == digest(parse(VALVES))
-
-
-def test_what_does_not_know_it_yet_refuses() -> None:
-    """Nothing takes several steps for one, or several severities for one (TUM313)."""
-    for spec in (restoring(VALVES, "bounded"), parse(EDGE.format(1, 2))):
-        with pytest.raises(UserError, match="does not support"):
-            explain(spec)

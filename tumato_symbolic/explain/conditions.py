@@ -39,7 +39,8 @@ class Demand:
 class Conditions:
     """The steps of a specification and of everything that dropping elements makes of it.
 
-    `valid` are the states that satisfy *all* assumptions: whatever is dropped, only these are asked about.
+    `valid` are the states that satisfy *all* assumptions: whatever is dropped, only these are asked about. `compatible`
+    has the sets that are compatible when no action needs a resource.
     """
 
     def __init__(self, spec: Spec, ordering: Ordering, backend: Backend, context: Context | None = None) -> None:
@@ -51,7 +52,7 @@ class Conditions:
         self.manager = self.encoding.manager
         self.valid: Bdd = self.encoding.domain() & self.encoding.all_of(rule.formula for rule in spec.assumptions)
         self.regions = regions(self.encoding, self.valid)
-        self._free: Bdd = self.encoding.domain() & compatible_sets(self.encoding)
+        self.compatible: Bdd = self.encoding.domain() & compatible_sets(self.encoding)
         self._relevant = {rule: self._relevant_alternatives(rule) for rule in self.elements if self._is_lasting(rule)}
         self._known: dict[Demand, Bdd] = {}
         self._here: tuple[State, dict[Demand, Bdd]] | None = None
@@ -68,14 +69,20 @@ class Conditions:
 
     def allowed(self, kept: Elements) -> Bdd:
         """`Ok(s, A)` when only these elements are kept."""
-        return self.manager.intersection([self._free, *map(self._relation, self._demands(kept))])
+        return self.manager.intersection([self.compatible, *map(self._relation, self._demands(kept))])
 
     def steps(self, kept: Elements) -> Steps:
         """The step relation when only these elements are kept."""
         valid = self.encoding.domain() & self._all_of(kept, "assumption")
-        allowed = self.allowed(kept)
-        safe = valid & self._all_of(kept, "state-rule")
-        return Steps(self.encoding, self.ordering, valid, safe, allowed, allowed, (valid, safe))
+        allowed, encoding = self.allowed(kept), self.encoding
+        if not self.spec.restores_stepwise:
+            safe = valid & self._all_of(kept, "state-rule")
+            return Steps(encoding, self.ordering, valid, safe, allowed, allowed, (valid, safe))
+        encoding = replace(encoding, spec=keep_only(self.spec, kept))
+        tiers = [valid]
+        for tier in encoding.spec.tiers:
+            tiers.append(tiers[-1] & encoding.all_of(rule.formula for rule in tier))
+        return Steps(encoding, self.ordering, valid, tiers[-1], allowed, allowed, tuple(tiers))
 
     def changed(self, element: Element, rule: Rule) -> Conditions:
         """The same with another predicate in the place of a rule or a precondition; the rest is not computed again."""
@@ -85,7 +92,11 @@ class Conditions:
 
     def forget(self, element: Element) -> None:
         """Compute anew, when it is asked next, what was found about an element."""
-        self._known = {demand: found for demand, found in self._known.items() if demand.element != element}
+        self._known = {
+            demand: found
+            for demand, found in self._known.items()
+            if element not in {demand.element, *(each for each in demand.given if each.kind == "state-rule")}
+        }
         self._here = None
         if self._is_lasting(element):
             self._relevant = self._relevant | {element: self._relevant_alternatives(element)}
@@ -112,7 +123,7 @@ class Conditions:
         if self._here is None or self._here[0] != state:
             self._here = (state, {})
         known = self._here[1]
-        left = self.encoding.at(self._free, state)
+        left = self.encoding.at(self.compatible, state)
         for demand in self._demands(kept):
             if demand not in known:
                 known[demand] = self.encoding.at(self._relation(demand), state)
@@ -132,7 +143,7 @@ class Conditions:
         users: dict[int, list[Element]] = {}
         for element in self._sorted(kept):
             if self._is_lasting(element):
-                yield Demand(element, kept & self._relevant[element])
+                yield Demand(element, kept & (self._relevant[element] | self._severer(element)))
             elif element.kind in ("precondition", "reaction-rule"):
                 yield Demand(element)
             elif element.kind == "resource":
@@ -159,7 +170,20 @@ class Conditions:
         encoding, domain = replace(self.encoding, spec=keep_only(self.spec, demand.given)), self.encoding.domain()
         if element.kind == "precondition":
             return holds & staying_in(encoding, self.ordering, domain, holds)
-        return staying_in(encoding, self.ordering, domain & holds, self.manager.true)
+        kept = staying_in(encoding, self.ordering, domain & holds, self.manager.true)
+        if element.kind == "assumption" or not self.spec.restores_stepwise:
+            return kept
+        concerned = self._all_of(demand.given, "state-rule")
+        if self.spec.restoration != "one_step":
+            concerned = concerned & holds
+        return ~concerned | kept
+
+    def _severer(self, element: Element) -> Elements:
+        """The state rules that have to hold before a step has to keep a state rule."""
+        if element.kind != "state-rule":
+            return frozenset()
+        rules, severity = self.spec.state_rules, self.spec.state_rules[element.number].severity
+        return frozenset(Element("state-rule", n) for n, rule in enumerate(rules) if rule.severity < severity)
 
     def _is_lasting(self, element: Element) -> bool:
         """Whether the element must hold in states that effects lead to."""

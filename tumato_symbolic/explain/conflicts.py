@@ -6,12 +6,14 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from tumato_symbolic.explain.conditions import Conditions
-from tumato_symbolic.explain.elements import Elements
+from tumato_symbolic.explain.elements import Elements, keep_only
 from tumato_symbolic.explain.minimize import minimal
 from tumato_symbolic.explain.plans import build_kept_problem
+from tumato_symbolic.explain.trial import trial
 from tumato_symbolic.game import Judge, Problem, distances, shortest_decisions, winning
 from tumato_symbolic.semantics import State
 from tumato_symbolic.symbolic import Bdd, preferred, regions
+from tumato_symbolic.synthesis import Unrealizable
 from tumato_symbolic.synthesis.repair import Impossible, Repair, RoundsExhaustedError
 
 
@@ -28,6 +30,8 @@ def conflict_core(conditions: Conditions, states: Sequence[State], among: Elemen
 
 def conflicting(conditions: Conditions, wanted: Bdd, kept: Elements) -> bool:
     """Whether it is shown that no policy serves these states when only some elements are kept."""
+    if conditions.spec.restores_stepwise:
+        return isinstance(trial(conditions, keep_only(conditions.spec, kept)), Unrealizable)
     valid = conditions.steps(kept).valid
     problem = build_kept_problem(conditions, kept, regions(conditions.encoding, valid))
     problem = replace(problem, steps=replace(problem.steps, valid=wanted))

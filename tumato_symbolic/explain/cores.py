@@ -14,7 +14,7 @@ from tumato_symbolic.explain.plans import Plans
 from tumato_symbolic.semantics import State
 from tumato_symbolic.symbolic import Bdd
 
-FailingKind: TypeAlias = Literal["no-allowed-set", "no-plan"]
+FailingKind: TypeAlias = Literal["no-allowed-set", "no-restoration", "no-plan"]
 
 
 @dataclass(frozen=True)
@@ -32,14 +32,16 @@ class Failing:
     """The valid states that fail, by kind."""
 
     no_allowed_set: Bdd
+    no_restoration: Bdd
     no_plan: Bdd
 
 
 def failing_states(plans: Plans) -> Failing:
     """All states that fail (`docs/semantics.md`, section 7)."""
     conditions = plans.conditions
-    stuck = conditions.stuck(conditions.everything)
-    return Failing(stuck, plans.failing(conditions.everything, conditions.valid & ~stuck))
+    stuck, lost = conditions.stuck(conditions.everything), plans.lost(conditions.everything)
+    no_plan = plans.failing(conditions.everything, conditions.valid & ~stuck & ~lost)
+    return Failing(stuck & ~lost, lost, no_plan)
 
 
 def causes(plans: Plans, states: Failing) -> Iterator[Cause]:
@@ -48,6 +50,7 @@ def causes(plans: Plans, states: Failing) -> Iterator[Cause]:
     A typical state gives a core, and the core gives all states that have it: as many rounds as there are cores.
     """
     yield from _no_allowed_set(plans.conditions, states.no_allowed_set)
+    yield from _no_restoration(plans, states.no_restoration)
     yield from _no_plan(plans, states.no_plan)
 
 
@@ -57,6 +60,16 @@ def _no_allowed_set(conditions: Conditions, left: Bdd) -> Iterator[Cause]:
         core = core_without_set(conditions, example, conditions.everything)
         alike = _having(core, left, lambda kept, states: states & conditions.stuck(kept))
         yield Cause("no-allowed-set", alike, core, example)
+        left = left & ~alike
+
+
+def _no_restoration(plans: Plans, left: Bdd) -> Iterator[Cause]:
+    conditions = plans.conditions
+    while left != conditions.false:
+        example = typical_state(conditions, left)
+        core = core_without_restoration(plans, example, conditions.everything)
+        alike = _having(core, left, lambda kept, states: states & plans.lost(kept))
+        yield Cause("no-restoration", alike, core, example)
         left = left & ~alike
 
 
@@ -91,6 +104,13 @@ def core_without_set(conditions: Conditions, state: State, among: Elements) -> E
     """A minimal set of elements, out of some that suffice, that leaves a state without an allowed set."""
     items = [each for each in conditions.elements if each in among]
     return minimal(items, lambda kept: conditions.is_stuck(state, kept))
+
+
+def core_without_restoration(plans: Plans, state: State, among: Elements) -> Elements:
+    """A minimal set of elements, out of some that suffice, because of which safety cannot be restored from a state."""
+    items = [each for each in plans.conditions.elements if each in among]
+    contains = plans.conditions.encoding.contains
+    return minimal(items, lambda kept: contains(plans.lost(kept), state))
 
 
 def core_without_plan(plans: Plans, state: State, among: Elements) -> Elements:
@@ -132,6 +152,11 @@ def core_finder(plans: Plans, cause: Cause) -> Callable[[Elements], Elements | N
     if cause.kind == "no-allowed-set":
         return lambda among: (
             core_without_set(conditions, example, among) if conditions.is_stuck(example, among) else None
+        )
+    if cause.kind == "no-restoration":
+        contains = conditions.encoding.contains
+        return lambda among: (
+            core_without_restoration(plans, example, among) if contains(plans.lost(among), example) else None
         )
     return lambda among: core_without_plan(plans, example, among) if plans.fails(example, among) else None
 

@@ -28,7 +28,6 @@ from tumato_symbolic.explain.repairs import repairs_found
 from tumato_symbolic.explain.work import Work
 from tumato_symbolic.limits import Context, LimitReachedError
 from tumato_symbolic.spec import Ordering, Spec
-from tumato_symbolic.spec.support import require_one_step
 from tumato_symbolic.symbolic import Backend, available_backend
 from tumato_symbolic.synthesis import Realizable, Undecided, Unrealizable, synthesize
 
@@ -83,7 +82,6 @@ def explained(
     context: Context | None = None,
 ) -> Iterator[Found]:
     """What `explain` returns, again and again as more of it is known: the last one is all that limits allow."""
-    require_one_step(spec, "explain")
     context = context or Context()
     ordering, backend = ordering or spec.ordering, backend or available_backend()
     outcome = synthesize(spec, ordering, backend=backend, context=context.within(), certify=False)

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from tumato_symbolic.explain.conditions import Conditions
 from tumato_symbolic.explain.elements import Element, Elements
-from tumato_symbolic.game import Problem, distances, winning
+from tumato_symbolic.game import Problem, chances, way_of, winning
 from tumato_symbolic.semantics import ActiveGoals, State
 from tumato_symbolic.symbolic import Bdd, Regions, targets
 
@@ -15,29 +15,41 @@ def build_kept_problem(conditions: Conditions, kept: Elements, regions: Regions)
     """The synthesis problem when only these elements are kept, for the states of `regions`."""
     steps = conditions.steps(kept)
     bound = conditions.spec.max_plan_length if Element("plan-bound") in kept else None
-    spec = replace(conditions.encoding.spec, max_plan_length=bound)
+    spec = replace(steps.encoding.spec, max_plan_length=bound)
     return Problem(spec, steps, regions, tuple(targets(steps, regions)))
 
 
 def failing(conditions: Conditions, kept: Elements, states: Bdd) -> Bdd:
     """Those of some valid states that fail, either way, when only these elements are kept."""
     problem = build_kept_problem(conditions, kept, restricted(conditions.regions, states, conditions.false))
-    return states & ~winning(problem, distances(problem), problem.steps.allowed)
+    return states & ~winning(problem, *chances(problem, way_of(problem, conditions.compatible)))
 
 
 class Plans:
     """Which states fail when only some elements are kept: asked for a whole region at once, and remembered.
 
-    Whatever fails goes on to fail when more is kept: an answer also answers for all that contains more, or less.
+    Whatever fails goes on to fail when more is kept: an answer also answers for all that contains more, or less. With
+    several severities that is not so: without a severe rule, milder ones have to be kept.
     """
 
     def __init__(self, conditions: Conditions) -> None:
         self.conditions = conditions
         self._known: dict[ActiveGoals, list[tuple[Elements, Bdd]]] = {}
+        self._lost: dict[Elements, Bdd] = {}
+        self._monotone = len(conditions.spec.tiers) == 1
 
     def fails(self, state: State, kept: Elements) -> bool:
         """Whether one valid state fails."""
         return self.failing(kept, self.conditions.encoding.state_cube(state)) != self.conditions.false
+
+    def lost(self, kept: Elements) -> Bdd:
+        """The valid states that are unsafe and cannot be restored, where that may take several steps."""
+        if kept not in self._lost:
+            problem = build_kept_problem(self.conditions, kept, self.conditions.regions)
+            way = way_of(problem, self.conditions.compatible) if problem.spec.restoration != "one_step" else None
+            restorable = problem.steps.valid if way is None else way.restorable
+            self._lost[kept] = self.conditions.valid & problem.steps.unsafe & ~restorable
+        return self._lost[kept]
 
     def failing(self, kept: Elements, states: Bdd) -> Bdd:
         """Those of some valid states that fail. What is not known is asked once, for all its regions."""
@@ -59,6 +71,8 @@ class Plans:
         """Of some states of a region, those that are known to fail, and those of which it is not known."""
         surely, left = self.conditions.false, states
         for asked, found in reversed(self._known.setdefault(active, [])):
+            if asked != kept and not self._monotone:
+                continue
             if asked <= kept:
                 surely, left = surely | (left & found), left & ~found
             if asked >= kept:
@@ -77,10 +91,11 @@ def shortest_plan(conditions: Conditions, state: Bdd) -> int | None:
     """The fewest steps in which a state reaches its goal without a plan bound; None where it never does."""
     kept = conditions.everything - {Element("plan-bound")}
     problem = build_kept_problem(conditions, kept, restricted(conditions.regions, state, conditions.false))
+    apart, pairs = chances(problem, way_of(problem, conditions.compatible))
     found = [
         rank + 1
-        for target, layers in zip(problem.targets, distances(problem), strict=True)
+        for target, layers in zip(problem.targets, apart, strict=True)
         for rank, layer in enumerate(layers)
-        if (problem.steps.predecessor(target.owed, layer) & state) != conditions.false
+        if (problem.steps.predecessor(target.owed & pairs, layer) & state) != conditions.false
     ]
     return min(found, default=None)

@@ -52,7 +52,7 @@ def _reason(work: Work, cause: Cause, limit: int) -> Reason:
         work.count(cover.rest),
         example,
         tuple(element_list(conditions, core) for core in shown),
-        () if cause.kind == "no-allowed-set" else own_goals(conditions, example),
+        () if cause.kind != "no-plan" else own_goals(conditions, example),
         shortest_plan=shortest_plan(conditions, conditions.encoding.state_cube(example)) if bounded else None,
     )
 

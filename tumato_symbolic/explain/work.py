@@ -44,7 +44,9 @@ class Work:
         match kind:
             case "no-allowed-set":
                 return self.failing.no_allowed_set
-            case "no-plan" | "no-restoration":
+            case "no-restoration":
+                return self.failing.no_restoration
+            case "no-plan":
                 return self.failing.no_plan
             case "conflict":
                 states = self.outcome.failures[0].states

@@ -1,6 +1,6 @@
 """The game that a policy plays: steps, targets, the fixpoints over them, and how well a policy does."""
 
-from tumato_symbolic.game.alone import Alone, alone
+from tumato_symbolic.game.alone import Alone, alone, chances, way_of
 from tumato_symbolic.game.fixpoints import (
     ClosedLoop,
     Layers,
@@ -29,6 +29,7 @@ __all__ = [
     "attractor",
     "build_problem",
     "by_any_step",
+    "chances",
     "closed_loop",
     "distances",
     "in_time",
@@ -37,5 +38,6 @@ __all__ = [
     "preimage",
     "route",
     "shortest_decisions",
+    "way_of",
     "winning",
 ]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from tumato_symbolic.game.fixpoints import preimage
+from tumato_symbolic.game.fixpoints import Layers, distances, preimage
 from tumato_symbolic.game.problem import Problem
 from tumato_symbolic.symbolic import Bdd, compatible_sets, staying_in, without_effect
 
@@ -18,15 +18,16 @@ class Alone:
     pairs: Bdd
 
 
-def alone(problem: Problem) -> Alone:
+def alone(problem: Problem, pending: Bdd | None = None) -> Alone:
     """Which states can be restored, and by which steps a run may go back to safety and on to its goal.
 
     Under `bounded` a step from an unsafe state stays where everything can be restored, and never stays in place. Under
-    `one_step` and `fair` every allowed step will do. Raises `LimitReachedError` when time is up.
+    `one_step` and `fair` every allowed step will do. `pending` is as in `staying_in`, if it is known. Raises
+    `LimitReachedError` when time is up.
     """
     steps, encoding = problem.steps, problem.encoding
     restorable, pairs = steps.safe, steps.allowed & steps.safe
-    compatible = compatible_sets(encoding)
+    compatible = compatible_sets(encoding) if pending is None else pending
     for lower, upper in zip(steps.tiers, steps.tiers[1:], strict=False):
         here = steps.allowed & lower & ~upper
         if here == problem.false:
@@ -47,6 +48,18 @@ def alone(problem: Problem) -> Alone:
             here = into(found, here) & ~_staying_in_place(problem)
         pairs = pairs | here
     return Alone(restorable, pairs)
+
+
+def way_of(problem: Problem, pending: Bdd | None = None) -> Alone | None:
+    """`alone`, where safety may take several steps to restore."""
+    return alone(problem, pending) if problem.spec.restores_stepwise else None
+
+
+def chances(problem: Problem, way: Alone | None) -> tuple[tuple[Layers, ...], Bdd]:
+    """How far states are from each target when each is taken alone, and the steps that they may take."""
+    if way is None:
+        return distances(problem), problem.steps.allowed
+    return distances(problem, way.pairs), way.pairs
 
 
 def _attracted(problem: Problem, pairs: Bdd, target: Bdd, into: Callable[[Bdd, Bdd], Bdd]) -> Bdd:

@@ -13,14 +13,14 @@ from tumato_symbolic.game import (
     Judge,
     Layers,
     Problem,
-    alone,
     build_problem,
+    chances,
     closed_loop,
-    distances,
     in_time,
     own_region_policy,
     route,
     shortest_decisions,
+    way_of,
     winning,
 )
 from tumato_symbolic.limits import Context, LimitReachedError
@@ -106,12 +106,11 @@ def _solve(problem: Problem, policy_format: PolicyFormat, certify: bool) -> Outc
     evaluation = judge.evaluate(policy) if undecided == problem.false else None
     if stuck != problem.false or evaluation is None or evaluation.failing != problem.false:
         context.tell("measuring distances")
-        taken_alone = alone(problem) if problem.spec.restores_stepwise else None
-        pairs = problem.steps.allowed if taken_alone is None else taken_alone.pairs
-        apart = distances(problem, None if taken_alone is None else pairs)
+        way = way_of(problem)
+        apart, pairs = chances(problem, way)
         lost = problem.false
-        if taken_alone is not None and problem.spec.restoration != "one_step":
-            lost, stuck = problem.steps.unsafe & ~taken_alone.restorable, stuck & problem.steps.safe
+        if way is not None and problem.spec.restoration != "one_step":
+            lost, stuck = problem.steps.unsafe & ~way.restorable, stuck & problem.steps.safe
         helpless = problem.steps.valid & ~stuck & ~lost & ~winning(problem, apart, pairs)
         if (stuck | lost | helpless) != problem.false:
             from tumato_symbolic.synthesis.disproof import certified, no_allowed_set, no_plan
@@ -127,7 +126,7 @@ def _solve(problem: Problem, policy_format: PolicyFormat, certify: bool) -> Outc
                 return answer
             reason = no_plan(problem, state, apart) if stuck == problem.false else no_allowed_set(problem, state)
             return replace(answer, certificate=certified(problem, reason))
-        resolved = _resolve(judge, policy, apart, Undecided("", statistics, warnings), way=taken_alone, certify=certify)
+        resolved = _resolve(judge, policy, apart, Undecided("", statistics, warnings), way=way, certify=certify)
         if isinstance(resolved, Undecided | Unrealizable):
             return resolved
         evaluation, statistics = resolved.evaluation, resolved.statistics
