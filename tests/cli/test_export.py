@@ -39,6 +39,18 @@ def test_the_ordering_is_that_of_the_specification(cli: Cli, tmp_path: Path) -> 
         assert "TUM511" in refused.err
 
 
+def test_a_policy_for_a_weaker_restoration(cli: Cli, tmp_path: Path) -> None:
+    """It is refused, unless the command line says by which one the theorem judges it."""
+    policy = (tmp_path / "amr.json").read_text()
+    weaker = policy.replace('"EffectOrdering": "any"', '"EffectOrdering": "any", "Restoration": "fair"')
+    (tmp_path / "fair.json").write_text(weaker)
+    refused = cli("export-proof", "fair.json", "amr.tum")
+    assert (refused.code, refused.out) == (2, "")
+    assert "TUM511" in refused.err
+    assert "was made for `restoration: fair`, but the specification means one_step" in refused.err
+    assert cli("export-proof", "fair.json", "amr.tum", "--restoration", "one_step").code == 0
+
+
 def test_what_cannot_be_exported_is_2(cli: Cli) -> None:
     """Wrong input, another specification, a file that cannot be written."""
     for arguments in (

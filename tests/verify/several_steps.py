@@ -9,6 +9,7 @@ from random import Random
 from tests.generate import NOWHERE, random_spec
 from tests.oracle import World, decide_world
 from tests.profiles import RESTORING
+from tests.semantics.build import Build, priority, when
 from tests.verify.policies import any_set
 from tumato_symbolic.diagrams import DiagramBuilder
 from tumato_symbolic.policy import Certificate, Policy, RankedGoal, policy_from_rows
@@ -36,6 +37,7 @@ from tumato_symbolic.spec import (
     Alternative,
     Is,
     Not,
+    Or,
     Ordering,
     Restoration,
     Rule,
@@ -204,3 +206,24 @@ def certified(spec: Spec, rows: Rows, said: Said) -> Policy:
     certificate = Certificate(builder.finish(), tuple(goals), restoring)
     policy = policy_from_rows(spec, rows, None, digest(spec), certificate)
     return replace(policy, restoration=spec.restoration)
+
+
+def detours(seed: int, restoration: Restoration) -> Spec:
+    """Unsafe places, some with ways to others, some to safe ones; and runs that have to end in certain ones."""
+    random = Random(seed)
+    unsafe, safe = random.randint(2, 4), random.randint(2, 3)
+    places = "abcdefg"[: unsafe + safe]
+    build = Build({"P": places}, ["R"])
+    for here in places[:unsafe]:
+        ways = [(there, takes) for takes, there in enumerate(random.sample(places[unsafe:], 2), 1)]
+        if places.index(here) < unsafe // 2:
+            ways = [(random.choice(places[unsafe // 2 : unsafe]), 1), (random.choice(places[:unsafe]), 2)]
+        for there, takes in ways:
+            fails = ["", f"P={random.choice(places)}"][: random.choice((0,) * 12 + (1, 2))]
+            build.action(f"P={there}", fails, [build.atom(f"P={here}")], ["R"], takes)
+    ends = [(here, random.choice(places[unsafe:])) for here in places[: unsafe // 2]]
+    goals = [when(build.atom(f"P={here}"), build.goal(build.atom(f"P={end}"))) for here, end in ends]
+    rules = [Or(tuple(build.atom(f"P={here}") for here in places[unsafe:]))]
+    bound = random.choice((None, None, 2, 3))
+    spec = build.spec(priority(*goals) if goals else None, rules, bound=bound)
+    return replace(spec, restoration=restoration)

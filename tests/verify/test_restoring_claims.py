@@ -1,16 +1,17 @@
 """Certificates about restoring safety in several steps: right ones are used, wrong ones are found out."""
 
+from collections import Counter
 from dataclasses import replace
 from random import Random
 
 import pytest
 
-from tests.verify.several_steps import RESTORATIONS, Efforts, Said, certified, exact, near, stepwise_spec
+from tests.verify.several_steps import RESTORATIONS, Efforts, Said, certified, detours, exact, near, stepwise_spec
 from tests.verify.test_several_steps import PROVERS, judged_by
 from tumato_symbolic import parse
 from tumato_symbolic.policy import Policy
 from tumato_symbolic.policy.records import Deviation
-from tumato_symbolic.semantics import State, judge
+from tumato_symbolic.semantics import State, all_states, allowed_sets, judge
 from tumato_symbolic.spec import Restoration, Spec
 from tumato_symbolic.verify import ProverName, verify
 
@@ -120,6 +121,31 @@ def test_a_certificate_changes_no_verdict(restoration: Restoration, prover: Prov
             answer = judged_by(spec, rows, "any", certified(spec, rows, changed(said, spec, random)), prover)
             met.add(answer.certificate.status)
     assert met >= {"wrong", "incomplete"}, met
+
+
+@pytest.mark.parametrize("restoration", ["bounded", "fair"])
+def test_runs_that_need_a_detour(restoration: Restoration) -> None:
+    """Better sets that take another run its goal, and such as only seem to."""
+    met = Counter[tuple[str, bool]]()
+    for seed in range(60):
+        spec, random = detours(seed, restoration), Random(seed)
+        options = {state: list(allowed_sets(spec, state, "any")) for state in all_states(spec)}
+        for number in range(12):
+            rows = {state: random.choice(sets[len(sets) > 1 :]) for state, sets in options.items()}
+            judged = judge(spec, rows, "any")
+            if number > 1 and not judged.sound_and_complete:
+                continue
+            said = exact(spec, rows, "any")
+            silent = (*said[:3], list[Deviation]())
+            for prover in PROVERS:
+                answer = judged_by(spec, rows, "any", certified(spec, rows, said), prover, judged=judged)
+                met[answer.verdict, bool(said[3])] += 1
+                assert (answer.certificate.status == "used") == (not judged.goal_missed and not judged.not_restored)
+                if said[3] and answer.verdict == "proved":
+                    answer = judged_by(spec, rows, "any", certified(spec, rows, silent), prover, judged=judged)
+                    assert answer.certificate.status == "incomplete"
+    assert met["proved", True] > 5, met
+    assert len(met) == 4, met
 
 
 def changed(said: Said, spec: Spec, random: Random) -> Said:

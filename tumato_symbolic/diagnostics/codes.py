@@ -82,7 +82,7 @@ class Code(Enum):
     TUM508 = ("error", "a policy that is too large")
     TUM509 = ("error", "state cannot be read")
     TUM510 = ("error", "policy cannot be written")
-    TUM511 = ("error", "a policy made for another effect ordering")
+    TUM511 = ("error", "a policy made for another effect ordering, or a weaker restoration")
 
     def __init__(self, severity: Literal["error", "warning"], title: str) -> None:
         self.severity = severity

@@ -51,7 +51,7 @@ def run(options: Options, context: Context) -> int:
     from tumato_symbolic.cli.inputs import errors_in, read_spec, show_warnings
     from tumato_symbolic.export.coq import export
     from tumato_symbolic.policy import Policy
-    from tumato_symbolic.policy.bind import made_for_less
+    from tumato_symbolic.policy.bind import made_for_less, restores_less
     from tumato_symbolic.policy.saving import save_text
 
     context.tell("reading the specification")
@@ -60,6 +60,8 @@ def run(options: Options, context: Context) -> int:
     policy = Policy.load(options.policy)
     if options.effect_ordering is None and made_for_less(policy, spec):
         raise _made_for_less(options.policy)
+    if options.restoration is None and restores_less(policy, spec):
+        raise _restores_less(options.policy, policy.restoration, spec.restoration)
     ordering = options.effect_ordering or spec.ordering
     context.tell("writing the theorem")
     with errors_in(source):
@@ -79,4 +81,10 @@ def run(options: Options, context: Context) -> int:
 def _made_for_less(path: str) -> UserError:
     message = f"{path} was made for the effect ordering first, but the specification means any"
     help_ = "synthesize it again, or say with --effect-ordering which of them the theorem is about"
+    return UserError((Diagnostic(Code.TUM511, message, help=help_),))
+
+
+def _restores_less(path: str, made_for: Restoration, meant: Restoration) -> UserError:
+    message = f"{path} was made for `restoration: {made_for}`, but the specification means {meant}"
+    help_ = "synthesize it again, or say with --restoration which of them the theorem is about"
     return UserError((Diagnostic(Code.TUM511, message, help=help_),))
