@@ -19,6 +19,7 @@ from tumato_symbolic.policy.unrealizable import (
     Cut,
     NoAllowedSet,
     NoPlan,
+    NoRestoration,
     Unrealizability,
     Violation,
 )
@@ -63,6 +64,8 @@ def claim_is_true(world: World, certificate: Unrealizability) -> bool:
     match certificate.reason:
         case NoAllowedSet(state):
             return is_valid(world.spec, state) and not world.options[state]
+        case NoRestoration():
+            return False  # these specifications restore safety in one step
         case NoPlan(state):
             return is_valid(world.spec, state) and not any(map(world.has_plan, world.options[state]))
         case Conflict(starts, choices):
@@ -105,6 +108,13 @@ def changed(certificate: Unrealizability, dice: Random) -> Unrealizability:
     match certificate.reason:
         case NoAllowedSet() as reason:
             return replace(certificate, reason=_changed_cubes(reason, certificate.vocabulary, dice))
+        case NoRestoration(state, diagram, root):
+            other = dice.randrange(len(diagram.leaves) + len(diagram.nodes))
+            somewhere = _any_state(certificate.vocabulary, dice)
+            changed_trap = NoRestoration(
+                *((somewhere, diagram, root) if dice.random() < 0.5 else (state, diagram, other))
+            )
+            return replace(certificate, reason=changed_trap)
         case NoPlan() as reason:
             return replace(certificate, reason=_changed_layers(reason, certificate.vocabulary, dice))
         case Conflict() as reason:

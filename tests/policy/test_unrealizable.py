@@ -26,6 +26,7 @@ from tumato_symbolic.policy.unrealizable import (
     Layers,
     NoAllowedSet,
     NoPlan,
+    NoRestoration,
     Unrealizability,
     Violation,
 )
@@ -84,6 +85,16 @@ def layers(draw, vocabulary):
     return NoPlan(draw(states(vocabulary)), diagram, found)
 
 
+@st.composite
+def traps(draw, vocabulary):
+    """No restoration from a state, with any set as the trap."""
+    builder = DiagramBuilder(draw(st.permutations(range(len(vocabulary.sizes)))), (False, True))
+    held = draw(st.frozensets(states(vocabulary), max_size=5))
+    root = builder.from_table(vocabulary.sizes, dict.fromkeys(held, True), False)
+    diagram, (kept,) = rebuild(builder.finish(), [root])
+    return NoRestoration(draw(states(vocabulary)), diagram, kept)
+
+
 def names(draw, vocabulary):
     """Some actions, by name."""
     some = st.lists(st.sampled_from(vocabulary.actions), unique=True) if vocabulary.actions else st.just([])
@@ -114,15 +125,16 @@ def certificates(draw):
     """A certificate of any kind, whatever it is worth."""
     vocabulary = draw(vocabularies())
     none = st.builds(NoAllowedSet, states(vocabulary), st.none() | st.lists(cubes(vocabulary), max_size=4).map(tuple))
-    reason = draw(none | layers(vocabulary) | conflicts(vocabulary))
-    return Unrealizability(vocabulary, draw(st.sampled_from(["any", "first"])), draw(NAMES), reason)
+    reason = draw(none | layers(vocabulary) | conflicts(vocabulary) | traps(vocabulary))
+    restoration = draw(st.sampled_from(["one_step", "bounded", "fair"]))
+    return Unrealizability(vocabulary, draw(st.sampled_from(["any", "first"])), draw(NAMES), reason, restoration)
 
 
 @cache
 def example(kind):
     """A small certificate of one kind, the same every time."""
     vocabulary = Vocabulary((("S_Place", ("dock", "hall")), ("S_Load", ("free", "full"))), ("go", "load"))
-    builder = DiagramBuilder((1, 0), (False, True) if kind == "no-plan" else (None, 0, 1))
+    builder = DiagramBuilder((1, 0), (None, 0, 1) if kind == "conflict" else (False, True))
     if kind == "no-allowed-set":
         cubes = (
             Cube(frozenset((0, 1)), frozenset(), Violation("resource", (0, 1))),
@@ -131,6 +143,9 @@ def example(kind):
             Cube(frozenset(), frozenset((0, 1)), Violation("idle")),
         )
         reason = NoAllowedSet((0, 1), cubes)
+    elif kind == "no-restoration":
+        root = builder.from_table((2, 2), {(0, 1): True, (1, 1): True, (1, 0): True}, False)
+        reason = NoRestoration((0, 1), builder.finish(), root)
     elif kind == "no-plan":
         roots = [
             builder.from_table((2, 2), dict.fromkeys(found, True), False) for found in ([(0, 1)], [(1, 1), (0, 0)])
@@ -145,7 +160,7 @@ def example(kind):
     return loads(dumps(Unrealizability(vocabulary, "any", "0123abcd", reason)))
 
 
-KINDS = pytest.mark.parametrize("kind", ["no-allowed-set", "no-plan", "conflict"])
+KINDS = pytest.mark.parametrize("kind", ["no-allowed-set", "no-restoration", "no-plan", "conflict"])
 
 
 @QUICK
@@ -179,7 +194,7 @@ def test_order_of_declaration_never_matters(certificate, random):
     assert bound.vocabulary == target
     assert dumps(bind(bound, spec_of(certificate.vocabulary))) == dumps(certificate)
     match certificate.reason:
-        case NoAllowedSet(state) | NoPlan(state):
+        case NoAllowedSet(state) | NoRestoration(state) | NoPlan(state):
             assert named(target, bound.reason.state) == named(certificate.vocabulary, state)
         case Conflict(choices=choices):
             theirs = [named(target, choice.state) for choice in bound.reason.choices]

@@ -10,7 +10,7 @@ from tumato_symbolic.diagrams import Diagram, Reference, smallest
 from tumato_symbolic.policy.records import Certificate, DecisionDiagram, RankedGoal, Restoring
 
 if TYPE_CHECKING:
-    from tumato_symbolic.policy.unrealizable import NoPlan
+    from tumato_symbolic.policy.unrealizable import NoPlan, NoRestoration
 
 
 def minimized_decisions(decisions: DecisionDiagram, sizes: Sequence[int]) -> DecisionDiagram:
@@ -37,6 +37,12 @@ def minimized_restoring(
     """The same efforts in all `states`, a diagram in the same order and a root of it; elsewhere they mean nothing."""
     efforts, (worst, nominal) = smallest(restoring.efforts, (restoring.worst, restoring.nominal), sizes, states)
     return replace(restoring, efforts=efforts, worst=worst, nominal=nominal)
+
+
+def minimized_trap(reason: NoRestoration, sizes: Sequence[int], states: Reference) -> NoRestoration:
+    """The same set in all `states`, a root of the same diagram; elsewhere it means nothing."""
+    diagram, (root,) = smallest(reason.diagram, [reason.root], sizes, (reason.diagram, states))
+    return replace(reason, diagram=diagram, root=root)
 
 
 def minimized_layers(reason: NoPlan, sizes: Sequence[int], states: Reference) -> NoPlan:

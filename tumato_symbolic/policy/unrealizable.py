@@ -13,7 +13,7 @@ from typing import Literal, TypeAlias
 from tumato_symbolic.diagrams import Diagram, Reference
 from tumato_symbolic.policy.records import RankedGoal, Vocabulary
 from tumato_symbolic.semantics import ActionSet, State
-from tumato_symbolic.spec import Assignment, Ordering
+from tumato_symbolic.spec import Assignment, Ordering, Restoration
 
 Strike: TypeAlias = tuple[int, Assignment]
 """An action taking one of its effects."""
@@ -65,6 +65,19 @@ class NoAllowedSet:
 
     state: State
     cubes: tuple[Cube, ...] | None
+
+
+@dataclass(frozen=True, slots=True)
+class NoRestoration:
+    """From `state` safety is never surely restored: `root` leads to a set that nothing surely leaves.
+
+    Of the set only the valid states of the level of `state` count. Whatever may be executed in one of them has an
+    outcome in the set, or, under `fair`, the state after all nominal effects.
+    """
+
+    state: State
+    diagram: Diagram[bool]
+    root: Reference
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,9 +154,13 @@ class Conflict:
 
 @dataclass(frozen=True, slots=True)
 class Unrealizability:
-    """The certificate that a specification, known by its digest, has no policy under an effect ordering."""
+    """The certificate that a specification, known by its digest, has no policy under an effect ordering.
+
+    `restoration` is how safety was to be restored.
+    """
 
     vocabulary: Vocabulary
     ordering: Ordering
     digest: str
-    reason: NoAllowedSet | NoPlan | Conflict
+    reason: NoAllowedSet | NoRestoration | NoPlan | Conflict
+    restoration: Restoration = "one_step"

@@ -23,6 +23,7 @@ from tumato_symbolic.policy.unrealizable import (
     Cut,
     NoAllowedSet,
     NoPlan,
+    NoRestoration,
     Unrealizability,
     Violation,
 )
@@ -72,6 +73,8 @@ def _lines(certificate: Unrealizability) -> Iterator[str]:
     yield f'  "FormatVersion": {FORMAT_VERSION},'
     yield f'  "SpecificationDigest": {_json(certificate.digest)},'
     yield f'  "EffectOrdering": "{certificate.ordering}",'
+    if certificate.restoration != "one_step":
+        yield f'  "Restoration": "{certificate.restoration}",'
     yield from block('  "Actions": [', map(_json, vocabulary.actions), "  ],")
     yield from block('  "States": {', variable_entries(vocabulary), "  },")
     yield '  "Reason": {'
@@ -79,6 +82,8 @@ def _lines(certificate: Unrealizability) -> Iterator[str]:
     match certificate.reason:
         case NoAllowedSet() as reason:
             yield from _no_allowed_set(reason, names)
+        case NoRestoration() as reason:
+            yield from _no_restoration(reason, vocabulary, names)
         case NoPlan() as reason:
             yield from _no_plan(reason, vocabulary, names)
         case Conflict() as reason:
@@ -141,6 +146,14 @@ def _no_allowed_set(reason: NoAllowedSet, names: _Names) -> Iterator[str]:
     yield from block('    "Cubes": [', map(_json, cubes), "    ]")
 
 
+def _no_restoration(reason: NoRestoration, vocabulary: Vocabulary, names: _Names) -> Iterator[str]:
+    yield '    "Kind": "no-restoration",'
+    yield f'    "State": {_json(names.state(reason.state))},'
+    diagram, (root,) = rebuild(reason.diagram, [reason.root])
+    yield from diagram_lines(diagram, vocabulary)
+    yield f'    "Root": {root}'
+
+
 def _no_plan(reason: NoPlan, vocabulary: Vocabulary, names: _Names) -> Iterator[str]:
     yield '    "Kind": "no-plan",'
     yield f'    "State": {_json(names.state(reason.state))},'
@@ -195,6 +208,9 @@ def bind(certificate: Unrealizability, spec: Spec) -> Unrealizability:
         case NoAllowedSet(state, cubes):
             bound = None if cubes is None else tuple(_bound_cube(cube, by) for cube in cubes)
             return replace(certificate, vocabulary=target, reason=NoAllowedSet(by.state(state), bound))
+        case NoRestoration(state, diagram, root):
+            diagram, (root,) = by.diagram(diagram, [root])
+            return replace(certificate, vocabulary=target, reason=NoRestoration(by.state(state), diagram, root))
         case NoPlan() as no_plan:
             return replace(certificate, vocabulary=target, reason=_bound_plan(no_plan, by))
         case Conflict() as conflict:

@@ -14,6 +14,7 @@ from tumato_symbolic.policy.read import (
     check_version,
     read_digest,
     read_ordering,
+    read_restoration,
     read_vocabulary,
 )
 from tumato_symbolic.policy.read_diagrams import read_diagram
@@ -27,6 +28,7 @@ from tumato_symbolic.policy.unrealizable import (
     Layers,
     NoAllowedSet,
     NoPlan,
+    NoRestoration,
     Strike,
     Unrealizability,
     Violation,
@@ -50,7 +52,7 @@ def unrealizability_of(document: dict[str, Any]) -> Unrealizability:
         lost = "EffectOrdering" if ordering is None else "SpecificationDigest"
         raise fault(Code.TUM502, f"{WHERE} has no `{lost}`")
     reason = _Reader(vocabulary).reason(as_object(member(document, "Reason", WHERE), "`Reason`"))
-    return Unrealizability(vocabulary, ordering, digest, reason)
+    return Unrealizability(vocabulary, ordering, digest, reason, read_restoration(document))
 
 
 class _Reader:
@@ -62,17 +64,19 @@ class _Reader:
         self._variables = {name: number for number, (name, _) in enumerate(vocabulary.variables)}
         self._values = [{value: number for number, value in enumerate(values)} for _, values in vocabulary.variables]
 
-    def reason(self, section: dict[str, Any]) -> NoAllowedSet | NoPlan | Conflict:
+    def reason(self, section: dict[str, Any]) -> NoAllowedSet | NoRestoration | NoPlan | Conflict:
         """What `Reason` holds."""
         match as_text(member(section, "Kind", "`Reason`"), "`Reason.Kind`"):
             case "no-allowed-set":
                 return self._no_allowed_set(section)
+            case "no-restoration":
+                return self._no_restoration(section)
             case "no-plan":
                 return self._no_plan(section)
             case "conflict":
                 return self._conflict(section)
             case kind:
-                expected = 'expected "no-allowed-set", "no-plan" or "conflict"'
+                expected = 'expected "no-allowed-set", "no-restoration", "no-plan" or "conflict"'
                 raise fault(Code.TUM502, f"`Reason.Kind` is {show(kind)}", expected)
 
     def _no_allowed_set(self, section: dict[str, Any]) -> NoAllowedSet:
@@ -124,12 +128,22 @@ class _Reader:
         effect = as_object(member(section, "Effect", where), f"`Effect` of {where}")
         return action, tuple(sorted(self._assigned(name, value, where) for name, value in effect.items()))
 
-    def _no_plan(self, section: dict[str, Any]) -> NoPlan:
+    def _no_restoration(self, section: dict[str, Any]) -> NoRestoration:
         state = self._state(member(section, "State", "`Reason`"), "`Reason.State`")
+        found, end = self._sets(section)
+        diagram, (root,) = rebuild(found, (as_whole(member(section, "Root", "`Reason`"), "`Reason.Root`", end),))
+        return NoRestoration(state, diagram, root)
+
+    def _sets(self, section: dict[str, Any]) -> tuple[Diagram[bool], int]:
+        """A diagram of sets, and how many references there are to it."""
         order, leaves, nodes = read_diagram(section, "Reason", self._vocabulary)
         if leaves != [False, True] or any(type(leaf) is not bool for leaf in leaves):
             raise fault(Code.TUM502, "`Reason.Leaves` must be [false, true]")
-        end = len(leaves) + len(nodes)
+        return Diagram(order, tuple(leaves), nodes), len(leaves) + len(nodes)
+
+    def _no_plan(self, section: dict[str, Any]) -> NoPlan:
+        state = self._state(member(section, "State", "`Reason`"), "`Reason.State`")
+        found, end = self._sets(section)
 
         def goal(value: object, where: str) -> Layers:
             bodies, executed, entry = self._goal(value, where)
@@ -139,7 +153,6 @@ class _Reader:
             return Layers(bodies, executed, tuple(as_whole(root, f"a layer of {where}", end) for root in layers))
 
         goals = _each(member(section, "Goals", "`Reason`"), "Goals", "goal", goal)
-        found: Diagram[bool] = Diagram(order, tuple(leaves), nodes)
         read = NoPlan(state, found, goals)
         return read.drawn(*rebuild(found, read.roots))
 

@@ -16,6 +16,7 @@ from tumato_symbolic.verify.result import UnrealizabilityKind, UnrealizabilityVe
 
 _REASONS: Final[dict[UnrealizabilityKind, str]] = {
     "no-allowed-set": "there is a state in which no set of actions is allowed",
+    "no-restoration": "there is a state from which safety is never surely restored",
     "no-plan": "there is a state from which no run reaches the goal",
     "conflict": "there are states that no policy serves together",
 }

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import combinations
+from itertools import combinations, pairwise
 from math import prod
 
 from tumato_symbolic.diagrams import DiagramBuilder
 from tumato_symbolic.game import Layers as Ranks
 from tumato_symbolic.game import Problem
 from tumato_symbolic.policy import RankedGoal, Vocabulary
-from tumato_symbolic.policy.compact import minimized_layers
+from tumato_symbolic.policy.compact import minimized_layers, minimized_trap
 from tumato_symbolic.policy.unrealizable import (
     Choice,
     Conflict,
@@ -19,6 +19,7 @@ from tumato_symbolic.policy.unrealizable import (
     Layers,
     NoAllowedSet,
     NoPlan,
+    NoRestoration,
     Strike,
     Unrealizability,
     Violation,
@@ -52,10 +53,10 @@ FEW_NODES = 1000
 """Layers with so few nodes are taken as they are: Z3 is quick with them."""
 
 
-def certified(problem: Problem, reason: NoAllowedSet | NoPlan | Conflict) -> Unrealizability:
+def certified(problem: Problem, reason: NoAllowedSet | NoRestoration | NoPlan | Conflict) -> Unrealizability:
     """The certificate with this reason."""
     spec = problem.spec
-    return Unrealizability(Vocabulary.of(spec), problem.steps.ordering, digest(spec), reason)
+    return Unrealizability(Vocabulary.of(spec), problem.steps.ordering, digest(spec), reason, spec.restoration)
 
 
 def no_allowed_set(problem: Problem, state: State) -> NoAllowedSet:
@@ -125,6 +126,19 @@ def _strikes(way: Outcome) -> tuple[Strike, ...]:
 
 def _name(spec: Spec, rule: Rule) -> str:
     return canonical_text(spec, rule.formula)
+
+
+def no_restoration(problem: Problem, state: State, lost: Bdd) -> NoRestoration:
+    """The states of the level of `state` that are `lost`: nothing surely leads out of them."""
+    here = next(
+        lower & ~upper
+        for lower, upper in pairwise(problem.steps.tiers)
+        if problem.encoding.contains(lower & ~upper, state)
+    )
+    builder: DiagramBuilder[bool] = DiagramBuilder(problem.encoding.order, (False, True))
+    extract = Extractor(problem.encoding, builder, default=False)
+    trap, level = (extract.function([(True, states)]) for states in (lost & here, here))
+    return minimized_trap(NoRestoration(state, builder.finish(), trap), Vocabulary.of(problem.spec).sizes, level)
 
 
 def no_plan(problem: Problem, state: State, distances: Sequence[Ranks]) -> NoPlan:

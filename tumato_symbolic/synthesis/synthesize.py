@@ -113,7 +113,7 @@ def _solve(problem: Problem, policy_format: PolicyFormat, certify: bool) -> Outc
             lost, stuck = problem.steps.unsafe & ~way.restorable, stuck & problem.steps.safe
         helpless = problem.steps.valid & ~stuck & ~lost & ~winning(problem, apart, pairs)
         if (stuck | lost | helpless) != problem.false:
-            from tumato_symbolic.synthesis.disproof import certified, no_allowed_set, no_plan
+            from tumato_symbolic.synthesis.disproof import certified, no_allowed_set, no_plan, no_restoration
 
             failures = (
                 _failure(problem, "no-allowed-set", stuck),
@@ -122,6 +122,9 @@ def _solve(problem: Problem, policy_format: PolicyFormat, certify: bool) -> Outc
             )
             found = tuple(failure for failure in failures if failure is not None)
             answer, state = _answer_no(problem, found, statistics, warnings), found[0].example
+            if certify and lost != problem.false:
+                trap = no_restoration(problem, problem.encoding.first_state(lost), lost)
+                return replace(answer, certificate=certified(problem, trap))
             if not certify or problem.spec.restores_stepwise:
                 return answer
             reason = no_plan(problem, state, apart) if stuck == problem.false else no_allowed_set(problem, state)

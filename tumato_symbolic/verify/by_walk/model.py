@@ -294,13 +294,13 @@ class Model:
         parts = [self.applicable, self.compatible]
         parts += [self.formula(rule.formula, self.chosen) for rule in spec.reaction_rules]
         if spec.restores_stepwise:
-            parts += [walk.select(where, (TRUE, self._into(target))) for where, target in self.requirements]
+            parts += [walk.select(where, (TRUE, self.into(target))) for where, target in self.requirements]
             return walk.all_of(parts)
         if self._ordering == "first":
             parts.append(walk.substitute(self.safe, self.successor(self.chosen)))
         return walk.all_of((*parts, self.outcomes_safe))
 
-    def _into(self, target: Function) -> Function:
+    def into(self, target: Function) -> Function:
         """`Next(s, A) ⊆ target`. Speaks of sets without conflicts only."""
         outcomes, walk = self.outcomes_in(target), self.walk
         if self._ordering == "any":  # then all nominal effects in turn are an outcome

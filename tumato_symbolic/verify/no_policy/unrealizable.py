@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from tumato_symbolic.limits import Budget, Context, LimitReachedError
-from tumato_symbolic.policy.unrealizable import NoAllowedSet, NoPlan, Unrealizability
+from tumato_symbolic.policy.unrealizable import NoAllowedSet, NoPlan, NoRestoration, Unrealizability
 from tumato_symbolic.policy.unrealizable_file import bind
 from tumato_symbolic.spec import Ordering, Spec, digest
 from tumato_symbolic.spec.support import require_one_step
@@ -14,6 +14,7 @@ from tumato_symbolic.verify.no_policy.allowed_step import AllowedStep, FalseClai
 from tumato_symbolic.verify.no_policy.conflict import check_conflict
 from tumato_symbolic.verify.no_policy.no_allowed_set import check_no_allowed_set
 from tumato_symbolic.verify.no_policy.no_plan import check_no_plan
+from tumato_symbolic.verify.no_policy.no_restoration import check_no_restoration
 from tumato_symbolic.verify.result import UnrealizabilityKind, UnrealizabilityVerdict
 
 OBLIGATION_BUDGET = 30.0
@@ -41,7 +42,8 @@ def verify_unrealizable(
     *Refuted* says that the certificate is no proof, not that there is a policy. Raises `UserError` when the names of
     the certificate do not fit the specification.
     """
-    require_one_step(spec, "verify")
+    if not isinstance(certificate.reason, NoRestoration):
+        require_one_step(spec, "verify")
     context = context or Context()
     reason = bind(certificate, spec).reason
     judged: Ordering = ordering or certificate.ordering
@@ -61,6 +63,9 @@ def verify_unrealizable(
         match reason:
             case NoAllowedSet():
                 checked = check_no_allowed_set(reason, step, judged)
+            case NoRestoration():
+                check_no_restoration(reason, spec, judged, Budget(timeout, context).until())
+                return replace(found, obligations=2, by_walk=True)
             case NoPlan():
                 checked = check_no_plan(reason, step)
             case _:
@@ -80,6 +85,8 @@ def _kind(certificate: Unrealizability) -> UnrealizabilityKind:
     match certificate.reason:
         case NoAllowedSet():
             return "no-allowed-set"
+        case NoRestoration():
+            return "no-restoration"
         case NoPlan():
             return "no-plan"
         case _:
