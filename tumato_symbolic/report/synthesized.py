@@ -13,6 +13,7 @@ from tumato_symbolic.report.layout import Paint, count, every, seconds
 from tumato_symbolic.report.picture import picture
 from tumato_symbolic.report.proof import ORDERINGS, proof_json, proof_text, provers
 from tumato_symbolic.report.reasons import Place
+from tumato_symbolic.report.restored import restored_json, restored_text
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.synthesis.outcome import Outcome, Realizable, Statistics, Undecided, Unrealizable
 from tumato_symbolic.verify.result import UnrealizabilityVerdict, Verification
@@ -111,6 +112,7 @@ def _realizable(done: Synthesized, outcome: Realizable, paint: Paint) -> list[st
         f"{done.source.name} {verdict} {every(statistics.valid, 'valid state')}. Found in {seconds(done.solved_in)}.",
         _states(statistics),
         longest,
+        *restored_text(statistics),
         f"  effects: {ORDERINGS[statistics.ordering]}",
         *_engine(statistics),
     ]
@@ -213,6 +215,7 @@ def as_json(done: Synthesized) -> dict[str, object]:
         if statistics
         else None,
         "longest_run": statistics.longest_run if statistics else None,
+        **restored_json(statistics),
         "policy": done.output if done.written else None,
         "certificate": done.certificate,
         "failing_states": sum(failure.count for failure in failures if failure.kind != "conflict"),

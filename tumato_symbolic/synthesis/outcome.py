@@ -22,7 +22,8 @@ class Statistics:
 
     `longest_run` is None where there is no policy. `own_region` and `routed` count the safe states that were
     decided by staying where their goals are active and by passing through solved states, `changed` those whose decision
-    then had to deviate because goals interact. `restoring_durations` counts the distinct minimal durations.
+    then had to deviate because goals interact. `restoring_durations` counts the distinct minimal durations, `restored`
+    is there where safety may take several steps to restore, and does.
     """
 
     total: int
@@ -36,6 +37,22 @@ class Statistics:
     routed: int = 0
     changed: int = 0
     restoring_durations: int = 0
+    restored: RestoredIn | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class RestoredIn:
+    """How a policy restores safety, where that may take several steps: exact counts of unsafe states.
+
+    `bounded` has them by the number of steps in the worst case, `fair` those that are restored along nominal effects
+    only, by the number of these. `longest` is the largest duration, in the worst case or along nominal effects;
+    `levels` has the number of unsafe states of each level, from 0 on.
+    """
+
+    bounded: tuple[tuple[int, int], ...]
+    fair: tuple[tuple[int, int], ...]
+    longest: int
+    levels: tuple[int, ...]
 
 
 @dataclass(frozen=True, slots=True)

@@ -30,6 +30,7 @@ from tumato_symbolic.semantics.lint import no_valid_state
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.symbolic import Backend, Bdd, available_backend
 from tumato_symbolic.synthesis.certificate import policy_diagram
+from tumato_symbolic.synthesis.counting import restored_in
 from tumato_symbolic.synthesis.lint import lint
 from tumato_symbolic.synthesis.outcome import (
     STATES_LISTED,
@@ -220,23 +221,20 @@ def _finish(
 
     With it, what there is to warn of.
     """
-    steps, near, tell = problem.steps, in_time(problem, found.ranks), problem.context.tell
+    steps, restoration, tell = problem.steps, found.restoration, problem.context.tell
+    ranks = found.ranks if restoration is None else restoration.ranks
     tell("choosing restoring sets")
-    if found.restoration is not None:
-        durations: tuple[int, ...] = ()
-        policy = found.closed_loop.policy | found.restoration.policy
-        near = in_time(problem, found.restoration.ranks)
+    if restoration is None:
+        restoring, durations = restoring_policy(problem, in_time(problem, ranks))
+        statistics = replace(statistics, restoring_durations=len(durations))
     else:
-        restoring, durations = restoring_policy(problem, near)
-        policy = found.closed_loop.policy | restoring
+        restoring = restoration.policy
+        statistics = replace(statistics, restored=restored_in(problem, restoration))
+    policy = found.closed_loop.policy | restoring
     assert steps.states_of(policy) == steps.valid, "a winning state was left without a decision"
-    longest = _longest_run(problem, policy, near)
+    statistics = replace(statistics, longest_run=_longest_run(problem, policy, in_time(problem, ranks)))
     tell("extracting the policy and its certificate")
-    statistics = replace(statistics, longest_run=longest, restoring_durations=len(durations))
-    raced = races(problem, policy)
-    if found.restoration is not None:
-        return policy_diagram(problem, policy, found.restoration.ranks, found.restoration), statistics, raced
-    return policy_diagram(problem, policy, found.ranks), statistics, raced
+    return policy_diagram(problem, policy, ranks, restoration), statistics, races(problem, policy)
 
 
 def _longest_run(problem: Problem, policy: Bdd, ranks: Sequence[Layers]) -> int:
