@@ -143,8 +143,9 @@ Definition applicable (s : state) (a : nat) : bool := forallb (holds s []) (prec
 
 (** ** What a step can lead to *)
 
-Definition one_fine (fine : state -> bool) (s : state) (A : actions) : bool :=
-  forallb (fun a => forallb (fun e => fine (apply e s)) (effects spec a)) A.
+(** Whether [good] holds wherever one effect leads from [s], of the state and the actions that have not struck. *)
+Definition one_good (good : state -> actions -> bool) (s : state) (A : actions) : bool :=
+  forallb (fun a => let B := without a A in forallb (fun e => good (apply e s) B) (effects spec a)) A.
 
 (** Where one more effect leads. An effect that changes nothing leads nowhere new, and leaves less to strike. *)
 Definition after_one (f : front) : front :=
@@ -152,22 +153,24 @@ Definition after_one (f : front) : front :=
     map (fun e => (apply e (fst p), without a (snd p)))
       (filter (fun e => negb (same_list (apply e (fst p)) (fst p))) (effects spec a))) (snd p)) f.
 
-(** Whether [fine] holds in all states that up to [n] effects lead to. *)
-Fixpoint struck_fine (fine : state -> bool) (n : nat) (f : front) : bool :=
+(** Whether [good] holds wherever up to [n] effects lead. What is good has to be so with less to strike, too. *)
+Fixpoint struck_good (good : state -> actions -> bool) (n : nat) (f : front) : bool :=
   match n with
   | 0 => true
   | S n =>
-      forallb (fun p => one_fine fine (fst p) (snd p)) f &&
-      match n with 0 => true | _ => struck_fine fine n (distinct (after_one f)) end
+      forallb (fun p => one_good good (fst p) (snd p)) f &&&
+      match n with 0 => true | _ => struck_good good n (distinct (after_one f)) end
   end.
+
+Definition after_good (good : state -> actions -> bool) (s : state) (A : actions) : bool :=
+  struck_good good (match order with Any => length A | First => 1 end) [(s, A)].
 
 (** Whether no action of [A] takes effect. *)
 Definition at_rest (A : actions) : bool :=
   forallb (fun a => match effects spec a with [] => true | _ :: _ => false end) A.
 
 Definition out_fine (fine : state -> bool) (s : state) (A : actions) : bool :=
-  if at_rest A then fine s
-  else struck_fine fine (match order with Any => length A | First => 1 end) [(s, A)].
+  if at_rest A then fine s else after_good (fun t _ => fine t) s A.
 
 (** Whether [fine] holds wherever a step leads: to any state, or to the nominal successor. *)
 Definition next_fine (fine : state -> bool) (s : state) (A : actions) : bool :=
@@ -181,7 +184,8 @@ Definition is_ok (fine : state -> bool) (s : state) (A : actions) : bool :=
   forallb (fun a => forallb (fun b =>
     if a =? b then agree (nominal (the spec a)) (nominal (the spec a)) else compatible a b) A) A &&&
   forallb (holds s A) (reaction_rules spec) &&&
-  next_fine fine s A.
+  next_fine fine s A &&&
+  (negb (throughout spec) ||| after_good (fun t => forallb (applicable t)) s A).
 
 (** ** Runs *)
 
@@ -219,7 +223,7 @@ Fixpoint all_cheaper (good : actions -> bool) (candidates chosen : actions) (bud
 
 (** Actions that an allowed set can contain: applicable, and fine when they are the only ones to strike. *)
 Definition candidates (fine : state -> bool) (s : state) : actions :=
-  filter (fun a => applicable s a &&& one_fine fine s [a])
+  filter (fun a => applicable s a &&& one_good (fun t _ => fine t) s [a])
     (seq 0 (length (declared spec))).
 
 (** ** The judgement of one policy *)

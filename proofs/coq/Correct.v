@@ -96,9 +96,9 @@ Proof.
   - apply in_seq. specialize (declared_ a Ha). lia.
   - eager. apply andb_true_iff. split.
     + apply all_hold_spec. now apply (preconditions_hold _ _ _ _ allowed).
-    + apply one_fine_spec. intros b e [<-|[]] He. apply kept_at_spec; [exact V|].
-      apply (steps_kept _ _ _ _ allowed). left. unfold out. right. destruct order.
-      * now apply last_effect with a.
+    + apply one_good_spec. intros b e [<-|[]] He. apply kept_at_spec; [exact V|].
+      apply (steps_kept _ _ _ _ allowed). left. right. exists (without a A). unfold after. destruct order.
+      * now apply last_effect.
       * now exists a, e.
 Qed.
 

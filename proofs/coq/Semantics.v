@@ -53,7 +53,8 @@ Record specification := {
   assumptions : list formula;
   goals : option goal;
   max_plan_length : option N;
-  restored_in : restoration
+  restored_in : restoration;
+  throughout : bool  (* whether preconditions have to hold until the action takes effect *)
 }.
 
 Inductive ordering := Any | First.
@@ -132,19 +133,22 @@ Definition total_duration (A : actions) : N := fold_right (fun a d => (duration 
 
 Definition without (a : nat) (A : actions) : actions := filter (fun b => negb (b =? a)) A.
 
-(** [struck A s t]: some non-empty sequence of distinct actions of [A], each contributing any one of its effects,
-    leads from [s] to [t]. *)
-Inductive struck : actions -> state -> state -> Prop :=
-| last_effect A s a e : In a A -> In e (effects a) -> struck A s (apply e s)
-| next_effect A s a e t : In a A -> In e (effects a) -> struck (without a A) (apply e s) t -> struck A s t.
+(** [struck A s t B]: some non-empty sequence of distinct actions of [A], each contributing any one of its effects, leads
+    from [s] to [t], and the other actions of [A] are [B]. *)
+Inductive struck : actions -> state -> state -> actions -> Prop :=
+| last_effect A s a e : In a A -> In e (effects a) -> struck A s (apply e s) (without a A)
+| next_effect A s a e t B : In a A -> In e (effects a) -> struck (without a A) (apply e s) t B -> struck A s t B.
+
+(** [after s A t B]: effects of [A] can lead from [s] to [t], when the actions [B] have not taken effect. *)
+Definition after (s : state) (A : actions) (t : state) (B : actions) : Prop :=
+  match order with
+  | Any => struck A s t B
+  | First => exists a e, In a A /\ In e (effects a) /\ t = apply e s /\ B = without a A
+  end.
 
 (** [out s A t]: a step with [A] from [s] can lead to [t]. Where no action of [A] takes effect, that is [s] itself. *)
 Definition out (s : state) (A : actions) (t : state) : Prop :=
-  (t = s /\ forall a, In a A -> effects a = []) \/
-  match order with
-  | Any => struck A s t
-  | First => exists a e, In a A /\ In e (effects a) /\ t = apply e s
-  end.
+  (t = s /\ forall a, In a A -> effects a = []) \/ exists B, after s A t B.
 
 (** The nominal successor: all nominal effects at once. *)
 Definition delta (s : state) (A : actions) : state := apply (flat_map (fun a => nominal (the a)) A) s.
@@ -172,7 +176,9 @@ Record ok (s : state) (A : actions) : Prop := {
   nominals_agree : forall a b x v w, In a A -> In b A ->
     In (x, v) (nominal (the a)) -> In (x, w) (nominal (the b)) -> v = w;
   reaction_rules_hold : forall f, In f (reaction_rules spec) -> holds s A f = true;
-  steps_kept : forall t, next s A t -> kept s t
+  steps_kept : forall t, next s A t -> kept s t;
+  preconditions_last : throughout spec = true ->
+    forall t B a, after s A t B -> In a B -> all_hold t (preconditions (the a))
 }.
 
 (** ** 4. Goals *)

@@ -122,14 +122,14 @@ Qed.
 
 (** ** What a step can lead to *)
 
-Section Fine.
+Section Good.
 
-Variable fine : state -> bool.
+Variable good : state -> actions -> bool.
 
-Lemma one_fine_spec : forall s A,
-  one_fine spec fine s A = true <-> forall a e, In a A -> In e (effects spec a) -> fine (apply e s) = true.
+Lemma one_good_spec : forall s A, one_good spec good s A = true <->
+  forall a e, In a A -> In e (effects spec a) -> good (apply e s) (without a A) = true.
 Proof.
-  intros s A. unfold one_fine. rewrite forallb_forall. split.
+  intros s A. unfold one_good. cbv zeta. rewrite forallb_forall. split.
   - intros H a e Ha He. specialize (H a Ha). rewrite forallb_forall in H. now apply H.
   - intros H a Ha. apply forallb_forall. intros e He. now apply (H a).
 Qed.
@@ -178,8 +178,8 @@ Proof.
   intros [E|H]; [contradiction|]. apply IH in H. lia.
 Qed.
 
-Lemma struck_some : forall A s t, struck spec A s t -> exists a e, In a A /\ In e (effects spec a).
-Proof. intros A s t H. destruct H as [A s a e | A s a e]; now exists a, e. Qed.
+Lemma struck_some : forall A s t B, struck spec A s t B -> exists a e, In a A /\ In e (effects spec a).
+Proof. intros A s t B H. destruct H as [A s a e | A s a e]; now exists a, e. Qed.
 
 Lemma at_rest_spec : forall A, at_rest spec A = true <-> forall a, In a A -> effects spec a = [].
 Proof.
@@ -188,56 +188,77 @@ Proof.
   - now rewrite H.
 Qed.
 
-Lemma struck_fine_safe : forall A s t, struck spec A s t ->
-  forall n f B, struck_fine spec fine n f = true -> In (s, B) f -> incl A B -> length B <= n -> fine t = true.
+Context (less : forall t B C, incl B C -> good t C = true -> good t B = true).
+
+Lemma struck_good_all : forall A s t D, struck spec A s t D ->
+  forall n f B, struck_good spec good n f = true -> In (s, B) f -> incl A B -> length B <= n -> good t D = true.
 Proof.
-  induction 1 as [A s a e Ha He | A s a e t Ha He further IH]; intros n f B F Hf more long.
+  induction 1 as [A s a e Ha He | A s a e t D Ha He further IH]; intros n f B F Hf more long.
   all: assert (HB := more a Ha).
+  all: assert (fewer : incl (without a A) (without a B))
+    by (intros b Hb; apply in_without in Hb; apply in_without; split; [now apply more | apply Hb]).
   all: destruct n as [|n]; [destruct B; cbn in *; [contradiction | lia]|].
-  all: pose proof F as G; cbn [struck_fine] in G; apply andb_true_iff in G; destruct G as [now later].
-  - rewrite forallb_forall in now. specialize (now _ Hf). cbn [fst snd] in now. rewrite one_fine_spec in now. now apply (now a).
+  all: pose proof F as G; cbn [struck_good] in G; revert G; eager; rewrite andb_true_iff; intros [now later].
+  - rewrite forallb_forall in now. specialize (now _ Hf). cbn [fst snd] in now. rewrite one_good_spec in now.
+    apply (less _ _ (without a B)); [exact fewer | now apply now].
   - destruct (list_eq_dec Nat.eq_dec (apply e s) s) as [same|new].
     + apply (IH (S n) f B F); [now rewrite same | | exact long].
       intros b Hb. apply in_without in Hb. now apply more.
     + assert (shorter := without_shorter _ _ HB).
-      assert (less : incl (without a A) (without a B)).
-      { intros b Hb. apply in_without in Hb. apply in_without. split; [now apply more | apply Hb]. }
-      destruct (struck_some _ _ _ further) as (b & _ & some & _). apply less in some.
+      destruct (struck_some _ _ _ _ further) as (b & _ & some & _). apply fewer in some.
       destruct n as [|n]; [destruct (without a B); cbn in *; [contradiction | lia]|].
-      apply (IH (S n) (distinct (after_one spec f)) (without a B) later); [|exact less | lia].
+      apply (IH (S n) (distinct (after_one spec f)) (without a B) later); [|exact fewer | lia].
       now apply in_distinct, in_after_one.
 Qed.
 
-Lemma safe_struck_fine : forall n f,
-  (forall s A t, In (s, A) f -> struck spec A s t -> fine t = true) -> struck_fine spec fine n f = true.
+Lemma all_struck_good : forall n f,
+  (forall s A t B, In (s, A) f -> struck spec A s t B -> good t B = true) -> struck_good spec good n f = true.
 Proof.
   induction n as [|n IH]; intros f H; [reflexivity|].
-  cbn [struck_fine]. apply andb_true_iff. split.
-  - apply forallb_forall. intros [s A] Hf. apply one_fine_spec. intros a e Ha He.
-    apply (H s A); [exact Hf | now apply last_effect with a].
-  - destruct n as [|n]; [reflexivity|]. apply IH. intros t B u HB Hu.
+  cbn [struck_good]. eager. apply andb_true_iff. split.
+  - apply forallb_forall. intros [s A] Hf. apply one_good_spec. intros a e Ha He.
+    apply (H s A); [exact Hf | now apply last_effect].
+  - destruct n as [|n]; [reflexivity|]. apply IH. intros t B u D HB Hu.
     apply in_distinct, after_one_in in HB. destruct HB as (s & A & a & e & Hf & Ha & He & [= -> ->]).
     apply (H s A); [exact Hf | now apply next_effect with a e].
 Qed.
+
+Lemma after_good_spec : forall s A,
+  after_good spec order good s A = true <-> forall t B, after spec order s A t B -> good t B = true.
+Proof.
+  intros s A. unfold after_good, after. destruct order.
+  - split.
+    + intros F t B H. apply (struck_good_all _ _ _ _ H _ _ A F); [now left | now intros b | lia].
+    + intros H. apply all_struck_good. intros s' A' t B [[= <- <-]|[]] Ht. now apply H.
+  - cbn [struck_good forallb fst snd]. eager. rewrite !andb_true_r, one_good_spec. split.
+    + intros F t B (a & e & Ha & He & -> & ->). now apply F.
+    + intros H a e Ha He. apply H. now exists a, e.
+Qed.
+
+End Good.
+
+Lemma after_some : forall s A t B, after spec order s A t B -> exists a e, In a A /\ In e (effects spec a).
+Proof.
+  intros s A t B H. unfold after in H. destruct order; [now apply struck_some in H|].
+  destruct H as (a & e & Ha & He & _). now exists a, e.
+Qed.
+
+Section Fine.
+
+Variable fine : state -> bool.
 
 Lemma out_fine_spec : forall s A,
   out_fine spec order fine s A = true <-> forall t, out spec order s A t -> fine t = true.
 Proof.
   intros s A. unfold out_fine, out. destruct (at_rest spec A) eqn:R.
   { rewrite at_rest_spec in R. split.
-    - intros F t [[-> _]|H]; [exact F|]. destruct order.
-      + destruct (struck_some _ _ _ H) as (a & e & Ha & He). rewrite (R a Ha) in He. contradiction.
-      + destruct H as (a & e & Ha & He & _). rewrite (R a Ha) in He. contradiction.
+    - intros F t [[-> _]|[B H]]; [exact F|]. apply after_some in H. destruct H as (a & e & Ha & He).
+      rewrite (R a Ha) in He. contradiction.
     - intros H. apply H. now left. }
   assert (acts : ~ forall a, In a A -> effects spec a = []) by (rewrite <- at_rest_spec, R; discriminate).
-  destruct order.
-  - split.
-    + intros F t [[_ N]|H]; [contradiction|].
-      apply (struck_fine_safe _ _ _ H _ _ A F); [now left | now intros b | lia].
-    + intros H. apply safe_struck_fine. intros s' A' t [[= <- <-]|[]] Ht. apply H. now right.
-  - cbn [struck_fine forallb fst snd]. rewrite !andb_true_r, one_fine_spec. split.
-    + intros F t [[_ N]|(b & e & Hb & He & ->)]; [contradiction|]. now apply (F b).
-    + intros H b e Hb He. apply H. right. now exists b, e.
+  rewrite after_good_spec by auto. split.
+  - intros F t [[_ N]|[B H]]; [contradiction | now apply (F t B)].
+  - intros H t B T. apply H. right. now exists B.
 Qed.
 
 Lemma next_fine_spec : forall s A,
@@ -281,17 +302,28 @@ Proof.
       * apply agree_spec. intros x v w. now apply N.
 Qed.
 
+Lemma lasting_spec : forall s A, after_good spec order (fun t => forallb (applicable spec t)) s A = true <->
+  forall t B a, after spec order s A t B -> In a B -> all_hold t (preconditions (the spec a)).
+Proof.
+  intros s A. rewrite after_good_spec.
+  - split.
+    + intros H t B a T Ha. specialize (H t B T). rewrite forallb_forall in H. now apply all_hold_spec, H.
+    + intros H t B T. apply forallb_forall. intros a Ha. now apply all_hold_spec, (H t B).
+  - intros t B C fewer. rewrite !forallb_forall. auto.
+Qed.
+
 Lemma is_ok_spec : forall s A, valid spec s -> is_ok spec order (kept_at s) s A = true <-> ok spec order s A.
 Proof.
-  intros s A V. unfold is_ok. eager. rewrite !andb_true_iff, pairs_spec, next_fine_spec, !forallb_forall.
+  intros s A V. unfold is_ok. eager.
+  rewrite !andb_true_iff, orb_true_iff, negb_true_iff, pairs_spec, next_fine_spec, lasting_spec, !forallb_forall.
   assert (K : (forall t, next spec order s A t -> kept_at s t = true) <-> (forall t, next spec order s A t -> kept spec s t)).
   { split; intros H t N; now apply kept_at_spec, H. }
   rewrite K. assert (same : (forall a, In a A -> applicable spec s a = true) <->
     (forall a, In a A -> all_hold s (preconditions (the spec a)))).
   { split; intros H a Ha; now apply all_hold_spec, H. }
   rewrite same. split.
-  - intros [[[P [R N]] Q] O]. now constructor.
-  - intros [P R N Q O]. tauto.
+  - intros [[[[P [R N]] Q] O] L]. constructor; auto. intros T. destruct L as [L|L]; [congruence | exact L].
+  - intros [P R N Q O L]. destruct (throughout spec); intuition.
 Qed.
 
 Lemma ok_next : forall s A t, ok spec order s A -> next spec order s A t -> valid spec t.

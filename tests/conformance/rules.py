@@ -52,7 +52,6 @@ UNANSWERED: dict[tuple[str, str], str] = {
     **{(e, rule): _NO_DECIDER for e in (*_PROVERS, "checker", "coq") for rule in ("5.8", "6.1", "6.2", "6.3", "6.4")},
     **{(e, rule): _NO_DECIDER for e in ("walk", "states", "coq") for rule in ("7.1", "7.2", "7.3")},
     **{(e, "3.11"): _NO_STEPS_ALONE for e in ("walk", "states", "coq")},
-    ("coq", "3.12"): "export-proof refuses `preconditions: throughout`",
     ("explicit", "6.4"): "it writes no files",
 }
 """Rules of which an engine gives no answer, with the reason; every other engine is asked about every other rule."""

@@ -14,13 +14,13 @@ from pathlib import Path
 
 from tests.export.cases import MODES, generated, is_right, stepwise
 from tests.export.compiler import Case, Library
-from tests.profiles import PROFILES
+from tests.profiles import ALL_PROFILES
 
 
 def cases(first_seed: int) -> Iterator[Case]:
     """The profiles in turn, and the ways to restore safety, without end."""
     for seed in count(first_seed):
-        for profile in PROFILES:
+        for profile in ALL_PROFILES:
             yield from generated(profile, seed, 12)
         for restoration, tiers in MODES:
             yield from stepwise(seed, restoration, tiers)

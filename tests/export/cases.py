@@ -11,7 +11,7 @@ from tests.differential import changed_policies
 from tests.export.compiler import Case
 from tests.generate import random_spec
 from tests.oracle import World, decide_world
-from tests.profiles import PROFILES
+from tests.profiles import ALL_PROFILES
 from tumato_symbolic.policy import Table
 from tumato_symbolic.semantics import ActionSet, State, all_states, is_valid, judge
 from tumato_symbolic.spec import Ordering, Restoration, Spec
@@ -30,9 +30,9 @@ def generated(profile: str, seed: int, mutants: int) -> list[Case]:
     """Policies of one specification, none where it is not realizable.
 
     The synthesized one and the oracle's (which need not be minimal), `mutants` changed ones, and the synthesized one
-    for a changed specification: the other ordering, no rules, no bound.
+    for a changed specification: the other ordering, no rules, no bound, preconditions at other times.
     """
-    spec, ordering = random_spec(seed, PROFILES[profile]), _ORDERINGS[seed % 2]
+    spec, ordering = random_spec(seed, ALL_PROFILES[profile]), _ORDERINGS[seed % 2]
     world = World(spec, ordering)
     found = decide_world(world).policy
     if found is None:
@@ -73,7 +73,8 @@ def stepwise(seed: int, restoration: Restoration, tiers: int, mutants: int = 3, 
     cases = [Case(spec, rows, ordering) for rows in found]
     others = [replace(spec, restoration=other) for other in _RESTORATIONS if other != restoration]
     flat = replace(spec, state_rules=tuple(replace(rule, severity=1) for rule in spec.state_rules))
-    return [*cases, *(Case(other, found[0], ordering) for other in (*others, flat) if found)]
+    lasting = replace(spec, preconditions="throughout")
+    return [*cases, *(Case(other, found[0], ordering) for other in (*others, flat, lasting) if found)]
 
 
 _RESTORATIONS: tuple[Restoration, ...] = ("one_step", "bounded", "fair")
@@ -83,6 +84,7 @@ _ORDERINGS: tuple[Ordering, Ordering] = ("any", "first")
 def _near(spec: Spec) -> Iterator[Spec]:
     yield replace(spec, state_rules=spec.state_rules[1:], max_plan_length=None)
     yield replace(spec, reaction_rules=(), max_plan_length=2)
+    yield replace(spec, preconditions="at_start" if spec.preconditions == "throughout" else "throughout")
     yield replace(spec, actions=tuple(replace(action, duration=2 * n + 1) for n, action in enumerate(spec.actions)))
 
 

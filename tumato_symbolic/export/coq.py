@@ -41,7 +41,6 @@ from tumato_symbolic.spec import (
     fold,
     fold_goal,
 )
-from tumato_symbolic.spec.support import require_at_start
 
 MOST_STATES = 30_000
 """Coq goes through all states, valid or not; so many take it about a minute (`proofs/coq/README.md`)."""
@@ -77,7 +76,6 @@ def export(policy: Policy, spec: Spec, ordering: Ordering) -> str:
     `UserError` where the policy does not fit the specification (`bind`), where it leaves a valid state undecided
     (TUM502), or where the specification has more than `MOST_STATES` states (TUM508).
     """
-    require_at_start(spec, "export-proof")
     rows = _rows(bind(policy, spec), spec)
     several = spec.restoration != "one_step"
     theorem = _THEOREM.format(ordering=ordering.capitalize(), efforts="known" if several else "no_efforts")
@@ -124,7 +122,8 @@ def _specification(spec: Spec) -> Iterator[str]:
         yield f"{indent(_goal(spec, spec.goals), '    ')};"
     bound = spec.max_plan_length
     yield "  max_plan_length := " + ("None" if bound is None else f"Some {bound}%N") + ";"
-    yield f"  restored_in := {_RESTORATIONS[spec.restoration]}"
+    yield f"  restored_in := {_RESTORATIONS[spec.restoration]};"
+    yield f"  throughout := {'true' if spec.preconditions == 'throughout' else 'false'}"
     yield "|}.\n"
 
 

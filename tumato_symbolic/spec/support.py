@@ -12,10 +12,3 @@ def require_one_step(spec: Spec, who: str) -> None:
         setting = f"`restoration: {spec.restoration}`" if spec.restoration != "one_step" else "more than one `severity`"
         help_ = "use `restoration: one_step` and one severity for now"
         raise UserError((Diagnostic(Code.TUM313, f"{who} does not support {setting} yet", help=help_),))
-
-
-def require_at_start(spec: Spec, who: str) -> None:
-    """Raise `UserError` where preconditions have to hold throughout, and `who` does not know that yet."""
-    if spec.preconditions != "at_start":
-        message = f"{who} does not support `preconditions: {spec.preconditions}` yet"
-        raise UserError((Diagnostic(Code.TUM313, message, help="use `preconditions: at_start` for now"),))
