@@ -147,7 +147,8 @@ def _sentence(place: Place, decision: Decision, other: Other) -> str:
         case "endless":
             return "it may never restore safety"
         case "costlier" if other.quality is not None and decision.quality is not None:
-            return f"it restores safety in {_effort(other.quality)} rather than {_effort(decision.quality)}"
+            what = "restores safety" if len(place.spec.tiers) == 1 else "raises the level"
+            return f"it {what} in {_effort(other.quality)} rather than {_effort(decision.quality)}"
         case "costlier":
             return f"it takes longer to restore safety: {other.duration} rather than {decision.duration}"
         case "longer":
