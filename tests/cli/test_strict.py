@@ -12,6 +12,7 @@ import pytest
 from tests.cli.conftest import Cli
 from tests.cli.inputs import AMR, TWO_ROBOTS, changed_policy, state
 from tests.repo.documents import ROOT
+from tests.semantics.test_restoration import VALVES
 
 Document = dict[str, Any]
 
@@ -248,3 +249,18 @@ def test_every_specification_may_be_required(cli: Cli, folder: Path) -> None:
     assert cli("verify", "policies", "--require-all", "--specs", "robots").code == 0
     assert cli("verify", "policies").code == 0
     assert cli("verify", "amr.json", "amr.tum", "--require-all").code == 2
+
+
+def test_efforts_are_judged_whatever_is_asked(cli: Cli, tmp_path: Path) -> None:
+    """A certificate that promises too short a way to safety fails, also where *restoring* is not asked for."""
+    (tmp_path / "valves.tum").write_text(VALVES)
+    assert cli("synth", "valves.tum", "--restoration", "bounded", "-o", "valves.json").code == 0
+    asked = ("--restoration", "bounded", "--strict", "--properties", "safe,goals")
+    assert cli("verify", "valves.json", "valves.tum", *asked).code == 0
+    policy = json.loads((tmp_path / "valves.json").read_text())
+    leaves = _certificate(policy)["Restoring"]["Leaves"]
+    leaves[leaves.index([2, 2])] = [2, 1]
+    (tmp_path / "valves.json").write_text(json.dumps(policy))
+    ran = cli("verify", "valves.json", "valves.tum", *asked)
+    assert ran.code == 1
+    assert "Not accepted (--strict): the certificate is wrong." in ran.out

@@ -63,11 +63,15 @@ def stepwise_spec(seed: int, restoration: Restoration, tiers: int) -> Spec:
     random = Random(seed)
     spec = random_spec(seed, PROFILE) if seed % 2 else with_repairs(random_spec(seed, REPAIRS), random)
     rules = tuple(replace(rule, severity=random.randint(1, tiers)) for rule in spec.state_rules)
-    return replace(spec, state_rules=rules, restoration=restoration)
+    spec = replace(spec, state_rules=rules, restoration=restoration)
+    return replace(spec, preconditions="throughout") if seed % 4 > 1 else spec
 
 
 def with_repairs(spec: Spec, random: Random) -> Spec:
-    """With a rule against one value of each of some variables, and an action against it that may do something else."""
+    """With a rule against one value of each of some variables, and an action against it that may do something else.
+
+    One action has no effects.
+    """
     rules, actions = list(spec.state_rules), list(spec.actions)
     sizes = [len(variable.values) for variable in spec.variables]
     for variable in [number for number, size in enumerate(sizes) if size > 1][: random.choice((2, 3))]:
@@ -80,6 +84,7 @@ def with_repairs(spec: Spec, random: Random) -> Spec:
         nominal = tuple(sorted(effect.items()))
         held = frozenset(range(len(spec.resources))) if random.random() < 0.5 else frozenset[int]()
         actions.append(Action(f"mend{variable}", random.randint(0, 4), held, (), nominal, fails, NOWHERE))
+    actions.append(Action("tell", random.randint(0, 1), frozenset[int](), (), (), (), NOWHERE))
     return replace(spec, state_rules=tuple(rules), actions=tuple(actions))
 
 

@@ -74,7 +74,7 @@ def judge(
                 spec,
                 ordering=criteria.ordering,
                 restoration=criteria.restoration,
-                properties=criteria.properties,
+                properties=(*criteria.properties, "restoring") if criteria.strict else criteria.properties,
                 prover=criteria.prover,
                 jobs=jobs,
                 context=context.within(learned=lambda found: context.learn(verified(found))),

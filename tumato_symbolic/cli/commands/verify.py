@@ -109,7 +109,10 @@ class Options(CommandOptions):
         return self.guarantees or self.guarantees_file is not None
 
     def mistake(self) -> str | None:
-        """A policy needs one specification, a folder looks for its own; a certificate is judged with safe and goals."""
+        """A policy needs one specification, a folder looks for its own; a certificate is judged with safe and goals.
+
+        And with restoring, which is added where it is asked for at all.
+        """
         is_folder = os.path.isdir(self.policy)  # noqa: PTH112 - Path.is_dir() fails for names that are too long
         if len(self.specs) > 1 or not (self.specs or is_folder):
             return "give a policy and its specification, or a folder of policies"
