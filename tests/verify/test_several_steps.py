@@ -13,7 +13,7 @@ from tumato_symbolic.spec import Ordering, Restoration, Spec
 from tumato_symbolic.verify import ProverName, Refutation, Verification, verify
 
 ORDERINGS: tuple[Ordering, ...] = ("any", "first")
-PROVERS: tuple[ProverName, ...] = ("explicit", "walk")
+PROVERS: tuple[ProverName, ...] = ("explicit", "walk", "z3")
 
 
 def judged_by(

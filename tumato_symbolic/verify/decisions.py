@@ -10,6 +10,7 @@ from tumato_symbolic.diagrams import Diagram, DiagramBuilder, Reference
 from tumato_symbolic.policy import Policy, Table
 from tumato_symbolic.policy.convert import as_table
 from tumato_symbolic.semantics import (
+    NOTHING,
     ActionSet,
     Residual,
     State,
@@ -97,7 +98,10 @@ class Ranks:
         return self._known[goal]
 
     def _compute(self, goal: Residual) -> dict[State, int]:
-        tests = [truth(self._spec.bodies[body].formula, goal.executed) for body in sorted(goal.bodies)]
+        spec = self._spec
+        tests = [truth(spec.bodies[body].formula, goal.executed) for body in sorted(goal.bodies)]
+        if spec.restores_stepwise:  # goals are met in safe states only
+            tests += [truth(rule.formula, NOTHING) for rule in (*spec.assumptions, *spec.state_rules)]
         origins = self._decisions.origins
         places = dict.fromkeys((*self._decisions.followers, *origins))
         layer = [state for state in places if all(test(state) for test in tests)]

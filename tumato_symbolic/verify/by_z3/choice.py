@@ -15,11 +15,11 @@ from tumato_symbolic.verify.by_z3.encoding import (
     agreement_terms,
     formula_term,
     is_true,
-    safe_term,
     successor_place,
 )
 from tumato_symbolic.verify.by_z3.solver import Solver
 from tumato_symbolic.verify.by_z3.terms import Number, Term, at_most_one, conjunction, implies
+from tumato_symbolic.verify.by_z3.tier_terms import Tiers
 
 
 class Choice:
@@ -29,6 +29,7 @@ class Choice:
         self._spec = spec
         self._context = solver.context
         self._here = here
+        self._tiers = Tiers(spec, here)
         self.executed: list[Term] = [
             z3.Bool(f"a.{number}", solver.context) for number in range(len(self._spec.actions))
         ]
@@ -44,14 +45,14 @@ class Choice:
         required: list[Term] = []
         for number, action in enumerate(spec.actions):
             holds = conjunction(formula_term(rule.formula, here) for rule in action.preconditions)
-            safe = conjunction(safe_term(spec, here.after(effect)) for effect in action.effects)
+            safe = conjunction(self._tiers.kept(here.after(effect)) for effect in action.effects)
             required.append(implies(executed[number], conjunction((holds, safe))))
         for resource in range(len(spec.resources)):
             users = [executed[number] for number, action in enumerate(spec.actions) if resource in action.resources]
             required.append(at_most_one(users))
         required += agreement_terms(spec, executed)
         required += [formula_term(rule.formula, here, executed) for rule in spec.reaction_rules]
-        required.append(safe_term(spec, self.after))
+        required.append(self._tiers.kept(self.after))
         return required
 
     def lemma(self, objection: Objection) -> Term:
@@ -67,7 +68,7 @@ class Choice:
         reached = self._here.after(tuple(sorted(written.items())))
         together = conjunction(self.executed[step.action] for step in objection.outcome)
         if pending is None:
-            return implies(together, safe_term(self._spec, reached))
+            return implies(together, self._tiers.kept(reached))
         rules = self._spec.actions[pending].preconditions
         kept = conjunction(formula_term(rule.formula, reached) for rule in rules)
         return implies(conjunction((together, self.executed[pending])), kept)

@@ -25,6 +25,7 @@ from tumato_symbolic.verify.by_z3.encoding import (
 from tumato_symbolic.verify.by_z3.goal_terms import GoalTerms
 from tumato_symbolic.verify.by_z3.solver import Solver, UndecidedError
 from tumato_symbolic.verify.by_z3.terms import Term, conjunction, disjunction, negation, same
+from tumato_symbolic.verify.by_z3.tier_terms import Tiers
 
 
 class Frame:
@@ -96,6 +97,23 @@ class Frame:
     def safe_after(self) -> Term:
         """`δ(s, π(s)) ∈ S`, where `acting`."""
         return self.name(safe_term(self.spec, self.after), "safe_after")
+
+    @cached_property
+    def valid_after(self) -> Term:
+        """`δ(s, π(s)) ∈ V`, where `acting`."""
+        return self.name(valid_term(self.spec, self.after), "valid_after")
+
+    @cached_property
+    def tiers(self) -> Tiers:
+        """How many tiers of state rules `s` satisfies."""
+        return Tiers(self.spec, self.state, lambda term: self.name(term, "level"))
+
+    @cached_property
+    def kept_after(self) -> Term:
+        """`δ(s, π(s))` keeps what a step from `s` has to keep, where `acting`."""
+        if not self.spec.restores_stepwise:
+            return self.safe_after
+        return self.name(self.tiers.kept(self.after), "kept_after")
 
     @cached_property
     def goals(self) -> GoalTerms:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from tumato_symbolic.semantics import Residual
 from tumato_symbolic.spec import Spec, active_bodies, executing_atoms
-from tumato_symbolic.verify.by_z3.encoding import TERMS, Place, formula_term
+from tumato_symbolic.verify.by_z3.encoding import TERMS, Place, formula_term, safe_term
 from tumato_symbolic.verify.by_z3.terms import Term, conjunction, disjunction, negation
 
 
@@ -45,6 +45,7 @@ class GoalTerms:
 
 
 def reached_term(spec: Spec, goal: Residual, place: Place) -> Term:
-    """The residual goal holds in `place`."""
+    """The residual goal is met in `place`: where safety may take several steps to restore, in safe states only."""
     executed = [number in goal.executed for number in range(len(spec.actions))]
-    return conjunction(formula_term(spec.bodies[body].formula, place, executed) for body in sorted(goal.bodies))
+    bodies = [formula_term(spec.bodies[body].formula, place, executed) for body in sorted(goal.bodies)]
+    return conjunction((safe_term(spec, place), *bodies) if spec.restores_stepwise else bodies)

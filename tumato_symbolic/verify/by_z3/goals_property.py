@@ -19,7 +19,7 @@ def prove_goals(frame: Frame, source: RankSource) -> PropertyResult:
 
     Decisions that are not allowed owe no run. Raises `UndecidedError`.
     """
-    goals = [goal for goal in _residuals(frame) if goal.bodies]
+    goals = [goal for goal in _residuals(frame) if goal.bodies or frame.spec.restores_stepwise]
     return _by_certificate(frame, source, goals) or _by_following(frame, source, goals)
 
 

@@ -19,8 +19,8 @@ from tumato_symbolic.semantics import (
     fault_after,
     objections,
 )
-from tumato_symbolic.spec import Action, Ordering, Spec
-from tumato_symbolic.verify.by_z3.encoding import Place, agreement_terms, formula_term, is_true, safe_term
+from tumato_symbolic.spec import Action, Assignment, Ordering, Spec
+from tumato_symbolic.verify.by_z3.encoding import Place, agreement_terms, formula_term, is_true
 from tumato_symbolic.verify.by_z3.solver import Solver, UndecidedError
 from tumato_symbolic.verify.by_z3.terms import (
     Context,
@@ -32,24 +32,33 @@ from tumato_symbolic.verify.by_z3.terms import (
     implies,
     negation,
 )
+from tumato_symbolic.verify.by_z3.tier_terms import Tiers
 
 LISTED_ACTIONS = 6
 """Of up to so many actions all outcomes are listed."""
 OBJECTIONS_AT_ONCE = 20
 
 
-class UnsafeOutcome:
-    """Some executed actions take effect, one effect each, in some order, and what they lead to is not safe.
+class AnyOutcome:
+    """Some executed actions take effect, one effect each, in some order; `reached` is what they lead to.
 
-    Or, where preconditions have to hold throughout, it falsifies one of an executed action that has not taken effect.
     Of the effects that write a variable the last one, its *winner*, gives the value. An order is needed only among
-    actions that may run together and write a common variable; for the others any order is the same.
+    actions that may run together and write a common variable; for the others any order is the same. `conflicting`:
+    the executed actions may share resources, as those of a policy that is not safe.
     """
 
     def __init__(
-        self, spec: Spec, place: Place, executed: Sequence[Term], ordering: Ordering, context: Context
+        self,
+        spec: Spec,
+        place: Place,
+        executed: Sequence[Term],
+        ordering: Ordering,
+        context: Context,
+        *,
+        conflicting: bool = False,
     ) -> None:
         self._spec = spec
+        self._conflicting = conflicting
         self._context = context
         self._taken: dict[int, list[Term]] = {
             number: [z3.Bool(f"u.{number}.{effect}", context) for effect in range(len(action.effects))]
@@ -64,27 +73,19 @@ class UnsafeOutcome:
             disjunction(self._used.values()),
             *self._exclusions(ordering),
         ]
-        reached = Place([self._code(variable, code) for variable, code in enumerate(place.bits)])
-        faults = [negation(safe_term(spec, reached)), *self._falsified(executed, reached)]
-        self.constraints.append(disjunction(faults))
-
-    def _falsified(self, executed: Sequence[Term], reached: Place) -> Iterator[Term]:
-        """The preconditions of an action that has not taken effect do not hold, where they have to."""
-        if self._spec.preconditions == "throughout":
-            for number, used in self._used.items():
-                rules = self._spec.actions[number].preconditions
-                holds = conjunction(formula_term(rule.formula, reached) for rule in rules)
-                yield conjunction((executed[number], negation(used), negation(holds)))
+        self.reached = Place([self._code(variable, code) for variable, code in enumerate(place.bits)])
 
     def _exclusions(self, ordering: Ordering) -> list[Term]:
         """Who does not take effect beside whom: nobody under `first`, and never two that may not run together."""
         if ordering == "first":
             return [at_most_one(self._used.values())]
+        used = [self._used.get(number, False) for number in range(len(self._spec.actions))]
+        if self._conflicting:
+            return agreement_terms(self._spec, used)
         sharing = [
             at_most_one(used for number, used in self._used.items() if held in self._spec.actions[number].resources)
             for held in range(len(self._spec.resources))
         ]
-        used = [self._used.get(number, False) for number in range(len(self._spec.actions))]
         return [*sharing, *agreement_terms(self._spec, used)]
 
     def _rank_numbers(self) -> dict[int, Number]:
@@ -94,7 +95,7 @@ class UnsafeOutcome:
             {
                 number
                 for pair in combinations(self._taken, 2)
-                if compatible(actions[pair[0]], actions[pair[1]])
+                if (self._conflicting or compatible(actions[pair[0]], actions[pair[1]]))
                 and written(actions[pair[0]]) & written(actions[pair[1]])
                 for number in pair
             }
@@ -150,19 +151,45 @@ class UnsafeOutcome:
             ),
         ]
 
-    def objection(self, model: Any, state: State, chosen: ActionSet) -> Objection:  # noqa: ANN401 - z3 has no types
-        """The outcome that a model gives, replayed, without the effects that are not needed."""
+    def steps(self, model: Any) -> list[tuple[int, Assignment]]:  # noqa: ANN401 - z3 has no types
+        """The effects that strike in a model, in their order."""
         used = [
             (model.eval(self._ranks[number], model_completion=True).as_long() if number in self._ranks else 0, number)
             for number, term in self._used.items()
             if is_true(model, term)
         ]
-        steps = [
+        return [
             (number, self._spec.actions[number].effects[effect])
             for _, number in sorted(used)
             for effect, term in enumerate(self._taken[number])
             if is_true(model, term)
         ]
+
+
+class UnsafeOutcome(AnyOutcome):
+    """An outcome that is not safe; where safety may take several steps to restore, that breaks a rule to be kept.
+
+    Or, where preconditions have to hold throughout, that falsifies one of an executed action that has not taken effect.
+    """
+
+    def __init__(
+        self, spec: Spec, place: Place, executed: Sequence[Term], ordering: Ordering, context: Context
+    ) -> None:
+        super().__init__(spec, place, executed, ordering, context)
+        faults = [negation(Tiers(spec, place).kept(self.reached)), *self._falsified(executed)]
+        self.constraints.append(disjunction(faults))
+
+    def _falsified(self, executed: Sequence[Term]) -> Iterator[Term]:
+        """The preconditions of an action that has not taken effect do not hold, where they have to."""
+        if self._spec.preconditions == "throughout":
+            for number, used in self._used.items():
+                rules = self._spec.actions[number].preconditions
+                holds = conjunction(formula_term(rule.formula, self.reached) for rule in rules)
+                yield conjunction((executed[number], negation(used), negation(holds)))
+
+    def objection(self, model: Any, state: State, chosen: ActionSet) -> Objection:  # noqa: ANN401 - z3 has no types
+        """The outcome that a model gives, replayed, without the effects that are not needed."""
+        steps = self.steps(model)
         striking = {number for number, _ in steps} <= chosen
         fault = fault_after(self._spec, state, chosen, replay(state, steps)) if steps and striking else None
         if fault is None:

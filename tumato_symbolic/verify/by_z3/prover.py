@@ -13,10 +13,13 @@ from tumato_symbolic.policy import Policy, Table
 from tumato_symbolic.policy.convert import as_diagram
 from tumato_symbolic.semantics import is_valid
 from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.verify.by_z3.best_property import prove_best
+from tumato_symbolic.verify.by_z3.effort_source import EffortSource
 from tumato_symbolic.verify.by_z3.frame import Frame
 from tumato_symbolic.verify.by_z3.goals_property import prove_goals
 from tumato_symbolic.verify.by_z3.minimal_property import prove_minimal
 from tumato_symbolic.verify.by_z3.rank_source import RankSource
+from tumato_symbolic.verify.by_z3.restoring_property import prove_restoring
 from tumato_symbolic.verify.by_z3.solver import UndecidedError
 from tumato_symbolic.verify.by_z3.step_property import prove_safe, prove_total
 from tumato_symbolic.verify.by_z3.terms import conjunction, negation
@@ -46,14 +49,16 @@ class Z3Prover:
     def _ranks(self) -> RankSource:
         return RankSource(self._frame, self._policy, self._ordering, self.policy_is_safe)
 
+    @cached_property
+    def _efforts(self) -> EffortSource:
+        return EffortSource(self._frame, self._ranks, self._ordering, self.policy_is_safe)
+
     def has_valid_state(self) -> bool:
         """Whether some state satisfies all assumptions, as far as Z3 can tell."""
         return self._frame.solver.ask(self._frame.valid, deadline=self._frame.deadline()) != "unsat"
 
     def prove(self, name: PropertyName, within: float = math.inf) -> PropertyResult:
         """The verdict on one property; undecided where an obligation, or all in `within` seconds, take too long."""
-        if self._spec.restores_stepwise and name != "total":
-            return PropertyResult(name, "undecided", reason="Z3 is not asked where safety may take several steps")
         self._frame.latest = time.monotonic() + within
         try:
             match name:
@@ -61,8 +66,12 @@ class Z3Prover:
                     result = prove_total(self._frame)
                 case "safe":
                     result = prove_safe(self._frame, self._ordering)
+                case "restoring":
+                    result = prove_restoring(self._frame, self._efforts, self._ordering)
                 case "goals":
                     result = prove_goals(self._frame, self._ranks)
+                case _ if self._spec.restores_stepwise:
+                    result = prove_best(self._frame, self._efforts, self._ordering)
                 case _:
                     result = prove_minimal(self._frame, self._ranks, self._ordering)
         except UndecidedError as undecided:

@@ -29,7 +29,9 @@ class RankSource(GivenRanks):
         """The ranks that came with the policy, unless they were set aside."""
         if self._certificate is None or goal not in self.roots:
             return None
-        return RankFunction(goal, self._certificate.ranks, self.roots[goal], given=True)
+        return RankFunction(
+            goal, self._certificate.ranks, self.roots[goal], given=True, of_unsafe=self.speaks_of_unsafe
+        )
 
     def owes_a_run(self, state: State) -> bool:
         """Whether the decision for `state` owes a run: those that are not allowed are refuted without one."""
@@ -42,7 +44,7 @@ class RankSource(GivenRanks):
 
         Raises `UndecidedError`.
         """
-        if self.use != UNNEEDED:
+        if self.use != UNNEEDED and not (self.speaks_of_unsafe and self.stands):
             return False
         for goal in self.roots:
             ranks = self.given(goal)

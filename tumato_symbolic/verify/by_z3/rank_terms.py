@@ -43,14 +43,15 @@ def below(bound: float) -> Callable[[Rank], bool]:
 class RankFunction:
     """`N_c` of one residual goal: a rank or None for every state.
 
-    A *given* one comes with the policy; it speaks of safe states. A *recomputed* one speaks of all states: it is 0
-    wherever the goal holds, and otherwise what the diagram says.
+    A *given* one comes with the policy; it speaks of safe states, or of all valid ones (`of_unsafe`). A *recomputed*
+    one speaks of all states: it is 0 wherever the goal holds, and otherwise what the diagram says.
     """
 
     goal: Residual
     diagram: Diagram[Rank]
     root: Reference
     given: bool
+    of_unsafe: bool = False
 
     @property
     def ranks(self) -> list[int]:
@@ -87,8 +88,11 @@ class RankProof:
     def __init__(self, frame: Frame, ranks: RankFunction) -> None:
         self._frame = frame
         self._ranks = ranks
-        self._covered: Term = frame.safe if ranks.given else True
-        self._covered_after: Term = frame.safe_after if ranks.given else True
+        self._covered: Term = True
+        self._covered_after: Term = True
+        if ranks.given:
+            self._covered = frame.valid if ranks.of_unsafe else frame.safe
+            self._covered_after = frame.valid_after if ranks.of_unsafe else frame.safe_after
         self._coded = ranks.counts(frame)
         self._reached = frame.name(reached_term(frame.spec, ranks.goal, frame.state), "reached")
 

@@ -40,8 +40,9 @@ def prove_safe(frame: Frame, ordering: Ordering) -> PropertyResult:
     """Every decision for a valid state is allowed. One that is not is found also where other obligations are open."""
     obligations = [*_conditions(frame), _outcomes(frame, ordering)]
     if ordering == "first":
-        violation = conjunction((frame.acting, negation(frame.safe_after)))
-        obligations.append(Obligation("all nominal effects together lead to a safe state", violation))
+        violation = conjunction((frame.acting, negation(frame.kept_after)))
+        what = "keep the rules" if frame.spec.restores_stepwise else "lead to a safe state"
+        obligations.append(Obligation(f"all nominal effects together {what}", violation))
     undecided: UndecidedError | None = None
     for obligation in obligations:
         try:
@@ -59,7 +60,8 @@ def prove_safe(frame: Frame, ordering: Ordering) -> PropertyResult:
 def _conditions(frame: Frame) -> Iterator[Obligation]:
     """Conditions 1 to 4 of section 3, and safety of the states where no action takes effect.
 
-    Condition 6 follows from 5 under `any`: the nominal effects one after the other are an outcome.
+    In several steps, doing nothing breaks no rule, and restores nothing. Condition 6 follows from 5 under `any`: the
+    nominal effects one after the other are an outcome.
     """
     spec, executed = frame.spec, frame.executed
     for number, action in enumerate(spec.actions):
@@ -77,14 +79,16 @@ def _conditions(frame: Frame) -> Iterator[Obligation]:
     for rule in spec.reaction_rules:
         violation = negation(formula_term(rule.formula, frame.state, executed))
         yield Obligation(f"the reaction rule '{rule.text}' holds", violation)
-    idle = negation(disjunction(executed[number] for number, action in enumerate(spec.actions) if action.effects))
-    yield Obligation("where no action takes effect, the state is safe", conjunction((idle, negation(frame.safe))))
+    if spec.restoration == "one_step":
+        idle = negation(disjunction(executed[number] for number, action in enumerate(spec.actions) if action.effects))
+        yield Obligation("where no action takes effect, the state is safe", conjunction((idle, negation(frame.safe))))
 
 
 def _outcomes(frame: Frame, ordering: Ordering) -> Obligation:
     """Condition 5 of section 3."""
     unsafe = UnsafeOutcome(frame.spec, frame.state, frame.executed, ordering, frame.context)
-    return Obligation("every outcome is safe", conjunction(unsafe.constraints), unsafe.objection)
+    claim = "every outcome keeps the rules" if frame.spec.restores_stepwise else "every outcome is safe"
+    return Obligation(claim, conjunction(unsafe.constraints), unsafe.objection)
 
 
 def _refuted(frame: Frame, obligation: Obligation, model: object, ordering: Ordering) -> PropertyResult:

@@ -1,0 +1,117 @@
+"""Where efforts come from: the policy's certificate as long as it holds, otherwise the policy itself."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+from tumato_symbolic.diagrams import DiagramBuilder
+from tumato_symbolic.policy.records import Restoring
+from tumato_symbolic.semantics import AT_ONCE, Effort, Restorations, State, is_safe, restored
+from tumato_symbolic.spec import Ordering
+from tumato_symbolic.verify.by_z3.efforts import Efforts, longer
+from tumato_symbolic.verify.by_z3.frame import Frame
+from tumato_symbolic.verify.by_z3.rank_source import RankSource
+from tumato_symbolic.verify.by_z3.solver import UndecidedError
+
+MOST_UNSAFE = 20_000
+"""In how many unsafe states efforts are recomputed."""
+
+
+class EffortSource:
+    """The efforts of one policy, proved; `ranks` tells what became of its certificate."""
+
+    def __init__(self, frame: Frame, ranks: RankSource, ordering: Ordering, policy_is_safe: bool) -> None:
+        self._frame, self.ranks = frame, ranks
+        self._ordering: Ordering = ordering
+        self.policy_is_safe = policy_is_safe
+        self._checked: Efforts | None = None
+
+    def given(self) -> Efforts | None:
+        """Those of the certificate, nowhere too small; None where that cannot be said. Raises `UndecidedError`."""
+        restoring = self.ranks.restoring
+        if restoring is None:
+            return None
+        if self._checked is None:
+            efforts = Efforts(self._frame, restoring, self._ordering, conflicting=not self.policy_is_safe)
+            false = efforts.first_false()
+            if false is not None:
+                self.ranks.false_effort(false)
+                return None
+            self._checked = efforts
+        return self._checked
+
+    def exact(self) -> Efforts:
+        """Efforts with a `w` that is nowhere too large either. Raises `UndecidedError`.
+
+        So are nominal ones, as long as the policy can be looked at state by state.
+        """
+        given = self.given()
+        too_large = None if given is None else given.too_large()
+        if too_large is not None:
+            self.ranks.inexact_effort(too_large)
+        if given is None or too_large is not None:
+            return self.recomputed
+        if not given.fair or given.nominal_is_exact():
+            return given
+        try:
+            found = self.recomputed
+        except UndecidedError:
+            return given
+        self._compare(given.record, found.record)
+        return found
+
+    def _compare(self, given: Restoring, found: Restoring) -> None:
+        """Heed where nominal efforts of the certificate are not those that the policy has."""
+        for state in self._unsafe or ():
+            if given.efforts.evaluate(given.worst, state) is None:
+                exact = found.efforts.evaluate(found.nominal, state)
+                if given.efforts.evaluate(given.nominal, state) != exact:
+                    self.ranks.inexact_effort(state)
+                    return
+
+    @cached_property
+    def _unsafe(self) -> list[State] | None:
+        """The unsafe states where the policy acts; None where there are too many."""
+        decisions = self.ranks.decisions
+        if decisions.rows is None:
+            return None
+        found = [state for state in decisions.followers if not is_safe(self._frame.spec, state)]
+        return None if len(found) > MOST_UNSAFE else found
+
+    @cached_property
+    def recomputed(self) -> Efforts:
+        """Those that the policy has, wherever it restores safety. Raises `UndecidedError`."""
+        efforts = Efforts(self._frame, self._restoring(), self._ordering, conflicting=not self.policy_is_safe)
+        if efforts.first_false() is not None or efforts.too_large() is not None:
+            if self.policy_is_safe:
+                raise RuntimeError("the efforts of a policy are no efforts")
+            raise UndecidedError("safety is restored", "the policy is not safe")
+        return efforts
+
+    def _restoring(self) -> Restoring:
+        spec, decisions = self._frame.spec, self.ranks.decisions
+        unsafe = self._unsafe
+        if unsafe is None:
+            why = f"there are no exact efforts, and over {MOST_UNSAFE} unsafe states, too many to look at each"
+            raise UndecidedError("safety is restored", why)
+        rows = {state: decisions[state] for state in unsafe}
+        worst = Restorations(spec, rows, self._ordering).worst
+        nominal = {state: effort for state in unsafe if (effort := self._nominal(state)) is not None}
+        along = nominal if spec.restoration == "fair" else {}
+        builder = DiagramBuilder[Effort | None](
+            range(len(spec.variables)), [None, *sorted({*worst.values(), *along.values()})]
+        )
+        sizes = [len(variable.values) for variable in spec.variables]
+        worst_root, nominal_root = (builder.from_table(sizes, table, None) for table in (worst, along))
+        return Restoring(builder.finish(), worst_root, nominal_root)
+
+    def _nominal(self, state: State) -> Effort | None:
+        """What the nominal run takes until `state` is restored, if it ever is."""
+        spec, decisions = self._frame.spec, self.ranks.decisions
+        effort, here, met = AT_ONCE, state, set[State]()
+        while here not in met and here in decisions.followers:
+            met.add(here)
+            effort, here = longer(spec, decisions[here], effort), decisions.followers[here]
+            if restored(spec, state, here):
+                return effort
+        return None
