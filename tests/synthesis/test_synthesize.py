@@ -213,7 +213,7 @@ def test_the_answer_no_stands_without_its_certificate() -> None:
     assert isinstance(outcome, Unrealizable)
     assert whole.certificate is not None
     limit = "the time limit of 1000 s was met while certifying that there is no policy"
-    assert outcome == replace(whole, certificate=None, limit=limit)
+    assert outcome == replace(whole, certificate=None, limit=limit, restorability=None)
 
 
 def test_every_step_of_a_fixpoint_heeds_the_time_limit(monkeypatch: pytest.MonkeyPatch) -> None:

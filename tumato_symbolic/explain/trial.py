@@ -12,7 +12,9 @@ def trial(conditions: Conditions, spec: Spec) -> Outcome:
     """The outcome of synthesis. Raises `LimitReachedError` when the time of the stage that asks is up."""
     context = conditions.manager.context
     left = Context(Limits(context.seconds_left(), context.limits.megabytes))
-    outcome = synthesize(spec, conditions.ordering, backend=conditions.manager.backend, context=left, certify=False)
+    outcome = synthesize(
+        spec, conditions.ordering, backend=conditions.manager.backend, context=left, certify=False, diagnose=False
+    )
     context.check()
     return outcome
 

@@ -12,6 +12,7 @@ from tumato_symbolic.spec import Ordering
 
 if TYPE_CHECKING:
     from tumato_symbolic.policy.unrealizable import Unrealizability
+    from tumato_symbolic.synthesis.diagnosis import Restorability
 
 FailureKind: TypeAlias = Literal["no-allowed-set", "no-restoration", "no-plan", "conflict"]
 
@@ -85,7 +86,8 @@ class Realizable:
 class Unrealizable:
     """There is no policy: these states fail, or these goals conflict; `certificate` proves it.
 
-    It is None where `limit` was met before it was made.
+    It is None where `limit` was met before it was made. `restorability` tells what would restore the states that
+    cannot be restored in one step, where there are any and that was asked for.
     """
 
     failures: tuple[Failure, ...]
@@ -93,6 +95,7 @@ class Unrealizable:
     certificate: Unrealizability | None
     warnings: tuple[Diagnostic, ...] = ()
     limit: str | None = None
+    restorability: Restorability | None = None
 
 
 @dataclass(frozen=True, slots=True)

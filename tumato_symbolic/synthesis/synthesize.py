@@ -31,6 +31,7 @@ from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.symbolic import Backend, Bdd, available_backend
 from tumato_symbolic.synthesis.certificate import policy_diagram
 from tumato_symbolic.synthesis.counting import restored_in
+from tumato_symbolic.synthesis.diagnosis import restorability
 from tumato_symbolic.synthesis.lint import lint
 from tumato_symbolic.synthesis.outcome import (
     STATES_LISTED,
@@ -63,20 +64,28 @@ def synthesize(
     backend: Backend | None = None,
     context: Context | None = None,
     certify: bool = True,
+    diagnose: bool = True,
 ) -> Outcome:
     """Synthesize a policy for `spec`, or find out why there is none.
 
     `ordering` overrides the specification's effect ordering (default: what it says, else `any`). `context` limits the
     work; it is told the name of each stage, and learns what the outcome would be if a limit were met now. Without
-    `certify` the answer no comes without its certificate. Raises `UserError` where no state is valid.
+    `certify` the answer no comes without its certificate, and without `diagnose` it does not tell what several steps
+    would do for states that cannot be restored in one. Raises `UserError` where no state is valid.
     """
     context = context or Context()
     try:
         problem = build_problem(spec, ordering or spec.ordering, backend or available_backend(), context)
         with problem.encoding.manager.within_memory():
-            return _solve(problem, policy_format, certify)
+            outcome = _solve(problem, policy_format, certify)
+            return _diagnosed(problem, outcome) if diagnose and isinstance(outcome, Unrealizable) else outcome
     except LimitReachedError as limit:
         return stopped(context.known, str(limit))
+
+
+def _diagnosed(problem: Problem, answer: Unrealizable) -> Unrealizable:
+    problem.context.learn(answer)
+    return replace(answer, restorability=restorability(problem))
 
 
 def stopped(known: object, limit: str) -> Unrealizable | Undecided:
