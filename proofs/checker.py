@@ -2269,7 +2269,10 @@ def judge_policy(spec: Specification, policy: Policy, options: argparse.Namespac
         print(f"restoration FAILS: the policy was made for `{made_for}`, but the specification means `{meant}`")
         right = False
     for name, (states, reason) in judge.verdicts().items():
-        print(f"{name:8} " + (f"FAILS in {counted(len(states), 'state')}: {reason(states[0])}" if states else "holds"))
+        print(
+            f"{name:{9 if world.stepwise else 8}} "
+            + (f"FAILS in {counted(len(states), 'state')}: {reason(states[0])}" if states else "holds")
+        )
         right = right and not states
     status, why = judge_certificate(judge, policy.document)
     if status in ("stale", "wrong"):
