@@ -35,7 +35,7 @@ import re
 import sys
 import traceback
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -1732,10 +1732,20 @@ def judge_no(world: World, document: dict[str, Any]) -> str:
     return check_conflict(world, reason, document["States"])
 
 
-def check_in_safe_states(world: World, states: Iterable[State], kind: str) -> None:
-    """Runs from safe states stay in safe ones, so nothing of unsafe ones is needed; of others, too much is claimed."""
-    if world.stepwise and not all(map(world.is_safe, states)):
-        raise NotKnown(f"a certificate `{kind}` of unsafe states, where decisions are stepwise, is not known yet")
+@contextmanager
+def runs_from(world: World, starts: list[State]) -> Iterator[list[State]]:
+    """The states in which runs from some states may be: from safe ones, and wherever one step restores, safe ones.
+
+    Where unsafe ones count, all sets with `Keep` are looked at there, be it that they do not restore. That proves more
+    than has to be proved; so what is refuted then is not known.
+    """
+    safe = not world.stepwise or all(map(world.is_safe, starts))
+    try:
+        yield world.safe if safe else world.valid
+    except Refuted as problem:
+        if safe:
+            raise
+        raise NotKnown(f"of runs through unsafe states it is not known how these are restored: {problem}") from None
 
 
 def check_decides(world: World, state: State) -> None:
@@ -1979,10 +1989,10 @@ def check_no_plan(world: World, reason: dict[str, Any], states: Numbered) -> str
         need(layers != [], "there is a goal without layers")
         goals.append((read_goal(entry, world.spec), layers))
     check_decides(world, start)
-    check_in_safe_states(world, [start], "no-plan")
-    check_first_steps(world, start, diagram, goals)
-    for state in world.safe:
-        check_layers(world, state, diagram, goals)
+    with runs_from(world, [start]) as met:
+        check_first_steps(world, start, diagram, goals)
+        for state in met:
+            check_layers(world, state, diagram, goals)
     return f"no run from {world.show(start)} reaches what it owes, by layers for {counted(len(goals), 'goal')}"
 
 
@@ -2077,14 +2087,14 @@ def check_conflict(world: World, reason: dict[str, Any], states: Numbered) -> st
     conflict = Conflict(world, reason, states)
     for state, _ in conflict.choices:
         check_decides(world, state)
-    check_in_safe_states(world, [state for state, _ in conflict.choices], "conflict")
-    for state, options in conflict.choices:
-        check_options(world, conflict, state, options)
-    clauses = [clause_of(world, conflict, number) for number in range(len(conflict.cuts))]
-    if Choosing([len(options) for _, options in conflict.choices], clauses).succeeds():
-        raise Refuted("there is a choice of options that respects all cuts")
-    for state in world.safe:
-        check_distances(world, conflict, state)
+    with runs_from(world, [state for state, _ in conflict.choices]) as met:
+        for state, options in conflict.choices:
+            check_options(world, conflict, state, options)
+        clauses = [clause_of(world, conflict, number) for number in range(len(conflict.cuts))]
+        if Choosing([len(options) for _, options in conflict.choices], clauses).succeeds():
+            raise Refuted("there is a choice of options that respects all cuts")
+        for state in met:
+            check_distances(world, conflict, state)
     parts = f"{counted(len(conflict.choices), 'state')} and {counted(len(clauses), 'cut')}"
     return f"no policy serves {counted(len(set(conflict.starts)), 'state')} together, by the options of {parts}"
 

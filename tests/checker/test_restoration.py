@@ -284,19 +284,70 @@ def test_traps_that_have_not_the_form(change: dict[str, Any], tmp_path: Path) ->
     assert (answer.code, answer.out.count("unrealizable")) == (2, 0), answer
 
 
-def test_no_verdict_on_what_is_not_known(tmp_path: Path) -> None:
-    """Plans of unsafe states, where restoring may take several steps, are not judged; those of safe ones are."""
+@pytest.mark.parametrize(
+    ("start", "held", "code"),
+    [("a", "bc", 3), ("a", "abc", 0), ("b", "bc", 0), ("c", "bc", 0), ("b", "b", 1), ("a", "abcd", 3), ("d", "bc", 1)],
+)
+def test_no_plan_of_unsafe_states(start: str, held: str, code: int, tmp_path: Path) -> None:
+    """All sets that keep the rules are looked at in unsafe states, also where they restore nothing: no verdict then."""
     rules = "BEGIN STATE RULES rule: NOT P is a END STATE RULES BEGIN GOALS goal type: priority goal: P is d END GOALS"
     text = spec_text("abcd", "ab bc cb", rules)
-    diagram = {"Order": ["P"], "Leaves": [False, True], "Nodes": [[0, [0, 1, 1, 0]]]}
+    below = [int(place in held) for place in "abcd"]
+    diagram = {"Order": ["P"], "Leaves": [False, True], "Nodes": [[0, below]]}
     goals = [{"Bodies": ["P is d"], "Executed": [], "Layers": [2]}]
-    for start, code in (("a", 3), ("b", 0), ("c", 0)):
-        reason = {"Kind": "no-plan", "State": {"P": start}, **diagram, "Goals": goals}
-        assert_proved(asked_no(tmp_path, text, reason))
-        for restoration in ("bounded", "fair"):
-            answer = asked_no(tmp_path, text, reason, "--restoration", restoration)
-            assert answer.code == code, answer
-            assert ("not known yet" in answer.err) == (code == 3)
+    reason = {"Kind": "no-plan", "State": {"P": start}, **diagram, "Goals": goals}
+    for restoration in ("bounded", "fair"):
+        answer = asked_no(tmp_path, text, reason, "--restoration", restoration)
+        assert answer.code == code, answer
+        assert ("no verdict: of runs through unsafe states" in answer.err) == (code == 3)
+
+
+@pytest.mark.parametrize("restoration", ["bounded", "fair"])
+def test_a_conflict_of_unsafe_states(restoration: str, tmp_path: Path) -> None:
+    """Two unsafe states want different ends of the one way through a third."""
+    text = """
+    BEGIN STATE VECTOR state P can be s, r, t, x, y END STATE VECTOR
+    BEGIN RESOURCES resource LEGS END RESOURCES
+    BEGIN ACTIONS
+    action st controlled resources: LEGS preconditions: P is s nominal effects: P is t
+    action rt controlled resources: LEGS preconditions: P is r nominal effects: P is t
+    action tx controlled resources: LEGS preconditions: P is t nominal effects: P is x
+    action ty controlled resources: LEGS preconditions: P is t nominal effects: P is y
+    END ACTIONS
+    BEGIN REACTION RULES rule: NOT (P is s) OR executing st rule: NOT (P is r) OR executing rt END REACTION RULES
+    BEGIN STATE RULES rule: P is x OR P is y END STATE RULES
+    BEGIN GOALS goal type: priority when P is s then goal: P is x when P is r then goal: P is y END GOALS
+    """
+    s, r, t, x, y = ({"P": place} for place in "srtxy")
+    to_x, to_y, none = ({"Bodies": bodies, "Executed": []} for bodies in (["P is x"], ["P is y"], []))
+    reason = {
+        "Kind": "conflict",
+        "Order": ["P"],
+        "Leaves": [None, 0, 1, 2],
+        "Nodes": [[0, [3, 3, 2, 1, 0]], [0, [3, 3, 2, 0, 1]], [0, [3, 3, 2, 1, 1]]],
+        "Goals": [{**to_x, "Root": 4}, {**to_y, "Root": 5}, {**none, "Root": 6}],
+        "Choices": [
+            {"State": s, "Options": [{"Successor": t, "Goal": 0}]},
+            {"State": r, "Options": [{"Successor": t, "Goal": 1}]},
+            {"State": t, "Options": [{"Successor": each, "Goal": 2} for each in (x, y, t)]},
+        ],
+        "Starts": [0, 1, 2],
+        "Cuts": [
+            {"Kind": "path", "Goal": 0, "States": [0, 2], "End": y},
+            {"Kind": "path", "Goal": 1, "States": [1, 2], "End": x},
+            {"Kind": "loop", "Goal": 2, "States": [2]},
+        ],
+    }
+    answer = asked_no(tmp_path, text, reason, "--restoration", restoration)
+    assert_proved(answer)
+    free = text.replace("when P is r then goal: P is y", "")
+    answer = asked_no(
+        tmp_path, free, {**reason, "Goals": [reason["Goals"][0], reason["Goals"][2]]}, "--restoration", restoration
+    )
+    assert answer.code in (2, 3), answer
+    for change in ({"Cuts": reason["Cuts"][:2]}, {"Nodes": [[0, [3, 3, 3, 1, 0]], *reason["Nodes"][1:]]}):
+        answer = asked_no(tmp_path, text, {**reason, **change}, "--restoration", restoration)
+        assert (answer.code, answer.out.count("holds")) == (3, 0), answer
 
 
 def test_worlds_know_levels(tmp_path: Path) -> None:
