@@ -88,9 +88,7 @@ class Judge:
         Targets are tried in the order of `suspects`, a permutation of their numbers; one that fails moves to the front.
         """
         problem, steps = self.problem, self.problem.steps
-        if problem.spec.restores_stepwise:
-            return self.evaluate(found.policy).failing == problem.false
-        restored = problem.false
+        stepwise, restored, ranks = problem.spec.restores_stepwise, problem.false, dict[int, Layers]()
         for place, number in enumerate(suspects):
             target, owing = problem.targets[number], found.owing[number]
             layers = attractor(problem, target.states, found.predecessor, steps.safe, problem.last_layer)
@@ -98,7 +96,11 @@ class Judge:
             if found.predecessor(owing, near) != owing:
                 suspects.insert(0, suspects.pop(place))
                 return False
-            restored = restored | self._restored(number, near)
+            ranks[number] = layers
+            restored = restored if stepwise else restored | self._restored(number, near)
+        if stepwise:
+            in_order = [ranks[number] for number in range(len(ranks))]
+            return self._restorer.restore(in_order, self._forced, self._required).failing == problem.false
         return (steps.unsafe & ~restored) == problem.false
 
     def _restored(self, number: int, near: Bdd) -> Bdd:
