@@ -53,13 +53,17 @@ class Judge:
         self.problem = problem
         self._forced = problem.false if forced is None else forced
         self._required = problem.steps.valid if required is None else required
+        self._restoration: ClosedLoop | None = None
 
     def where(self, forced: Bdd, required: Bdd | None = None) -> Judge:
         """The same judge with other pairs that are forced, and other states that are required."""
-        return Judge(self.problem, forced, required)
+        other = Judge(self.problem, forced, required)
+        other.restorer = self.restorer
+        return other
 
     @cached_property
-    def _restorer(self) -> Restorer:
+    def restorer(self) -> Restorer:
+        """What restores safety where that may take several steps."""
         return Restorer(self.problem)
 
     @cached_property
@@ -75,7 +79,7 @@ class Judge:
         ranks = tuple(attractor(problem, t.states, found.predecessor, steps.safe, None) for t in problem.targets)
         near = [union(layers) for layers in in_time(problem, ranks)]
         if problem.spec.restores_stepwise:
-            restoration = self._restorer.restore(ranks, self._forced, self._required)
+            restoration = self.restorer.restore(ranks, self._forced, self._required)
             safe = union(found.predecessor(*pair) for pair in zip(found.owing, near, strict=True))
             failing = (steps.safe & ~safe) | restoration.failing
             return Evaluation(found, ranks, failing, restoration)
@@ -88,20 +92,46 @@ class Judge:
         Targets are tried in the order of `suspects`, a permutation of their numbers; one that fails moves to the front.
         """
         problem, steps = self.problem, self.problem.steps
-        stepwise, restored, ranks = problem.spec.restores_stepwise, problem.false, dict[int, Layers]()
+        ranks: dict[int, Layers] = {}
         for place, number in enumerate(suspects):
             target, owing = problem.targets[number], found.owing[number]
             layers = attractor(problem, target.states, found.predecessor, steps.safe, problem.last_layer)
-            near = problem.encoding.manager.union(layers)
-            if found.predecessor(owing, near) != owing:
+            if found.predecessor(owing, problem.encoding.manager.union(layers)) != owing:
                 suspects.insert(0, suspects.pop(place))
                 return False
             ranks[number] = layers
-            restored = restored if stepwise else restored | self._restored(number, near)
-        if stepwise:
-            in_order = [ranks[number] for number in range(len(ranks))]
-            return self._restorer.restore(in_order, self._forced, self._required).failing == problem.false
+        if problem.spec.restores_stepwise:
+            ordered = [ranks[number] for number in range(len(problem.targets))]
+            return self._still_restores(found) or self._restores(ordered)
+        restored = problem.encoding.manager.union(
+            self._restored(number, problem.encoding.manager.union(layers)) for number, layers in ranks.items()
+        )
         return (steps.unsafe & ~restored) == problem.false
+
+    def _restores(self, ranks: Sequence[Layers]) -> bool:
+        """Whether unsafe states can be restored, given ranks of the safe ones."""
+        restoration = self.restorer.restore(ranks, self._forced, self._required)
+        if restoration.failing != self.problem.false:
+            return False
+        self._restoration = closed_loop(self.problem, restoration.policy)
+        return True
+
+    def _still_restores(self, found: ClosedLoop) -> bool:
+        """Whether the decisions in unsafe states that did before do with a policy in safe states."""
+        problem, before = self.problem, self._restoration
+        if before is None:
+            return False
+
+        def predecessor(states: Bdd, target: Bdd) -> Bdd:
+            return found.predecessor(states, target) | before.predecessor(states, target)
+
+        for target, owing in zip(problem.targets, before.owing, strict=True):
+            if owing == problem.false:
+                continue
+            layers = attractor(problem, target.states, predecessor, problem.steps.valid, problem.last_layer)
+            if before.predecessor(owing, problem.encoding.manager.union(layers)) != owing:
+                return False
+        return True
 
     def _restored(self, number: int, near: Bdd) -> Bdd:
         """The unsafe states where some allowed set owes a target and leads into a set."""
