@@ -153,7 +153,8 @@ class _Work:
         problem, steps = self.problem, self.problem.steps
         if candidates == problem.false:
             return candidates
-        near = [layers[: problem.spec.max_plan_length] for layers in self.ranks]
+        after = steps.successors(candidates)
+        near = [[layer & after for layer in layers[: problem.spec.max_plan_length]] for layers in self.ranks]
         policy = shortest_decisions(problem, near, steps.states_of(candidates), candidates)
         if self._free != problem.false:
             policy = policy | preferred(problem.encoding, candidates & self._free & ~steps.states_of(policy))
@@ -161,9 +162,11 @@ class _Work:
         if decided == problem.false:
             return decided
         self.policy = self.policy | policy
-        before = preimage(problem, policy)
+        before, after = preimage(problem, policy), steps.successors(policy)
         for layers in self.ranks:
-            further = [steps.states_of(before(layer)) for layer in layers]
+            further = [
+                steps.states_of(before(layer)) if layer & after != problem.false else problem.false for layer in layers
+            ]
             for rank, states in enumerate(further, 1):
                 if states == problem.false:
                     continue
