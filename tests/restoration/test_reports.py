@@ -3,8 +3,12 @@
 from dataclasses import replace
 
 from tests.semantics.test_restoration import EDGE, RETRY, VALVES, restoring
-from tumato_symbolic import Realizable, parse, synthesize
+from tumato_symbolic import Realizable, Unrealizable, parse, synthesize
+from tumato_symbolic.diagnostics import Source
+from tumato_symbolic.report.reasons import Place
+from tumato_symbolic.report.restorable import restorable_json, restorable_lines
 from tumato_symbolic.report.restored import restored_json, restored_text
+from tumato_symbolic.report.synthesized import Synthesized, as_text
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.synthesis import Statistics
 
@@ -46,3 +50,34 @@ def test_one_step_is_told_as_before() -> None:
     plain = replace(parse(VALVES.replace("rule: B is closed", "")), restoration="one_step")
     assert not list(restored_text(statistics(plain)))
     assert restored_json(statistics(plain)) == {}
+
+
+def test_what_would_restore_is_told() -> None:
+    """Under `one_step`: what each setting would do, with the line to add, and a joint action that was tried."""
+    spec = parse(VALVES)
+    outcome = synthesize(spec)
+    assert isinstance(outcome, Unrealizable)
+    assert outcome.restorability is not None
+    place = Place(spec, "spec.tum")
+    assert list(restorable_lines(place, outcome.restorability)) == [
+        "What would restore this state:",
+        "  `restoration: bounded` in CONFIG: it, in at most 2 steps (duration 2 at most), whatever happens",
+        "  one action with the effects A is closed and B is closed (tried): it, in one step",
+    ]
+    found = restorable_json(place, outcome.restorability)["restorable"]
+    assert found == {
+        "bounded": {
+            "count": 1,
+            "example": {"A": "open", "B": "open"},
+            "efforts": [{"duration": 2, "steps": 2, "states": 1}],
+        },
+        "joint_actions": [{"effects": {"A": "closed", "B": "closed"}, "left": 0}],
+    }
+
+
+def test_the_report_of_synth_says_how_to_judge_it() -> None:
+    """What overrules the specification is handed on to `verify`."""
+    spec = restoring(VALVES, "bounded")
+    outcome = synthesize(spec)
+    done = Synthesized(Source("spec.tum", VALVES), spec, outcome, None, (), "policy.json", True, restoration="bounded")
+    assert "tumato-sym verify policy.json spec.tum --restoration bounded" in as_text(done, False)

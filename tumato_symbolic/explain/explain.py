@@ -115,7 +115,7 @@ def _verdict(spec: Spec, ordering: Ordering, outcome: Unrealizable) -> Explanati
         for each in outcome.failures
     )
     failing = sum(group.count for group in groups if group.kind != "conflict")
-    return Explanation(spec, ordering, outcome.statistics, failing, groups)
+    return Explanation(spec, ordering, outcome.statistics, failing, groups, restorability=outcome.restorability)
 
 
 def _within_its_share(work: Work, found: Explanation, stage: Stage) -> Iterator[Explanation]:

@@ -10,6 +10,7 @@ from tumato_symbolic.explain.elements import Element
 from tumato_symbolic.explain.near_misses import NearMiss
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Formula, Ordering, Spec
+from tumato_symbolic.synthesis.diagnosis import Restorability
 from tumato_symbolic.synthesis.outcome import FailureKind, Statistics
 
 
@@ -127,7 +128,8 @@ class Explanation:
     Every stage adds its part: `groups` (`states`), `part`, `reasons` with `omitted` (the failing states whose reason is
     not among them), what comes near (`near`), and `repairs`. `repairs_complete`: there are no other ways to drop.
     `hopeless` says why there is none. `finished` are the stages that have said all they can, `left_out` those that
-    were cut short; while work goes on, some are neither.
+    were cut short; while work goes on, some are neither. `restorability` tells what would restore the states that one
+    step does not restore.
     """
 
     spec: Spec
@@ -143,6 +145,7 @@ class Explanation:
     hopeless: str | None = None
     finished: tuple[Stage, ...] = ()
     left_out: tuple[LeftOut, ...] = ()
+    restorability: Restorability | None = None
 
     def is_over(self, stage: Stage) -> bool:
         """Whether nothing more comes from a stage."""

@@ -11,6 +11,7 @@ from tumato_symbolic.report.blame import group_lines, near_pieces, reason_pieces
 from tumato_symbolic.report.layout import Paint, count
 from tumato_symbolic.report.proof import ORDERINGS
 from tumato_symbolic.report.reasons import Place
+from tumato_symbolic.report.restorable import restorable_lines
 from tumato_symbolic.report.ways_out import left_out_lines, part_lines, repair_pieces
 from tumato_symbolic.semantics import count_states
 from tumato_symbolic.spec import Spec
@@ -62,6 +63,8 @@ def _explanation(done: Explained, found: Explanation, paint: Paint) -> Iterator[
     if found.is_over("states"):
         for group in found.groups:
             yield "\n".join(["", *group_lines(done.place, group, done.every_cube)])
+        if found.restorability is not None:
+            yield "\n".join(["", *restorable_lines(done.place, found.restorability)])
     if found.is_over("part") and "part" not in [each.stage for each in found.left_out]:
         yield "\n".join(["", *part_lines(found.part, done.written)])
     yield from reason_pieces(done.place, found, done.every_cube)

@@ -24,6 +24,7 @@ from tumato_symbolic.report.explained import Explained
 from tumato_symbolic.report.failures import FAILURE_CODES
 from tumato_symbolic.report.findings import finding_json, github_command, github_commands
 from tumato_symbolic.report.layout import count
+from tumato_symbolic.report.restorable import restorable_json
 from tumato_symbolic.report.roles import role
 from tumato_symbolic.report.ways_out import left_out_lines
 from tumato_symbolic.semantics import action_names, active_goals, named
@@ -58,6 +59,7 @@ def as_json(done: Explained) -> dict[str, object]:
             "failing_states": found.failing_states,
             "groups": [_group_json(done.spec, group) for group in found.groups],
             "failures": [_reason_json(done, reason) for reason in largest_first(found.reasons)],
+            **restorable_json(done.place, found.restorability),
             "omitted": found.omitted,
             "repairs": [_repair_json(done.spec, repair) for repair in found.repairs],
             "repairs_complete": found.repairs_complete,

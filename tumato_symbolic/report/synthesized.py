@@ -13,8 +13,9 @@ from tumato_symbolic.report.layout import Paint, count, every, seconds
 from tumato_symbolic.report.picture import picture
 from tumato_symbolic.report.proof import ORDERINGS, proof_json, proof_text, provers
 from tumato_symbolic.report.reasons import Place
+from tumato_symbolic.report.restorable import restorable_json, restorable_lines
 from tumato_symbolic.report.restored import restored_json, restored_text
-from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.spec import Ordering, Restoration, Spec
 from tumato_symbolic.synthesis.outcome import Outcome, Realizable, Statistics, Undecided, Unrealizable
 from tumato_symbolic.verify.result import UnrealizabilityVerdict, Verification
 
@@ -29,7 +30,7 @@ class Synthesized:
     `proof` is None where there was nothing to prove, or where proving was declined; `written` tells whether the
     policy is in `output` (`-` is the standard output). `disproof` and `certificate` are the same for the answer no: the
     verdict on its certificate, and the file that it was written to. `cut_short` is why the report is a short one: a
-    limit was met.
+    limit was met. `restoration` overrules the specification's.
     """
 
     source: Source
@@ -44,6 +45,7 @@ class Synthesized:
     disproof: UnrealizabilityVerdict | None = None
     certificate: str | None = None
     cut_short: str | None = None
+    restoration: Restoration | None = None
 
     @property
     def place(self) -> Place:
@@ -143,13 +145,14 @@ def _next(done: Synthesized, outcome: Realizable) -> str:
     file, example = shlex.quote(done.output), some_decided(outcome.policy)
     state = "VARIABLE=VALUE …" if example is None else done.place.state(example)
     lines = [f"{done.output} is written. Next:", f"  tumato-sym decide {file} {state}"]
-    overrule = _overruling(done.spec, outcome.statistics.ordering)
+    overrule = _overruling(done, outcome.statistics.ordering)
     return "\n".join((*lines, f"  tumato-sym verify {file} {shlex.quote(done.source.name)}{overrule}"))
 
 
-def _overruling(spec: Spec, ordering: Ordering) -> str:
-    """The option that `verify` needs to judge by another ordering than that of the specification."""
-    return "" if ordering == spec.ordering else f" --effect-ordering {ordering}"
+def _overruling(done: Synthesized, ordering: Ordering) -> str:
+    """The options that `verify` needs to judge by something else than what the specification says."""
+    restoration = "" if done.restoration is None else f" --restoration {done.restoration}"
+    return restoration if ordering == done.spec.ordering else f" --effect-ordering {ordering}{restoration}"
 
 
 def _unrealizable(done: Synthesized, outcome: Unrealizable, paint: Paint) -> list[str]:
@@ -166,6 +169,8 @@ def _unrealizable(done: Synthesized, outcome: Unrealizable, paint: Paint) -> lis
     ordering = outcome.statistics.ordering
     if done.cut_short is None:
         shown = [failure_text(done.place, failure, ordering) for failure in outcome.failures]
+        if outcome.restorability is not None:
+            shown.append("\n".join(restorable_lines(done.place, outcome.restorability)))
     else:
         shown = [failure_line(done.place, failure) for failure in outcome.failures]
         shown.append(f"The rest of the report is left out: {done.cut_short}.")
@@ -194,7 +199,7 @@ def _certified(done: Synthesized, outcome: Unrealizable, paint: Paint) -> list[s
     if done.disproof is None:
         lines.append(paint.doubt("Its certificate is not proved: --no-verify was given."))
     files = f"{shlex.quote(done.certificate)} {shlex.quote(done.source.name)}"
-    verify = f"  tumato-sym verify {files}{_overruling(done.spec, ordering)}"
+    verify = f"  tumato-sym verify {files}{_overruling(done, ordering)}"
     return [*lines, f"{done.certificate} is written. Next:", verify]
 
 
@@ -220,6 +225,7 @@ def as_json(done: Synthesized) -> dict[str, object]:
         "certificate": done.certificate,
         "failing_states": sum(failure.count for failure in failures if failure.kind != "conflict"),
         "failures": [failure_json(done.spec, failure) for failure in failures],
+        **(restorable_json(done.place, outcome.restorability) if isinstance(outcome, Unrealizable) else {}),
         "limit": _limit(done),
         "proof": _proof_json(done),
         "seconds": {"synthesis": round(done.solved_in, 3), "proof": round(done.proved_in, 3)},

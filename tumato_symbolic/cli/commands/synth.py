@@ -79,7 +79,9 @@ def run(options: Options, context: Context) -> int:
 
     context.tell("reading the specification")
     source, spec, warnings = read_spec(options.specs[0], options.restoration)
-    so_far = Synthesized(source, spec, Undecided("", None), None, warnings, options.output, False)
+    so_far = Synthesized(
+        source, spec, Undecided("", None), None, warnings, options.output, False, restoration=options.restoration
+    )
     context.learn(so_far)
     with errors_in(source):
         so_far = solve(so_far, options.effect_ordering, options.policy_format, context)
