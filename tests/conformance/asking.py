@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from tests.conformance.roles import Decider, Judge, Stepper
+from tests.conformance.roles import Decider, Judge, Restorer, Stepper
 from tests.conformance.world import BOTH, Decisions, world
-from tumato_symbolic.semantics import ActionSet, State, all_states
+from tumato_symbolic.semantics import ActionSet, Effort, State, all_states
 from tumato_symbolic.spec import Ordering
 
 
@@ -57,6 +57,20 @@ def faults(judge: Judge, text: str, decisions: Decisions, ordering: Ordering = "
     """The properties that a policy in words does not have."""
     asked = world(text, ordering)
     return judge.faults(asked, asked.rows(decisions))
+
+
+def following(restorer: Restorer, text: str, state: str, actions: str, ordering: Ordering = "any") -> str:
+    """All states that a step leads to."""
+    asked = world(text, ordering)
+    found = restorer.following(asked, asked.state(state), asked.actions(actions))
+    return " ".join(map(asked.words, sorted(found)))
+
+
+def efforts(restorer: Restorer, text: str, decisions: Decisions, ordering: Ordering = "any") -> dict[str, Effort]:
+    """The worst efforts of a policy in words."""
+    asked = world(text, ordering)
+    found = restorer.efforts(asked, asked.rows(decisions))
+    return {asked.words(state): effort for state, effort in sorted(found.items())}
 
 
 def policy(decider: Decider, text: str, ordering: Ordering = "any") -> dict[str, str]:

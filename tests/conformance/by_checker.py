@@ -11,7 +11,7 @@ from tests.conformance.roles import Rows
 from tests.conformance.world import World
 from tumato_symbolic.policy.unrealizable import Unrealizability
 from tumato_symbolic.policy.unrealizable_file import dumps
-from tumato_symbolic.semantics import ActionSet, State
+from tumato_symbolic.semantics import ActionSet, Effort, State
 from tumato_symbolic.spec import Ordering
 
 
@@ -46,7 +46,7 @@ class Checker:
     def successor(self, world: World, state: State, chosen: ActionSet) -> State:
         """`World.successor`."""
         after = _own(world.text, world.ordering).successor(_values(world, state), _names(world, chosen))
-        return tuple(v.values.index(value) for v, value in zip(world.spec.variables, after, strict=True))
+        return _numbers(world, after)
 
     def meets(self, world: World, state: State, chosen: ActionSet, there: State) -> bool:
         """`World.reached`."""
@@ -58,6 +58,21 @@ class Checker:
         decisions = {_values(world, state): _names(world, chosen) for state, chosen in rows.items()}
         judge = checker.Judge(_own(world.text, world.ordering), decisions.get)
         return {name for name, (states, _) in judge.verdicts().items() if states}
+
+    def following(self, world: World, state: State, chosen: ActionSet) -> set[State]:
+        """`World.next_states`."""
+        found = _own(world.text, world.ordering).next_states(_values(world, state), _names(world, chosen))
+        return {_numbers(world, values) for values in found}
+
+    def level(self, world: World, state: State) -> int:
+        """`World.level`."""
+        return int(_own(world.text, world.ordering).level(_values(world, state)))
+
+    def efforts(self, world: World, rows: Rows) -> dict[State, Effort]:
+        """`Restoring.worst`."""
+        decided = {_values(world, state): _names(world, chosen) for state, chosen in rows.items()}
+        worst = checker.Restoring(_own(world.text, world.ordering), decided).worst
+        return {_numbers(world, values): effort for values, effort in worst.items()}
 
     def believes(self, world: World, certificate: Unrealizability) -> bool:
         """`judge_no`."""
@@ -75,6 +90,10 @@ def _own(text: str, ordering: Ordering) -> Any:
 
 def _values(world: World, state: State) -> tuple[str, ...]:
     return tuple(v.values[value] for v, value in zip(world.spec.variables, state, strict=True))
+
+
+def _numbers(world: World, values: tuple[str, ...]) -> State:
+    return tuple(v.values.index(value) for v, value in zip(world.spec.variables, values, strict=True))
 
 
 def _names(world: World, chosen: ActionSet) -> frozenset[str]:

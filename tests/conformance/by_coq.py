@@ -7,6 +7,7 @@ import shutil
 import subprocess
 from collections.abc import Iterable, Iterator
 from functools import cache
+from itertools import chain
 from tempfile import TemporaryDirectory
 from weakref import finalize
 
@@ -14,7 +15,7 @@ from tests.conformance.roles import Rows
 from tests.conformance.world import World
 from tests.export.compiler import COQC, SOURCES
 from tumato_symbolic.export import coq
-from tumato_symbolic.semantics import ActionSet, State, is_valid
+from tumato_symbolic.semantics import ActionSet, Effort, State, is_valid
 from tumato_symbolic.spec import Ordering, Spec
 
 TOPLEVEL = shutil.which("coqtop") if COQC else None
@@ -42,7 +43,7 @@ class Coq:
 
     def allowed(self, world: World, state: State, chosen: ActionSet) -> bool:
         """`is_ok`."""
-        return self._truth(f"{self._ok(world)} {_list(state)} {_list(sorted(chosen))}")
+        return self._truth(self._ok(world, state, chosen))
 
     def successor(self, world: World, state: State, chosen: ActionSet) -> State:
         """`delta`."""
@@ -57,34 +58,79 @@ class Coq:
     def faults(self, world: World, rows: Rows) -> set[str]:
         """The parts of `check`, which has to agree with them."""
         decided = {state: chosen for state, chosen in rows.items() if is_valid(world.spec, state)}
-        spec, order, table = self._spec(world), _order(world.ordering), self._table(world.spec, decided)
+        spec, order, table = self._spec(world), _order(world.ordering), self._table(world, decided)
         states, valid, safe = f"(all_states (sizes {spec}))", f"(assumed {spec})", f"(keeps_rules {spec})"
-        policy = f"(policy_of {table})"
+        policy, efforts = f"(policy_of {table}.decisions)", f"{table}.known"
         pairs = _list(f"({_list(state)}, {_list(sorted(chosen))})" for state, chosen in decided.items())
         serves = f"serves {spec} {safe} (length {states}) {policy} (fst p) (snd p)"
-        known = f"{valid} {safe} {states} (length {states}) {policy} no_efforts"
+        known = f"{valid} {safe} {states} (length {states}) {policy} {efforts}"
+        ok = f"is_ok {spec} {order} (is_kept {spec} {valid} {safe} (fst p)) (fst p) (snd p)"
+        restored = f"is_restoring {spec} {order} {valid} {efforts} (fst p) (snd p)"
+        if world.spec.restores_stepwise and world.spec.restoration == "one_step":
+            restored = f"next_fine {spec} {order} (is_restored {spec} {valid} (fst p)) (fst p) (snd p)"
         better = f"no_better {spec} {order} {known} (fst p) (snd p)"
         parts = {
-            "total": f"forallb (fun s => negb ({valid} s) || (match entry {table} s with Some _ => true"
+            "total": f"forallb (fun s => negb ({valid} s) || (match entry {table}.decisions s with Some _ => true"
             f" | None => false end)) {states}",
-            "safe": f"forallb (fun p => {self._ok(world)} (fst p) (snd p)) {pairs}",
-            "goals": f"forallb (fun p => negb ({self._ok(world)} (fst p) (snd p)) || {serves}) {pairs}",
+            "safe": f"forallb (fun p => {ok}) {pairs}",
+            "goals": f"forallb (fun p => negb ({ok}) || {serves}) {pairs}",
             "minimal": f"forallb (fun p => {safe} (fst p) || {better}) {pairs}",
         }
+        if world.spec.restores_stepwise:
+            parts["restoring"] = f"forallb (fun p => {safe} (fst p) || {restored}) {pairs}"
         found = {name for name, question in parts.items() if not self._truth(question)}
-        assert self._truth(f"check {spec} {order} {table} no_efforts") == (not found)
+        assert self._truth(f"check {spec} {order} {table}.decisions {efforts}") == (not found)
         return found
 
-    def _ok(self, world: World) -> str:
-        return f"is_ok {self._spec(world)} {_order(world.ordering)} (keeps_rules {self._spec(world)})"
+    def following(self, world: World, state: State, chosen: ActionSet) -> set[State]:
+        """The states without which `next_fine` is false."""
+        spec, here = self._spec(world), f"{_list(state)} {_list(sorted(chosen))}"
+        fine = f"next_fine {spec} {_order(world.ordering)} (fun t => negb (same_list t u)) {here}"
+        found = self._ask(f"filter (fun u => negb ({fine})) (all_states (sizes {spec}))")
+        return {tuple(map(int, re.findall(r"\d+", each))) for each in re.findall(r"\[([\d; ]+)\]", found)}
+
+    def level(self, world: World, state: State) -> int:
+        """`level`."""
+        return int(self._ask(f"level {self._spec(world)} {_list(state)}"))
+
+    def efforts(self, world: World, rows: Rows) -> dict[State, Effort]:
+        """The least efforts that are enough by `takes`, from what is known of the states after."""
+        spec, order = self._spec(world), _order(world.ordering)
+        largest = sum(action.duration for action in world.spec.actions) * len(rows)
+        efforts = _list(f"({d}, {k})%N" for d in range(largest + 1) for k in range(1, len(rows) + 1))
+        found: dict[State, Effort] = {}
+        waiting = [state for state in rows if not self.safe(world, state)]
+        while True:
+            told = "None"
+            for state, (d, k) in found.items():
+                told = f"if same_list t {_list(state)} then Some ({d}, {k})%N else {told}"
+            takes = f"takes {spec} (assumed {spec}) not_more (fun t => {told}) (next_fine {spec} {order})"
+            more = {}
+            for state in waiting:
+                answer = self._ask(f"find ({takes} {_list(state)} {_list(sorted(rows[state]))}) {efforts}")
+                if answer != "None":
+                    duration, steps = map(int, re.findall(r"\d+", answer))
+                    more[state] = duration, steps
+            if not more:
+                return found
+            found |= more
+            waiting = [state for state in waiting if state not in more]
+
+    def _ok(self, world: World, state: State, chosen: ActionSet) -> str:
+        spec, here = self._spec(world), _list(state)
+        kept = f"(is_kept {spec} (assumed {spec}) (keeps_rules {spec}) {here})"
+        return f"is_ok {spec} {_order(world.ordering)} {kept} {here} {_list(sorted(chosen))}"
 
     def _spec(self, world: World) -> str:
         if world.spec not in self._modules:
             self._modules[world.spec] = self._module(coq._specification(world.spec))
         return f"{self._modules[world.spec]}.spec"
 
-    def _table(self, spec: Spec, rows: Rows) -> str:
-        return f"{self._module(coq._decisions(spec, dict(rows)))}.decisions"
+    def _table(self, world: World, rows: Rows) -> str:
+        """A module with the decisions, and what Coq is told of their efforts."""
+        several, own = world.spec.restoration != "one_step", dict(rows)
+        efforts = coq._efforts(world.spec, own, world.ordering) if several else ["Definition known := no_efforts."]
+        return self._module(chain(coq._decisions(world.spec, own), efforts))
 
     def _module(self, lines: Iterator[str]) -> str:
         self._session = self._session or Session()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import cache
 
+from tests.conformance.by_trying import best_answer
 from tests.conformance.roles import PROPERTIES, Answer, Rows
 from tests.conformance.world import World
 from tests.oracle import Together, decide_world
@@ -11,22 +12,40 @@ from tests.oracle import World as OracleWorld
 from tests.reference_policy import reference_policy
 from tumato_symbolic import parse
 from tumato_symbolic.diagnostics import Code, UserError
+from tumato_symbolic.game import Judge as SynthesisJudge
+from tumato_symbolic.game import build_problem
 from tumato_symbolic.policy import as_table
 from tumato_symbolic.semantics import (
     ActionSet,
+    Effort,
+    Restorations,
     State,
+    all_states,
     allowed,
     allowed_sets,
     is_safe,
     is_valid,
     judge,
+    level,
+    next_states,
     reached,
     residual_goal,
     successor,
 )
 from tumato_symbolic.semantics.lint import lint
 from tumato_symbolic.spec import Ordering, Spec
-from tumato_symbolic.symbolic import Backend, Encoding, Steps, Target, build_steps, encode, regions, targets
+from tumato_symbolic.symbolic import (
+    Backend,
+    Encoding,
+    Steps,
+    Target,
+    build_steps,
+    compatible_sets,
+    encode,
+    regions,
+    staying_in,
+    targets,
+)
 from tumato_symbolic.synthesis import Realizable, Unrealizable, synthesize
 
 
@@ -67,11 +86,25 @@ class Explicit:
     def faults(self, world: World, rows: Rows) -> set[str]:
         """`judge`."""
         found = judge(world.spec, rows, world.ordering)
-        failing = (found.missing, found.not_allowed, found.goal_missed, found.not_minimal)
+        failing = (found.missing, found.not_allowed, found.not_restored, found.goal_missed, found.not_minimal)
         return {name for name, states in zip(PROPERTIES, failing, strict=True) if states}
+
+    def following(self, world: World, state: State, chosen: ActionSet) -> set[State]:
+        """`next_states`."""
+        return next_states(world.spec, state, chosen, world.ordering)
+
+    def level(self, world: World, state: State) -> int:
+        """`level`."""
+        return level(world.spec, state)
+
+    def efforts(self, world: World, rows: Rows) -> dict[State, Effort]:
+        """`Restorations.worst`."""
+        return Restorations(world.spec, rows, world.ordering).worst
 
     def answer(self, world: World) -> Answer:
         """The preferred policy where the preferences alone make one, else any; states that fail, or a conflict."""
+        if world.spec.restores_stepwise:
+            return best_answer(world.spec, world.ordering)
         oracle = OracleWorld(world.spec, world.ordering)
         verdict = decide_world(oracle)
         if verdict.kind == "realizable":
@@ -118,6 +151,34 @@ class Bdd:
         if any(len(chosen & set(group.actions)) > 1 for group in encoding.groups):
             return False
         return bool((encoding.at(steps.allowed, state) & encoding.choices_cube(chosen)) != encoding.manager.false)
+
+    def following(self, world: World, state: State, chosen: ActionSet) -> set[State]:
+        """The states without which `staying_in` is false."""
+        steps = self._steps(world.spec, world.ordering)
+        encoding = steps.encoding
+        pair, compatible = encoding.state_cube(state) & encoding.choices_cube(chosen), compatible_sets(encoding)
+        found = set()
+        for there in all_states(world.spec):
+            others = encoding.domain() & ~encoding.state_cube(there)
+            if pair & ~staying_in(encoding, world.ordering, others, compatible, pair) != encoding.manager.false:
+                found.add(there)
+        return found
+
+    def level(self, world: World, state: State) -> int:
+        """How many of `Steps.tiers`, but for the valid states, have it."""
+        steps = self._steps(world.spec, world.ordering)
+        return sum(steps.encoding.contains(tier, state) for tier in steps.tiers[1:])
+
+    def efforts(self, world: World, rows: Rows) -> dict[State, Effort]:
+        """What `game` says of a policy for the safe states, where the others have no choice."""
+        problem = build_problem(world.spec, world.ordering, self.backend)
+        encoding, steps = problem.encoding, problem.steps
+        pairs = {state: encoding.state_cube(state) & encoding.choices_cube(chosen) for state, chosen in rows.items()}
+        forced = encoding.manager.union(pairs.values())
+        judge = SynthesisJudge(problem, forced & steps.unsafe, required=steps.safe)
+        restoration = judge.evaluate(forced & steps.safe).restoration
+        assert restoration is not None
+        return {state: effort for effort, states in restoration.worst.items() for state in encoding.states_in(states)}
 
     def successor(self, world: World, state: State, chosen: ActionSet) -> State:
         """`Steps.successors`, which `Steps.before` has to agree with."""

@@ -17,9 +17,13 @@ from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.limits import Budget
 from tumato_symbolic.policy import as_diagram, policy_from_rows
 from tumato_symbolic.policy.unrealizable import Unrealizability
-from tumato_symbolic.semantics import ActionSet, State, all_states, takes_effect
+from tumato_symbolic.semantics import ActionSet, Effort, State, all_states, takes_effect
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify import ProverName, verify, verify_unrealizable
+from tumato_symbolic.verify.by_states.efforts import Efforts
+from tumato_symbolic.verify.by_states.packed import Packing
+from tumato_symbolic.verify.by_states.steps import Steps
+from tumato_symbolic.verify.by_walk.efforts import WalkEfforts
 from tumato_symbolic.verify.by_walk.model import Model
 from tumato_symbolic.verify.no_policy.allowed_step import AllowedStep, is_state
 
@@ -46,9 +50,9 @@ class Prover:
         return not self._has("total", world.spec, world.ordering, rows)
 
     def safe(self, world: World, state: State) -> bool:
-        """Whether it is valid, and doing nothing there is *safe*; asked without reaction rules."""
-        spec = replace(world.spec, reaction_rules=())
-        return self.valid(world, state) and self._has("safe", spec, world.ordering, {state: frozenset()})
+        """Whether it is valid, and doing nothing there is *safe*, or restores it; asked without reaction rules."""
+        spec, name = replace(world.spec, reaction_rules=()), "restoring" if world.spec.restores_stepwise else "safe"
+        return self.valid(world, state) and self._has(name, spec, world.ordering, {state: frozenset()})
 
     def allowed(self, world: World, state: State, chosen: ActionSet) -> bool:
         """Whether a policy for this state alone is *safe*; what a search for better sets allows has to agree."""
@@ -94,11 +98,76 @@ class Prover:
         return {result.name for result in answer.properties if result.verdict == "refuted"}
 
 
+class States(Prover):
+    """The prover that looks at each state."""
+
+    def __init__(self) -> None:
+        super().__init__("states", "explicit")
+
+    def finds(self, world: World, state: State, chosen: ActionSet) -> bool:
+        """As the others; where safety may take several steps to restore, by `Steps.allowed_sets` in unsafe states."""
+        if not world.spec.restores_stepwise:
+            return super().finds(world, state, chosen)
+        packing, steps = self._steps(world)
+        code = packing.pack(state)
+        if not chosen or steps.is_safe(code):
+            return steps.allowed(code, chosen)
+        return chosen in set(steps.allowed_sets(code, lambda _: True))
+
+    def following(self, world: World, state: State, chosen: ActionSet) -> set[State]:
+        """`Steps.next_states`."""
+        packing, steps = self._steps(world)
+        return {packing.unpack(code) for code in steps.next_states(packing.pack(state), chosen)}
+
+    def level(self, world: World, state: State) -> int:
+        """`Steps.level`."""
+        packing, steps = self._steps(world)
+        return steps.level(packing.pack(state))
+
+    def efforts(self, world: World, rows: Rows) -> dict[State, Effort]:
+        """`Efforts.worst`."""
+        packing, steps = self._steps(world)
+        decided = {packing.pack(state): chosen for state, chosen in rows.items()}
+        worst = Efforts(world.spec, steps, decided, lambda _: None).worst
+        return {packing.unpack(code): effort for code, effort in worst.items()}
+
+    def _steps(self, world: World) -> tuple[Packing, Steps]:
+        packing = Packing(world.spec)
+        return packing, Steps(world.spec, packing, world.ordering, lambda _: None)
+
+
 class Walk(Prover):
     """The prover on decision diagrams."""
 
     def __init__(self) -> None:
         super().__init__("walk", "walk")
+
+    def following(self, world: World, state: State, chosen: ActionSet) -> set[State]:
+        """`WalkEfforts.worst_next` of being each state."""
+        model = self._model(world.spec, world.ordering)
+        worst_next = WalkEfforts(model, world.ordering).worst_next
+        return {
+            there for there in all_states(world.spec) if model.holds(worst_next(model.is_state(there)), state, chosen)
+        }
+
+    def level(self, world: World, state: State) -> int:
+        """How many of `Model.tiers`, but for the valid states, have it."""
+        model = self._model(world.spec, world.ordering)
+        return sum(model.holds(tier, state, frozenset()) for tier in model.tiers[1:])
+
+    def efforts(self, world: World, rows: Rows) -> dict[State, Effort]:
+        """`WalkEfforts.exact_worst`."""
+        model = Model(world.spec, as_diagram(policy_from_rows(world.spec, dict(rows))), world.ordering)
+        efforts = WalkEfforts(model, world.ordering)
+        largest = sum(action.duration for action in world.spec.actions) * len(rows)
+        number_of = {efforts.number((d, k)): (d, k) for d in range(largest + 1) for k in range(len(rows) + 1)}
+        parts = model.walk.parts(efforts.exact_worst())
+        return {
+            state: number_of[number]
+            for number, where in parts.items()
+            for state in rows
+            if number in number_of and model.holds(where, state, frozenset())
+        }
 
     def finds(self, world: World, state: State, chosen: ActionSet) -> bool:
         """`Model.allowed`, by which better sets are looked for; false where two actions are of one group."""

@@ -8,11 +8,11 @@ from typing import Protocol, runtime_checkable
 
 from tests.conformance.world import World
 from tumato_symbolic.policy.unrealizable import Unrealizability
-from tumato_symbolic.semantics import ActionSet, State
+from tumato_symbolic.semantics import ActionSet, Effort, State
 
 Rows = Mapping[State, ActionSet]
 
-PROPERTIES = ("total", "safe", "goals", "minimal")
+PROPERTIES = ("total", "safe", "restoring", "goals", "minimal")
 """What a policy is judged by."""
 
 
@@ -55,7 +55,7 @@ class Judge(Engine, Protocol):
     """Judges policies."""
 
     def faults(self, world: World, rows: Rows) -> set[str]:
-        """Which of `total`, `safe`, `goals` and `minimal` fail."""
+        """Which of `PROPERTIES` fail."""
 
 
 @dataclass(frozen=True)
@@ -83,11 +83,26 @@ class Refuter(Engine, Protocol):
         """Whether a certificate proves that the specification has no policy."""
 
 
+@runtime_checkable
+class Restorer(Engine, Protocol):
+    """Knows how safety is restored in several steps, and by severity."""
+
+    def following(self, world: World, state: State, chosen: ActionSet) -> set[State]:
+        """`Next(s, A)`."""
+
+    def level(self, world: World, state: State) -> int:
+        """The level of a valid state."""
+
+    def efforts(self, world: World, rows: Rows) -> Mapping[State, Effort]:
+        """`w` in the unsafe states of a policy for all valid states, where it is finite."""
+
+
 ROLES: dict[str, type] = {
     "reader": Reader,
     "stepper": Stepper,
     "judge": Judge,
     "decider": Decider,
     "refuter": Refuter,
+    "restorer": Restorer,
 }
 """The fixture by which a test asks for every engine of a role."""

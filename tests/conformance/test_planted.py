@@ -19,25 +19,34 @@ from tests.conformance import test_5_policies as policies
 from tests.conformance import test_6_preferences as preferences
 from tests.conformance import test_7_none as none
 from tests.conformance import test_8_paper as paper
+from tests.conformance import test_9_restoring as restoring
+from tests.conformance import test_10_severities as severities
 from tests.conformance.by_checker import Checker
 from tests.conformance.by_coq import Coq
 from tests.conformance.by_engine import Bdd, Explicit
-from tests.conformance.by_verify import Z3, Prover, Walk
+from tests.conformance.by_verify import Z3, States, Walk
 from tumato_symbolic.export import coq
 from tumato_symbolic.game import routing
+from tumato_symbolic.semantics import Restorations, holds
 from tumato_symbolic.semantics import goals as explicit_goals
-from tumato_symbolic.spec import Action, GoalList
+from tumato_symbolic.semantics import step as explicit_step
+from tumato_symbolic.spec import Action, GoalList, Spec
 from tumato_symbolic.symbolic import goals as symbolic_goals
 from tumato_symbolic.symbolic import steps as symbolic_steps
 from tumato_symbolic.symbolic.encoding import Encoding, Group
 from tumato_symbolic.symbolic.manager import Bdd as Set
 from tumato_symbolic.verify.by_states import prover as states_prover
 from tumato_symbolic.verify.by_states import steps as states_steps
+from tumato_symbolic.verify.by_states.efforts import Efforts
+from tumato_symbolic.verify.by_walk.efforts import WalkEfforts
 from tumato_symbolic.verify.by_walk.goals import WalkGoals
+from tumato_symbolic.verify.by_walk.model import Model
 from tumato_symbolic.verify.by_z3 import frame, prover
 from tumato_symbolic.verify.by_z3.choice import Choice
 
 explicit_judge = import_module("tumato_symbolic.semantics.judge")
+taken_alone = import_module("tumato_symbolic.game.alone")
+game_restoration = import_module("tumato_symbolic.game.restoration")
 refutations = import_module("tumato_symbolic.verify.no_policy.unrealizable")
 
 
@@ -95,6 +104,40 @@ def _longest(duration: Any) -> Any:
     return lambda spec, chosen: max((duration(spec, frozenset((action,))) for action in chosen), default=0)
 
 
+def _best_of_all(_: Any) -> Any:
+    def planted(restorations: Restorations, state: Any, after: Any) -> Any:
+        spec, worst = restorations._spec, restorations.worst
+        left = [each for each in after if not explicit_judge.is_safe(spec, each)]
+        return min((worst[each] for each in left), default=(0, 0)) if all(each in worst for each in left) else None
+
+    return planted
+
+
+def _one_step_is_no_better(quality: Any) -> Any:
+    def planted(*args: Any) -> Any:
+        found = quality(*args)
+        return found and (1, found[1])
+
+    return planted
+
+
+def _all_that_hold(_: Any) -> Any:
+    def planted(spec: Spec, state: Any) -> Any:
+        return (*spec.assumptions, *(rule for rule in spec.state_rules if holds(rule.formula, state)))
+
+    return planted
+
+
+def _until_safe(restore: Any) -> Any:
+    return lambda work, pairs, here, _: restore(work, pairs, here, work.problem.steps.safe)
+
+
+def _one_tier(written: Any) -> Any:
+    return lambda spec: written(
+        replace(spec, state_rules=tuple(replace(rule, severity=1) for rule in spec.state_rules))
+    )
+
+
 def _no_coq_rules(written: Any) -> Any:
     return lambda spec: written(replace(spec, reaction_rules=()))
 
@@ -107,7 +150,7 @@ BUGS = (
         states.test_a_state_is_safe_when_it_is_valid_and_every_state_rule_holds),
     Bug("2.5", "alternatives never happen", Walk, Action, "effects",
         lambda _: property(lambda action: (action.nominal,)), actions.test_an_action_may_take_any_of_its_effects),
-    Bug("3.2", "resources are shared", lambda: Prover("states", "explicit"), states_steps.Steps, "may_be_together",
+    Bug("3.2", "resources are shared", States, states_steps.Steps, "may_be_together",
         lambda _: lambda steps, chosen: True, steps.test_no_two_actions_control_the_same_resource),
     Bug("3.4", "no reaction rule counts", Coq, coq, "_specification", _no_coq_rules,
         steps.test_every_reaction_rule_holds),
@@ -132,7 +175,7 @@ BUGS = (
     Bug("5.6", "every cheaper set serves", Explicit, explicit_judge, "better_sets",
         lambda _: lambda spec, policy, state, ordering: iter((frozenset(),)),
         lambda engine: policies.test_no_cheaper_set_would_serve(engine, "any")),
-    Bug("5.7", "the longest duration counts", lambda: Prover("states", "explicit"), states_steps, "duration", _longest,
+    Bug("5.7", "the longest duration counts", States, states_steps, "duration", _longest,
         lambda engine: policies.test_durations_of_a_set_add_up(engine, 4, "left right")),
     Bug("6.1", "more actions are as good", lambda: Bdd("autoref"), routing, "preferred", _last_declared,
         preferences.test_then_the_fewest_actions_then_what_is_declared_first),
@@ -140,8 +183,39 @@ BUGS = (
         lambda engine: none.test_the_answer_no_is_believed_where_it_is_so(engine, "no-allowed-set")),
     Bug("7.3", "conflicts are believed", Z3, refutations, "check_conflict", lambda _: lambda reason, step: 1,
         lambda engine: none.test_the_answer_no_is_believed_where_it_is_so(engine, "conflict")),
-    Bug("8.2", "every set takes equally long", lambda: Prover("states", "explicit"), states_prover, "duration",
+    Bug("8.2", "every set takes equally long", States, states_prover, "duration",
         lambda _: lambda spec, chosen: 1, paper.test_stopping_the_conveyor_is_the_minimum),
+    Bug("9.2", "rules that hold may be broken", Walk, Model, "requirements",
+        lambda _: property(lambda model: [(model.valid, model.valid)]),
+        restoring.test_no_rule_is_broken_that_was_not_broken_before),
+    Bug("9.3", "the best outcome counts", Explicit, Restorations, "_worst_after", _best_of_all,
+        lambda engine: restoring.test_efforts_are_compared_by_duration_first(engine, 5, (6, 2))),
+    Bug("9.4", "outcomes that go round are fair", Coq, coq, "_RESTORATIONS",
+        lambda names: {**names, "bounded": names["fair"]},
+        lambda engine: restoring.test_every_outcome_or_the_nominal_one_leads_back(engine, "bounded", {"restoring"})),
+    Bug("9.6", "one step is no better than more", States, Efforts, "quality", _one_step_is_no_better,
+        lambda engine: restoring.test_the_better_set_is_the_minimum(engine, "one step before more")),
+    Bug("9.7", "nobody loses by a better set", Checker, checker.Judge, "losers", lambda _: lambda judge, *pair: [],
+        restoring.test_a_worse_decision_may_serve_another_state),
+    Bug("9.8", "runs stay in place", lambda: Bdd("autoref"), taken_alone, "_staying_in_place",
+        lambda _: lambda problem: problem.false, restoring.test_a_state_has_no_plan_taken_alone),
+    Bug("9.8", "traps are believed", Z3, refutations, "check_no_restoration", lambda _: lambda *claim: None,
+        lambda engine: restoring.test_that_nothing_leads_back_is_believed_where_it_is_so(engine, "bounded", "as|a")),
+    Bug("10.1", "all rules are one tier", Coq, coq, "_tiers", _one_tier,
+        severities.test_the_level_counts_the_severest_tiers_that_hold),
+    Bug("10.1", "the level is that of the mildest tier", States, states_steps.Steps, "level",
+        lambda _: lambda steps, code: len(steps._tiers) if steps.is_safe(code) else 0,
+        severities.test_a_severity_holds_for_the_rules_after_it),
+    Bug("10.2", "mild rules are kept as well", Explicit, explicit_step, "required_rules", _all_that_hold,
+        lambda engine: severities.test_a_milder_rule_may_break_while_a_severer_one_is_broken(
+            engine, "bounded", 1, 2, True)),
+    Bug("10.3", "efforts are counted until all is safe", lambda: Bdd("autoref"), game_restoration._Work,
+        "restore_level", _until_safe, severities.test_efforts_belong_to_a_level),
+    Bug("10.3", "only safe states are restored", Walk, WalkEfforts, "by_level",
+        lambda _: lambda efforts, region: [(region, efforts._model.safe)], severities.test_efforts_belong_to_a_level),
+    Bug("10.4", "goals count everywhere", Checker, checker.World, "reached",
+        lambda _: lambda world, goal, state: all(checker.holds(body, state, goal[1]) for body in goal[0]),
+        lambda engine: severities.test_goals_count_in_safe_states_only(engine, "bounded")),
 )  # fmt: skip
 
 

@@ -109,16 +109,20 @@ class World:
 
     def serving(self) -> Iterator[Mapping[State, ActionSet]]:
         """Every sound and complete policy, by trying all."""
-        for options in product(*self.options.values()):
-            policy = dict(zip(self.options, options, strict=True))
+        for policy in self.policies_with_options():
             if self.serves(policy):
                 yield {state: option.chosen for state, option in policy.items()}
 
+    def policies_with_options(self) -> Iterator[Mapping[State, Option]]:
+        """Every policy with `Keep` everywhere."""
+        return (dict(zip(self.options, each, strict=True)) for each in product(*self.options.values()))
+
     def serves(self, policy: Mapping[State, Option]) -> bool:
         """Whether decisions with `Keep` everywhere are sound and complete."""
-        return all(self._meets(policy, state) for state in policy) and self._restores(policy)
+        return all(self.meets(policy, state) for state in policy) and self.restores(policy)
 
-    def _meets(self, policy: Mapping[State, Option], state: State) -> bool:
+    def meets(self, policy: Mapping[State, Option], state: State) -> bool:
+        """Whether the run from a state meets its goal."""
         goal, here = policy[state].goal, state
         limit = self.spec.max_plan_length or len(policy) + 1
         for _ in range(min(limit, len(policy) + 1)):
@@ -127,7 +131,8 @@ class World:
                 return True
         return False
 
-    def _restores(self, policy: Mapping[State, Option]) -> bool:
+    def restores(self, policy: Mapping[State, Option]) -> bool:
+        """Whether every unsafe state is restored."""
         found: set[State] = set()
         unsafe = [state for state in policy if state not in self.safe]
         while True:
