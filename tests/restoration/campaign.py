@@ -10,10 +10,11 @@ from typing import get_args
 
 from tests.generate import random_spec
 from tests.profiles import INTERACTING, PROFILES
+from tests.restoration.oracle import Stepwise, Together
 from tests.restoration.truth import World
 from tumato_symbolic import Realizable, Unrealizable, synthesize
 from tumato_symbolic.policy import Policy, as_table
-from tumato_symbolic.semantics import count_states, judge
+from tumato_symbolic.semantics import State, count_states, judge
 from tumato_symbolic.spec import Ordering, Restoration, Spec
 from tumato_symbolic.symbolic import Backend
 
@@ -39,6 +40,7 @@ LARGEST = 48
 
 MOST_ACTIONS = 7
 """The most actions: the explicit meaning tries all sets."""
+
 
 MOST_POLICIES = 20_000
 """Where there are more policies they are not tried one by one."""
@@ -87,12 +89,26 @@ def examine(spec: Spec, ordering: Ordering, tally: Tally, backend: Backend | Non
         kind = outcome.failures[0].kind
         tally.answers[spec.restoration, kind] += 1
         if kind == "conflict":
-            if failing or (world.policies <= MOST_POLICIES and next(world.serving(), None) is not None):
-                yield f"a conflict, but {dict(failing) or 'there is a policy'}"
+            yield from _wrong_conflict(world, outcome.failures[0].states, dict(failing))
         elif {each.kind: each.count for each in outcome.failures} != failing:
             yield f"{[(each.kind, each.count) for each in outcome.failures]}, but {dict(failing)}"
     else:
         tally.answers[spec.restoration, "undecided"] += 1
+
+
+def _wrong_conflict(world: World, states: tuple[State, ...], failing: dict[str, int]) -> Iterator[str]:
+    """No policy serves the states together, and one does without any of them: by a SAT encoding of all policies.
+
+    Where there are few policies, they are tried one by one as well.
+    """
+    together = Together(Stepwise(world.spec, world.ordering))
+    if world.policies <= MOST_POLICIES and next(world.serving(), None) is not None:
+        yield "a conflict, but there is a policy"
+    if failing or together.serve(states) is not None:
+        yield f"a conflict, but {failing or 'a policy serves the states together'}"
+    for state in states:
+        if together.serve(other for other in states if other != state) is None:
+            yield f"a conflict that is not minimal: {state} is not needed"
 
 
 def _wrong_policy(spec: Spec, policy: Policy, ordering: Ordering) -> Iterator[str]:
