@@ -8,11 +8,13 @@ import pytest
 from tests.restoration.campaign import Tally, examine, specifications
 from tests.semantics.test_restoration import EDGE, RETRY, VALVES, restoring
 from tumato_symbolic import Realizable, Unrealizable, parse, synthesize
+from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.policy import as_table
 from tumato_symbolic.report.failures import failure_text
 from tumato_symbolic.report.reasons import Place
 from tumato_symbolic.semantics import Effort, Restorations, State, count_states, judge
 from tumato_symbolic.spec import Spec
+from tumato_symbolic.verify import verify_unrealizable
 
 JUMP = """
 BEGIN STATE VECTOR state P can be p0, p1, p2, p3, home END STATE VECTOR
@@ -110,3 +112,21 @@ def test_a_failure_is_told_with_what_was_meant() -> None:
         text = failure_text(Place(spec, "spec.tum"), outcome.failures[0], "any")
         assert text.startswith("error[TUM404]: 1 state has no way back to safety")
         assert told in text
+
+
+@pytest.mark.parametrize("seed", range(4100, 4104))
+def test_what_has_a_certificate_is_proved(seed: int) -> None:
+    """Traps, and what safe states have no set or no plan for: they are judged as in one step."""
+    for name, spec in specifications(seed):
+        outcome = synthesize(spec)
+        if isinstance(outcome, Unrealizable) and outcome.certificate is not None:
+            assert verify_unrealizable(outcome.certificate, spec).verdict == "proved", name
+
+
+def test_a_reason_about_safe_states_says_nothing_of_unsafe_ones() -> None:
+    """A certificate that one step restores nothing is none where several steps may be taken (TUM313)."""
+    outcome = synthesize(parse(VALVES))
+    assert isinstance(outcome, Unrealizable)
+    assert outcome.certificate is not None
+    with pytest.raises(UserError, match="does not support"):
+        verify_unrealizable(outcome.certificate, restoring(VALVES, "bounded"))

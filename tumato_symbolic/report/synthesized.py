@@ -185,6 +185,8 @@ def _certified(done: Synthesized, outcome: Unrealizable, paint: Paint) -> list[s
     lines, ordering = [], outcome.statistics.ordering
     if outcome.limit is not None and done.certificate is None:
         lines.append(paint.doubt(f"It is not proved that there is none: {outcome.limit}."))
+    elif outcome.certificate is None:
+        lines.append(paint.doubt("It is not proved that there is none: this answer has no certificate yet."))
     if done.disproof is not None:
         from tumato_symbolic.report.unrealizable import proof_line
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal, TypeAlias
 
 from tumato_symbolic.diagnostics import Span
@@ -141,6 +141,12 @@ class Spec:
     def restores_stepwise(self) -> bool:
         """Whether the way back to safety may take more than one step: decisions in unsafe states then serve runs."""
         return self.restoration != "one_step" or len({rule.severity for rule in self.state_rules}) > 1
+
+    @property
+    def in_one_step(self) -> Spec:
+        """The same with safety restored in one step and a single severity: what it says of safe states is the same."""
+        rules = tuple(replace(rule, severity=1) for rule in self.state_rules)
+        return replace(self, restoration="one_step", state_rules=rules) if self.restores_stepwise else self
 
     @property
     def ordering(self) -> Ordering:

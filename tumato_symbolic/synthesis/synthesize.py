@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.game import (
@@ -16,6 +16,7 @@ from tumato_symbolic.game import (
     build_problem,
     chances,
     closed_loop,
+    distances,
     in_time,
     own_region_policy,
     route,
@@ -46,6 +47,9 @@ from tumato_symbolic.synthesis.outcome import (
 from tumato_symbolic.synthesis.overriding import override, revert_unneeded
 from tumato_symbolic.synthesis.races import races
 from tumato_symbolic.synthesis.restoring import restoring_policy
+
+if TYPE_CHECKING:
+    from tumato_symbolic.policy.unrealizable import NoAllowedSet, NoPlan, NoRestoration
 
 TABLE_LIMIT = 10_000
 """Up to so many valid states a policy is written as a table, unless another format is asked for."""
@@ -123,7 +127,7 @@ def _solve(problem: Problem, policy_format: PolicyFormat, certify: bool) -> Outc
             lost, stuck = problem.steps.unsafe & ~way.restorable, stuck & problem.steps.safe
         helpless = problem.steps.valid & ~stuck & ~lost & ~winning(problem, apart, pairs)
         if (stuck | lost | helpless) != problem.false:
-            from tumato_symbolic.synthesis.disproof import certified, no_allowed_set, no_plan, no_restoration
+            from tumato_symbolic.synthesis.disproof import certified
 
             failures = (
                 _failure(problem, "no-allowed-set", stuck),
@@ -131,13 +135,10 @@ def _solve(problem: Problem, policy_format: PolicyFormat, certify: bool) -> Outc
                 _failure(problem, "no-plan", helpless),
             )
             found = tuple(failure for failure in failures if failure is not None)
-            answer, state = _answer_no(problem, found, statistics, warnings), found[0].example
-            if certify and lost != problem.false:
-                trap = no_restoration(problem, problem.encoding.first_state(lost), lost)
-                return replace(answer, certificate=certified(problem, trap))
-            if not certify or problem.spec.restores_stepwise:
+            answer = _answer_no(problem, found, statistics, warnings)
+            reason = _reason(problem, apart, stuck, lost, helpless) if certify else None
+            if reason is None:
                 return answer
-            reason = no_plan(problem, state, apart) if stuck == problem.false else no_allowed_set(problem, state)
             return replace(answer, certificate=certified(problem, reason))
         resolved = _resolve(judge, policy, apart, Undecided("", statistics, warnings), way=way, certify=certify)
         if isinstance(resolved, Undecided | Unrealizable):
@@ -145,6 +146,26 @@ def _solve(problem: Problem, policy_format: PolicyFormat, certify: bool) -> Outc
         evaluation, statistics = resolved.evaluation, resolved.statistics
     complete, statistics, raced = _finish(problem, evaluation, statistics)
     return Realizable(_as(complete, policy_format, statistics.valid), statistics, (*warnings, *raced))
+
+
+def _reason(
+    problem: Problem, apart: tuple[Layers, ...], stuck: Bdd, lost: Bdd, helpless: Bdd
+) -> NoAllowedSet | NoRestoration | NoPlan | None:
+    """What a certificate says of the first failing state; None where it has no form for any of them.
+
+    Where safety may take several steps to restore: of safe states that have no allowed set or no plan, and of states
+    that cannot be restored.
+    """
+    from tumato_symbolic.synthesis.disproof import no_allowed_set, no_plan, no_restoration
+
+    first = problem.encoding.first_state
+    if lost != problem.false:
+        return no_restoration(problem, first(lost), lost)
+    if problem.spec.restores_stepwise:
+        apart, stuck, helpless = distances(problem), stuck & problem.steps.safe, helpless & problem.steps.safe
+    if stuck != problem.false:
+        return no_allowed_set(problem, first(stuck))
+    return no_plan(problem, first(helpless), apart) if helpless != problem.false else None
 
 
 def _answer_no(

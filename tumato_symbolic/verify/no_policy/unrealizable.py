@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 from tumato_symbolic.limits import Budget, Context, LimitReachedError
-from tumato_symbolic.policy.unrealizable import NoAllowedSet, NoPlan, NoRestoration, Unrealizability
+from tumato_symbolic.policy.unrealizable import Conflict, NoAllowedSet, NoPlan, NoRestoration, Unrealizability
 from tumato_symbolic.policy.unrealizable_file import bind
+from tumato_symbolic.semantics import State, is_safe
 from tumato_symbolic.spec import Ordering, Spec, digest
 from tumato_symbolic.spec.support import require_one_step
 from tumato_symbolic.verify.by_z3.solver import UndecidedError
@@ -42,10 +44,10 @@ def verify_unrealizable(
     *Refuted* says that the certificate is no proof, not that there is a policy. Raises `UserError` when the names of
     the certificate do not fit the specification.
     """
-    if not isinstance(certificate.reason, NoRestoration):
-        require_one_step(spec, "verify")
     context = context or Context()
     reason = bind(certificate, spec).reason
+    if not isinstance(reason, NoRestoration) and not all(is_safe(spec, state) for state in _spoken_of(reason)):
+        require_one_step(spec, "verify")
     judged: Ordering = ordering or certificate.ordering
     found = UnrealizabilityVerdict(
         "proved",
@@ -59,7 +61,7 @@ def verify_unrealizable(
     context.learn(replace(found, verdict="undecided"))
     try:
         context.tell("checking why there is no policy")
-        step = AllowedStep(spec, judged, Budget(timeout, context))
+        step = AllowedStep(spec.in_one_step, judged, Budget(timeout, context))
         match reason:
             case NoAllowedSet():
                 checked = check_no_allowed_set(reason, step, judged)
@@ -79,6 +81,14 @@ def verify_unrealizable(
         return replace(found, verdict="undecided", reason=str(limit))
     proved = checked + step.proved + step.walked
     return replace(found, obligations=proved, by_solver=step.proved > 0, by_walk=step.walked > 0)
+
+
+def _spoken_of(reason: NoAllowedSet | NoPlan | Conflict) -> Iterator[State]:
+    """The states that a reason is about: where they are safe, so is all that runs from there meet."""
+    if isinstance(reason, Conflict):
+        yield from (choice.state for choice in reason.choices)
+    else:
+        yield reason.state
 
 
 def _kind(certificate: Unrealizability) -> UnrealizabilityKind:
