@@ -97,7 +97,7 @@ def test_realizability_comes_before_preferences_and_little_deviates(decider: Dec
     """A robot with one load would deliver it; one of the two states with one goes on, and the other one does not."""
     found = policy(decider, INTERACTING)
     assert [found[state].partition("_")[0] for state in ("yn", "ny")].count("load") == 1
-    assert found["yy"] == "drop_p"
+    assert found["yy"].startswith("drop")
 
 
 @rule("6.4")

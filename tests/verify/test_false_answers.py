@@ -55,7 +55,7 @@ def test_a_decision_that_is_allowed_is_no_witness(monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr(step_property, "objections", lambda *_: iter(()))
     with pytest.raises(RuntimeError, match=r"is allowed in .*, against the solver"):
         _judged(*_forbidden(), "safe")
-    monkeypatch.setattr(outcomes, "is_safe", lambda *_: True)
+    monkeypatch.setattr(outcomes, "fault_after", lambda *_: None)
     with pytest.raises(RuntimeError, match="is safe, against the solver"):
         _judged(*_unsafe(), "safe")
 
