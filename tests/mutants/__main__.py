@@ -1,4 +1,4 @@
-"""Many mutants: `python -m tests.mutants --count 20000`.
+"""Many mutants: `python -m tests.mutants --count 20000`, with `--restoration` of restoring in several steps alone.
 
 Prints figures; exits with 1 where a tier takes a right one for wrong or a wrong one for right.
 """
@@ -16,9 +16,10 @@ from pathlib import Path
 
 from tests.mutants.campaign import Tally, examine
 from tests.mutants.refusals import examine_conflict, examine_refusal
+from tests.mutants.stepwise import examine_stepwise
 from tests.profiles import ALL_PROFILES
 
-CONFLICT = "conflict"
+CONFLICT, RESTORATION = "conflict", "restoration"
 Job = tuple[str, int, int]
 
 
@@ -29,6 +30,8 @@ def run(job: Job) -> Tally:
         with tempfile.TemporaryDirectory() as folder:
             if profile == CONFLICT:
                 return examine_conflict(seed, each, Path(folder))
+            if profile == RESTORATION:
+                return examine_stepwise(seed, each, Path(folder))
             tally = examine(profile, seed, each, Path(folder))
             tally.add(examine_refusal(profile, seed, each // 4, Path(folder)))
             return tally
@@ -36,9 +39,9 @@ def run(job: Job) -> Tally:
         return Tally(complaints=[f"{profile} {seed}: {traceback.format_exc()}"])
 
 
-def jobs(first: int, each: int) -> Iterator[Job]:
-    """The profiles in turn, without end, and a conflict after each round."""
-    return ((profile, seed, each) for seed in count(first) for profile in (*ALL_PROFILES, CONFLICT))
+def jobs(first: int, each: int, profiles: Sequence[str]) -> Iterator[Job]:
+    """The profiles in turn, without end."""
+    return ((profile, seed, each) for seed in count(first) for profile in profiles)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -48,12 +51,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--each", type=int, default=24, help="how many of one specification (default 24)")
     parser.add_argument("--seed", type=int, default=0, help="the first seed (default 0)")
     parser.add_argument("--processes", type=int, default=2)
+    parser.add_argument("--restoration", action="store_true", help="only of restoring safety in several steps")
     options = parser.parse_args(arguments)
+    profiles = (RESTORATION,) if options.restoration else (*ALL_PROFILES, CONFLICT, RESTORATION)
     total, started, told = Tally(), time.monotonic(), 0
     with Pool(options.processes) as pool:
-        everything = jobs(options.seed, options.each)
+        everything = jobs(options.seed, options.each, profiles)
         while total.mutants < options.count:
-            for tally in pool.imap_unordered(run, islice(everything, 16 * options.processes)):
+            for tally in pool.imap_unordered(run, islice(everything, 4 * options.processes)):
                 total.add(tally)
                 for complaint in tally.complaints:
                     print(complaint, flush=True)
@@ -62,6 +67,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 print(_figures(total, started), flush=True)
     for kind in sorted({kind for kind, _ in total.kinds}):
         print(f"  {kind}: {total.kinds[kind, True]} right, {total.kinds[kind, False]} wrong")
+    for mode, mutants in sorted(total.modes.items()):
+        print(f"  {mode}: {mutants} mutants")
+    print(f"  undecided: {dict(total.undecided)}")
     print(_figures(total, started))
     return 1 if total.complaints else 0
 

@@ -50,6 +50,8 @@ class Tally:
     unreadable: int = 0
     kinds: Counter[tuple[str, bool]] = field(default_factory=Counter)
     forms: Counter[str] = field(default_factory=Counter)
+    modes: Counter[str] = field(default_factory=Counter)
+    undecided: Counter[str] = field(default_factory=Counter)
     disagreements: int = 0
     complaints: list[str] = field(default_factory=list)
 
@@ -60,6 +62,8 @@ class Tally:
         self.unreadable += other.unreadable
         self.kinds += other.kinds
         self.forms += other.forms
+        self.modes += other.modes
+        self.undecided += other.undecided
         self.disagreements += other.disagreements
         self.complaints += other.complaints
 
@@ -67,19 +71,21 @@ class Tally:
 def examine(profile: str, seed: int, count: int, folder: Path) -> Tally:
     """Up to `count` mutants of one specification, none where it is too large or not realizable."""
     text, tally = random_text(seed, ALL_PROFILES[profile]), Tally()
-    spec = parse(text)
-    if count_states(spec) > LARGEST:
-        return tally
-    bases = []
-    for form in ("table", "diagram"):
+    bases = bases_of(text)
+    for mutant in _mutants(bases, text, Random(f"{profile} {seed}"), count) if bases else ():
+        tally.complaints += [f"{profile} {seed} {mutant.kind}: {each}" for each in judge(mutant, text, tally, folder)]
+    return tally
+
+
+def bases_of(text: str) -> list[policies.Document]:
+    """The policy of a specification in both forms; none where it is too large or not realizable."""
+    spec, bases = parse(text), list[policies.Document]()
+    for form in ("table", "diagram") if count_states(spec) <= LARGEST else ():
         outcome = synthesize(spec, policy_format=form)  # type: ignore[arg-type]
         if not isinstance(outcome, Realizable):
-            return tally
+            return []
         bases.append(json.loads(dumps(outcome.policy)))
-    for mutant in _mutants(bases, text, Random(f"{profile} {seed}"), count):
-        for complaint in _judge(mutant, spec, tally, folder):
-            tally.complaints.append(f"{profile} {seed} {mutant.kind}: {complaint}")
-    return tally
+    return bases
 
 
 def _mutants(bases: list[policies.Document], text: str, random: Random, count: int) -> Iterator[Mutant]:
@@ -91,7 +97,7 @@ def _mutants(bases: list[policies.Document], text: str, random: Random, count: i
             kind, change = random.choice([*(specs.MEANT if which == "meaning" else specs.LAYOUT).items()])
             change(lines, random)
             if which == "meaning" and random.random() < 0.7:
-                _renew_digest(document, lines)
+                renew_digest(document, lines)
         else:
             form = policies.TABLE if document["Type"] == "policy" else policies.DIAGRAM
             kind, mutate = random.choice([*(form if which == "policy" else policies.CERTIFICATE).items()])
@@ -100,13 +106,13 @@ def _mutants(bases: list[policies.Document], text: str, random: Random, count: i
             yield Mutant(f"{which}: {kind}", document, "\n".join(lines) + "\n")
 
 
-def _renew_digest(document: policies.Document, lines: list[str]) -> None:
+def renew_digest(document: policies.Document, lines: list[str]) -> None:
     """Pretend that the policy was made for the changed specification: nothing is stale then, but perhaps false."""
     with suppress(UserError):
         document["SpecificationDigest"] = digest(parse("\n".join(lines) + "\n"))
 
 
-def _judge(mutant: Mutant, original: Spec, tally: Tally, folder: Path) -> Iterator[str]:
+def judge(mutant: Mutant, original: str, tally: Tally, folder: Path) -> Iterator[str]:
     """Complaints about one mutant. One whose specification is in error, or has no valid state, is no mutant."""
     try:
         spec = parse(mutant.spec)
@@ -116,7 +122,7 @@ def _judge(mutant: Mutant, original: Spec, tally: Tally, folder: Path) -> Iterat
         return
     tally.mutants += 1
     tally.forms[mutant.document["Type"]] += 1
-    if mutant.kind.startswith("layout") and digest(spec) != digest(original):
+    if mutant.kind.startswith("layout") and digest(spec) != digest(parse(original)):
         yield "the digest depends on the layout"
     try:
         policy = loads(json.dumps(mutant.document))
@@ -130,6 +136,11 @@ def _judge(mutant: Mutant, original: Spec, tally: Tally, folder: Path) -> Iterat
     tally.kinds[mutant.kind, right] += 1
     answers = {prover: _verified(policy, spec, prover) for prover in PROVERS}
     answers["checker"] = _checked(mutant.document, mutant.spec, folder)
+    if spec.restores_stepwise:
+        tally.modes[f"{spec.restoration}, {len(spec.tiers)} tiers"] += 1
+        if answers["walk"] == "undecided":  # it says where it gives up, and the others decide
+            tally.undecided["walk"] += 1
+            del answers["walk"]
     tally.disagreements += len(set(answers.values())) > 1
     for tier, answer in answers.items():
         if answer != ("accepted" if right else "rejected"):

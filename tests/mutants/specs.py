@@ -95,6 +95,19 @@ def _comments(lines: list[str], random: Random) -> None:
             lines[place] += random.choice(("  // rule: false", " /* END\nBEGIN */", "\n\n", "\t"))
 
 
+def _restoration(lines: list[str], random: Random) -> None:
+    """Safety is restored in another way."""
+    for place in _places(lines, "restoration:"):
+        lines[place] = f"  restoration: {random.choice(('one_step', 'bounded', 'fair'))}"
+
+
+def _severity(lines: list[str], random: Random) -> None:
+    """The state rules from one of them on are more severe, or milder."""
+    begin, end = lines.index("BEGIN STATE RULES") + 1, lines.index("END STATE RULES")
+    if begin < end:
+        lines.insert(random.randint(begin, end), f"  severity: {random.randint(1, 3)}")
+
+
 MEANT: dict[str, Mutation] = {
     "a rule dropped": _dropped("rule:|assume:"),
     "a state rule or assumption flipped": _flipped("rule:|assume:"),
@@ -111,6 +124,17 @@ MEANT: dict[str, Mutation] = {
     "no ordering": _dropped("effect_ordering:"),
 }
 """What may change the meaning."""
+
+RESTORING: dict[str, Mutation] = {
+    "another restoration": _restoration,
+    "a severity added": _severity,
+    "a severity dropped": _dropped("severity:"),
+    "a severity changed": _changed_number("severity:"),
+    "a state rule dropped": _dropped("rule:"),
+    "a duration changed": _changed_number("duration:"),
+    "an alternative flipped": _flipped("alternative effects:"),
+}
+"""What changes how safety is restored."""
 
 LAYOUT: dict[str, Mutation] = {
     "variables reordered": _reordered(r"state \w+ can be"),

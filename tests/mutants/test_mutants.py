@@ -8,6 +8,7 @@ import pytest
 
 from tests.mutants.campaign import Tally, examine
 from tests.mutants.refusals import examine_conflict, examine_refusal
+from tests.mutants.stepwise import examine_stepwise
 from tests.profiles import ALL_PROFILES
 
 
@@ -36,5 +37,14 @@ def test_both_judges_accept_the_same_conflicts(tmp_path: Path) -> None:
     total = Tally()
     for number in range(0, 20, 3):
         total.add(examine_conflict(number, 6, tmp_path))
+    assert not total.complaints
+    assert 0 < total.right < total.mutants
+
+
+def test_every_tier_tells_how_safety_is_restored(tmp_path: Path) -> None:
+    """So it is where safety takes several steps to restore, and where some rules are more severe than others."""
+    total = Tally()
+    for seed in range(3):
+        total.add(examine_stepwise(seed, 3, tmp_path))
     assert not total.complaints
     assert 0 < total.right < total.mutants

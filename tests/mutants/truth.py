@@ -6,33 +6,41 @@ one, carries the digest of the specification and claims nothing false (`docs/cer
 
 from __future__ import annotations
 
-from tumato_symbolic.policy import Certificate, Policy, as_table, bind
+from tumato_symbolic.policy import Certificate, Deviation, Policy, as_table, bind
+from tumato_symbolic.policy.bind import restores_less
 from tumato_symbolic.semantics import (
+    AT_ONCE,
     ActionSet,
+    Effort,
     Residual,
     State,
     all_states,
     allowed,
     count_states,
+    duration,
+    follow,
     is_safe,
     is_valid,
     judge,
+    next_states,
     nominal_agrees,
     reached,
     residual_goal,
+    restored,
     successor,
 )
 from tumato_symbolic.spec import Ordering, Spec, canonical_text, digest, executing_atoms
 
 Rows = dict[State, ActionSet]
 Numbers = dict[State, int | None]
+Efforts = dict[State, Effort | None]
 
 
 def is_right(policy: Policy, spec: Spec) -> bool:
     """Whether a policy that was read for a specification passes `--strict`."""
     bound = bind(policy, spec)
     ordering: Ordering = spec.effect_ordering or "any"
-    if (bound.ordering, ordering) == ("first", "any"):
+    if (bound.ordering, ordering) == ("first", "any") or restores_less(bound, spec):
         return False
     table = as_table(bound, count_states(spec))
     assert table is not None
@@ -52,23 +60,26 @@ def claims_hold(policy: Policy, spec: Spec, rows: Rows, ordering: Ordering) -> b
         ranks is not None
         and all(_decreases(spec, rows, goal, numbers) for goal, numbers in ranks.items())
         and all(_within_bound(spec, rows, ranks, state, ordering) for state in rows if is_valid(spec, state))
+        and _restoring_holds(policy.certificate, spec, rows, ordering)
     )
 
 
 def _ranks(certificate: Certificate, spec: Spec) -> dict[Residual, Numbers] | None:
-    """The numbers of the safe states; None where an entry is about no goal, or about one that another is about."""
+    """The numbers of the states that ranks speak of; None where an entry is about no goal, or doubles another one."""
     bodies = {canonical_text(spec, body.formula): number for number, body in enumerate(spec.bodies)}
     names = [action.name for action in spec.actions]
-    safe = [state for state in all_states(spec) if is_valid(spec, state) and is_safe(spec, state)]
+    everywhere = spec.restores_stepwise and certificate.restoring is not None
+    valid = [state for state in all_states(spec) if is_valid(spec, state)]
+    spoken_of = [state for state in valid if everywhere or is_safe(spec, state)]
     found: dict[Residual, Numbers] = {}
     for entry in certificate.goals:
         if not set(entry.bodies) <= set(bodies):
             return None
         goal = Residual(frozenset(bodies[text] for text in entry.bodies), frozenset(map(names.index, entry.executed)))
-        spoken_of = {action for body in goal.bodies for action in executing_atoms(spec.bodies[body].formula)}
-        if goal in found or not goal.executed <= spoken_of:
+        mentioned = {action for body in goal.bodies for action in executing_atoms(spec.bodies[body].formula)}
+        if goal in found or not goal.executed <= mentioned:
             return None
-        found[goal] = {state: certificate.ranks.evaluate(entry.root, state) for state in safe}
+        found[goal] = {state: certificate.ranks.evaluate(entry.root, state) for state in spoken_of}
     return found
 
 
@@ -89,7 +100,69 @@ def _decreases(spec: Spec, rows: Rows, goal: Residual, numbers: Numbers) -> bool
 def _within_bound(spec: Spec, rows: Rows, ranks: dict[Residual, Numbers], state: State, ordering: Ordering) -> bool:
     """The state that follows one with a goal has no number for it, or one below the bound."""
     goal = residual_goal(spec, state, rows[state])
-    if not goal.bodies or spec.max_plan_length is None or not allowed(spec, state, rows[state], ordering):
+    owes_nothing = not goal.bodies and (is_safe(spec, state) or not spec.restores_stepwise)
+    if owes_nothing or spec.max_plan_length is None or not allowed(spec, state, rows[state], ordering):
         return True
     number = ranks.get(goal, {}).get(successor(spec, state, rows[state]))
     return number is None or number < spec.max_plan_length
+
+
+def _restoring_holds(certificate: Certificate, spec: Spec, rows: Rows, ordering: Ordering) -> bool:
+    """Whether every effort and every deviation is true; in one step they claim nothing."""
+    restoring = certificate.restoring
+    if not spec.restores_stepwise or restoring is None:
+        return True
+    unsafe = [state for state in all_states(spec) if is_valid(spec, state) and not is_safe(spec, state)]
+    worst = {state: restoring.efforts.evaluate(restoring.worst, state) for state in unsafe}
+    nominal = {state: restoring.efforts.evaluate(restoring.nominal, state) for state in unsafe}
+    return (
+        all(_worst_is_true(spec, rows, worst, state, ordering) for state in unsafe)
+        and (spec.restoration != "fair" or all(_nominal_is_true(spec, rows, worst, nominal, state) for state in unsafe))
+        and all(_misses(spec, rows, deviation) for deviation in restoring.deviations)
+    )
+
+
+def _worst_is_true(spec: Spec, rows: Rows, worst: Efforts, state: State, ordering: Ordering) -> bool:
+    """Null, or enough for every state that may follow."""
+    effort = worst[state]
+    if effort is None:
+        return True
+    if not _acts(spec, rows, state):
+        return False
+    after = [each for each in next_states(spec, state, rows[state], ordering) if not restored(spec, state, each)]
+    left = [worst.get(each) for each in after]
+    return all(each is not None and effort >= _longer(spec, rows[state], each) for each in [*left, AT_ONCE])
+
+
+def _nominal_is_true(spec: Spec, rows: Rows, worst: Efforts, nominal: Efforts, state: State) -> bool:
+    """Null, not read, or enough for the state that nominally follows."""
+    effort = nominal[state]
+    if effort is None or worst[state] is not None:
+        return True
+    if not _acts(spec, rows, state):
+        return False
+    after, left = successor(spec, state, rows[state]), nominal.get(successor(spec, state, rows[state]))
+    if restored(spec, state, after) or worst.get(after) is not None:
+        left = AT_ONCE
+    return left is not None and effort >= _longer(spec, rows[state], left)
+
+
+def _acts(spec: Spec, rows: Rows, state: State) -> bool:
+    return state in rows and nominal_agrees(spec, rows[state])
+
+
+def _longer(spec: Spec, chosen: ActionSet, effort: Effort) -> Effort:
+    return effort[0] + duration(spec, chosen), effort[1] + 1
+
+
+def _misses(spec: Spec, rows: Rows, deviation: Deviation) -> bool:
+    """The run of `missed` reaches its goal by the policy, but not with the better set in that state."""
+    state, missed, better = deviation.state, deviation.missed, deviation.better
+    known = {known: chosen for known, chosen in rows.items() if is_valid(spec, known)}
+    if state not in known or is_safe(spec, state) or missed not in known or not nominal_agrees(spec, better):
+        return False
+    changed = {**known, state: better}
+    return (
+        follow(spec, known, missed, known[missed]).end == "goal"
+        and follow(spec, changed, missed, changed[missed]).end != "goal"
+    )

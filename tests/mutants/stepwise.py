@@ -1,0 +1,66 @@
+"""Mutants where safety may take several steps to restore, or rules are of several severities."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from copy import deepcopy
+from dataclasses import replace
+from pathlib import Path
+from random import Random
+
+from tests.mutants import policies, restoring, specs
+from tests.mutants.campaign import Mutant, Tally, bases_of, judge, renew_digest
+from tests.printing import print_spec
+from tests.restoration.campaign import specifications
+from tests.restoration.test_repair import LOOP, crossing
+from tumato_symbolic import parse
+from tumato_symbolic.spec import Spec
+
+
+def texts(seed: int) -> Iterator[tuple[str, str]]:
+    """The specifications of a seed, each with an effect ordering of its own, and one with a deviation."""
+    random = Random(f"texts {seed}")
+    deviating = (crossing(north="right"), crossing(north="right", south="right"), parse(LOOP))
+    known = replace(random.choice(deviating), restoration=random.choice(("bounded", "fair")))  # type: ignore[arg-type]
+    for name, spec in (("known", _numbered(known)), *specifications(seed)):
+        yield name, print_spec(replace(spec, effect_ordering=random.choice((None, "any", "first"))), random)
+
+
+def _numbered(spec: Spec) -> Spec:
+    actions = (replace(action, name=f"act{number}") for number, action in enumerate(spec.actions))
+    return replace(spec, actions=tuple(actions))
+
+
+def examine_stepwise(seed: int, count: int, folder: Path) -> Tally:
+    """Up to `count` mutants of each specification of a seed that has a policy that says how it restores."""
+    tally = Tally()
+    for name, text in texts(seed):
+        bases = bases_of(text)
+        if not bases or "Restoring" not in bases[0].get("Certificate", {}):
+            continue
+        for mutant in _mutants(bases, text, Random(f"{name} {seed}"), count):
+            found = judge(mutant, text, tally, folder)
+            tally.complaints += [f"restoration, seed {seed}, {name}, {mutant.kind}: {each}" for each in found]
+    return tally
+
+
+def _mutants(bases: list[policies.Document], text: str, random: Random, count: int) -> Iterator[Mutant]:
+    spec = parse(text)
+    for _ in range(count):
+        document, lines = deepcopy(random.choice(bases)), text.splitlines()
+        which = random.choice(("restoring", "restoring", "unsafe", "policy", "certificate", "severities", "meaning"))
+        if which in ("severities", "meaning"):
+            kind, change = random.choice([*(specs.RESTORING if which == "severities" else specs.MEANT).items()])
+            change(lines, random)
+            if random.random() < 0.7:
+                renew_digest(document, lines)
+        elif which == "unsafe":
+            kind, document = "another decision", deepcopy(bases[0])
+            restoring.unsafe_decision(spec)(document, random)
+        else:
+            form = policies.TABLE if document["Type"] == "policy" else policies.DIAGRAM
+            kinds = {"restoring": restoring.CERTIFICATE, "policy": form, "certificate": policies.CERTIFICATE}[which]
+            kind, mutate = random.choice([*kinds.items()])
+            mutate(document, random)
+        if document not in bases or lines != text.splitlines():
+            yield Mutant(f"{which}: {kind}", document, "\n".join(lines) + "\n")
