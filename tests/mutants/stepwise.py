@@ -21,7 +21,7 @@ def texts(seed: int) -> Iterator[tuple[str, str]]:
     """The specifications of a seed, each with an effect ordering of its own, and one with a deviation."""
     random = Random(f"texts {seed}")
     deviating = (crossing(north="right"), crossing(north="right", south="right"), parse(LOOP))
-    known = replace(random.choice(deviating), restoration=random.choice(("bounded", "fair")))  # type: ignore[arg-type]
+    known = replace(random.choice(deviating), restoration=random.choice(("bounded", "fair")))
     for name, spec in (("known", _numbered(known)), *specifications(seed)):
         yield name, print_spec(replace(spec, effect_ordering=random.choice((None, "any", "first"))), random)
 
