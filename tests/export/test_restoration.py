@@ -136,7 +136,7 @@ def test_efforts_are_not_believed(planted: str, library: Library) -> None:
 @pytest.mark.parametrize(("restoration", "tiers"), MODES)
 def test_the_checker_agrees_with_the_explicit_meaning(restoration: Restoration, tiers: int, library: Library) -> None:
     """`check` answers `true` for right policies of every mode, with one to three severities, and for no others."""
-    cases = [case for seed in range(12) for case in stepwise(seed, restoration, tiers)]
+    cases = [case for seed in range(5) for case in stepwise(seed, restoration, tiers)]
     expected = [is_right(case) for case in cases]
     assert any(expected)
     assert not all(expected)

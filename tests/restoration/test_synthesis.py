@@ -45,7 +45,7 @@ def decided(spec: Spec) -> tuple[dict[State, frozenset[int]], dict[State, Effort
 
 
 @pytest.mark.parametrize("backend", ["cudd", "autoref"])
-@pytest.mark.parametrize("seed", range(4000, 4006))
+@pytest.mark.parametrize("seed", range(4000, 4003))
 def test_generated(seed: int, backend: str) -> None:
     """Whether there is a policy, why states fail, and that a policy is right and minimal: as the meaning says."""
     tally = Tally()
@@ -98,7 +98,12 @@ def test_what_one_step_restores_is_decided_as_before(name: str, examples: dict[s
 
 def test_two_robots(examples: dict[str, str]) -> None:
     """112 states take more than one step: the distribution of worst efforts is known."""
-    _, worst = decided(replace(parse(examples["two_robots"]), restoration="bounded"))
+    spec = replace(parse(examples["two_robots"]), restoration="bounded")
+    outcome = synthesize(spec)
+    assert isinstance(outcome, Realizable)
+    table = as_table(outcome.policy, count_states(spec))
+    assert table is not None
+    worst = Restorations(spec, table.rows, "any").worst
     assert Counter(worst.values()) == {(1, 1): 352, (2, 1): 64, (2, 2): 48, (3, 2): 48, (4, 3): 16}
 
 
@@ -114,7 +119,7 @@ def test_a_failure_is_told_with_what_was_meant() -> None:
         assert told in text
 
 
-@pytest.mark.parametrize("seed", range(4100, 4104))
+@pytest.mark.parametrize("seed", range(4100, 4102))
 def test_what_has_a_certificate_is_proved(seed: int) -> None:
     """Traps, and what safe states have no set or no plan for: they are judged as in one step."""
     for name, spec in specifications(seed):

@@ -59,7 +59,7 @@ def holds_fast(spec: Spec, state: State, held: set[State], ordering: Ordering) -
     return unsafe and state in trap and all(all(stays(here)) for here in trap)
 
 
-@pytest.mark.parametrize("seed", range(5000, 5012))
+@pytest.mark.parametrize("seed", range(5000, 5006))
 def test_what_synthesis_writes_is_proved_and_anything_else_is_judged_rightly(seed: int) -> None:
     """Traps of generated specifications, as they are and with states put in or left out."""
     dice = Random(seed)
