@@ -46,6 +46,18 @@ PROFILE = replace(
     alternatives=0.3,
 )
 
+MODES: list[tuple[Restoration, int]] = [
+    ("one_step", 2),
+    ("one_step", 3),
+    ("bounded", 1),
+    ("bounded", 2),
+    ("bounded", 3),
+    ("fair", 1),
+    ("fair", 2),
+    ("fair", 3),
+]
+"""Ways to restore safety and numbers of severities, but for the plain one."""
+
 
 def stepwise_spec(seed: int, restoration: Restoration, tiers: int) -> Spec:
     """The specification of a seed with that many severities at most, so that they are needed."""

@@ -12,8 +12,7 @@ from random import Random
 import pytest
 
 from tests.checker.standalone import Answer, ask
-from tests.checker.stepwise import Claims, Rows, claiming, losers, policies, true_claims, ways
-from tests.checker.test_stepwise import MODES
+from tests.checker.stepwise import MODES, Claims, Rows, claiming, losers, policies, true_claims, ways
 from tests.printing import print_spec
 from tumato_symbolic import Realizable, synthesize
 from tumato_symbolic.policy import dumps

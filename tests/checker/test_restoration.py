@@ -15,24 +15,13 @@ from tests.checker.refusals import assert_proved, assert_refuted, certificate, s
 from tests.checker.standalone import Answer, ask, checker
 from tests.checker.stepwise import claiming, stepwise_spec, true_claims
 from tests.printing import print_spec
-from tests.semantics.test_restoration import EDGE, RETRY, VALVES
+from tests.semantics.test_restoration import EDGE, OVERRIDE, RETRY, VALVES
 from tumato_symbolic import parse
 from tumato_symbolic.policy import dumps, policy_from_rows
 from tumato_symbolic.semantics import NOTHING
 from tumato_symbolic.spec import Spec, digest
 
-OVERRIDE = """
-BEGIN STATE VECTOR state P can be s, t, x, y END STATE VECTOR
-BEGIN RESOURCES resource R END RESOURCES
-BEGIN ACTIONS
-action to_t duration: 1 controlled resources: R preconditions: P is s nominal effects: P is t
-action to_x duration: 1 controlled resources: R preconditions: P is t nominal effects: P is x
-action to_y duration: 2 controlled resources: R preconditions: P is t nominal effects: P is y
-END ACTIONS
-BEGIN STATE RULES rule: P is x OR P is y END STATE RULES
-BEGIN GOALS goal type: priority when P is s then goal: P is y END GOALS
-BEGIN CONFIG restoration: bounded END CONFIG
-"""
+BOUNDED_OVERRIDE = f"{OVERRIDE}BEGIN CONFIG restoration: bounded END CONFIG\n"
 TO_T, TO_X, TO_Y = (frozenset((number,)) for number in range(3))
 TO_EACH = {(0,): TO_T, (1,): TO_Y, (2,): NOTHING, (3,): NOTHING}
 CLOSE_A, CLOSE_B = frozenset((0,)), frozenset((1,))
@@ -52,16 +41,16 @@ def verdict(answer: Answer, name: str) -> str:
 
 def test_a_state_that_is_restored_worse_for_another_one(tmp_path: Path) -> None:
     """(t) goes to y for the sake of (s); the set that would be better is the one deviation."""
-    policy = with_truth(OVERRIDE, TO_EACH)
+    policy = with_truth(BOUNDED_OVERRIDE, TO_EACH)
     assert json.loads(policy)["Certificate"]["Restoring"]["Deviations"] == [
         {"State": {"P": "t"}, "Better": ["to_x"], "Missed": {"P": "s"}}
     ]
-    answer = ask(tmp_path, policy, OVERRIDE, "--strict")
+    answer = ask(tmp_path, policy, BOUNDED_OVERRIDE, "--strict")
     assert (answer.code, verdict(answer, "certificate")) == (0, "certificate: right"), answer
     assert "; restoration bounded\n" in answer.out
-    answer = ask(tmp_path, with_truth(OVERRIDE, {**TO_EACH, (1,): TO_X}), OVERRIDE)
+    answer = ask(tmp_path, with_truth(BOUNDED_OVERRIDE, {**TO_EACH, (1,): TO_X}), BOUNDED_OVERRIDE)
     assert answer.failing == {"goals": 1}
-    free = OVERRIDE.replace("goal: P is y", "goal: P is x OR P is y")
+    free = BOUNDED_OVERRIDE.replace("goal: P is y", "goal: P is x OR P is y")
     answer = ask(tmp_path, with_truth(free, TO_EACH), free)
     assert answer.failing == {"minimal": 1}
     assert verdict(answer, "certificate") == "certificate: right"
@@ -137,9 +126,9 @@ def test_what_a_policy_was_made_for(made_for: str, meant: str, tmp_path: Path) -
 
 def test_recorded_restorations_are_known_words(tmp_path: Path) -> None:
     """Anything else is no policy file."""
-    policy = with_truth(OVERRIDE, TO_EACH)
+    policy = with_truth(BOUNDED_OVERRIDE, TO_EACH)
     for wrong in ('"any"', "null", "1", "[]"):
-        answer = ask(tmp_path, policy.replace('"Restoration": "bounded"', f'"Restoration": {wrong}'), OVERRIDE)
+        answer = ask(tmp_path, policy.replace('"Restoration": "bounded"', f'"Restoration": {wrong}'), BOUNDED_OVERRIDE)
         assert (answer.code, answer.out) == (2, ""), wrong
 
 
@@ -174,24 +163,24 @@ WRONG_FORMS = {
 @pytest.mark.parametrize("name", WRONG_FORMS)
 def test_sections_that_have_not_the_form(name: str, tmp_path: Path) -> None:
     """The certificate is wrong, also where the section is not looked at; the policy is judged all the same."""
-    document = json.loads(with_truth(OVERRIDE, TO_EACH))
+    document = json.loads(with_truth(BOUNDED_OVERRIDE, TO_EACH))
     WRONG_FORMS[name](document["Certificate"]["Restoring"])
     for restoration, code in (("bounded", 0), ("one_step", 1)):
-        answer = ask(tmp_path, json.dumps(document), OVERRIDE, "--restoration", restoration)
+        answer = ask(tmp_path, json.dumps(document), BOUNDED_OVERRIDE, "--restoration", restoration)
         assert answer.code == code
         assert "certificate: WRONG" in answer.out, answer
 
 
 def test_without_the_section(tmp_path: Path) -> None:
     """Incomplete: what the ranks say of unsafe states is then nothing. In one step nothing is missing."""
-    document = json.loads(with_truth(OVERRIDE, TO_EACH))
+    document = json.loads(with_truth(BOUNDED_OVERRIDE, TO_EACH))
     del document["Certificate"]["Restoring"]
-    answer = ask(tmp_path, json.dumps(document), OVERRIDE, "--strict")
+    answer = ask(tmp_path, json.dumps(document), BOUNDED_OVERRIDE, "--strict")
     assert answer.code == 0
     assert verdict(answer, "certificate").startswith("certificate: incomplete: ")
     document["Certificate"]["Leaves"] = [number + 5 for number in range(len(document["Certificate"]["Leaves"]))]
     document["Certificate"]["Goals"] = []
-    assert "certificate: incomplete" in ask(tmp_path, json.dumps(document), OVERRIDE).out
+    assert "certificate: incomplete" in ask(tmp_path, json.dumps(document), BOUNDED_OVERRIDE).out
 
 
 def no_set(state: Any, *cubes: Any) -> dict[str, Any]:

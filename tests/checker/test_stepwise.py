@@ -11,22 +11,11 @@ import pytest
 
 from tests.checker.agreement import failing
 from tests.checker.standalone import ask
-from tests.checker.stepwise import policies, stepwise_spec, ways
+from tests.checker.stepwise import MODES, policies, stepwise_spec, ways
 from tests.printing import print_spec
 from tumato_symbolic.policy import as_diagram, dumps, policy_from_rows
 from tumato_symbolic.semantics import judge
 from tumato_symbolic.spec import Restoration, Spec
-
-MODES: list[tuple[Restoration, int]] = [
-    ("one_step", 2),
-    ("one_step", 3),
-    ("bounded", 1),
-    ("bounded", 2),
-    ("bounded", 3),
-    ("fair", 1),
-    ("fair", 2),
-    ("fair", 3),
-]
 
 
 def disagreements(folder: Path, spec: Spec, seed: int, samples: int = 0) -> tuple[Counter[str], list[str]]:

@@ -99,7 +99,7 @@ class Explicit:
 
     def efforts(self, world: World, rows: Rows) -> dict[State, Effort]:
         """`Restorations.worst`."""
-        return Restorations(world.spec, rows, world.ordering).worst
+        return dict(Restorations(world.spec, rows, world.ordering).worst)
 
     def answer(self, world: World) -> Answer:
         """The preferred policy where the preferences alone make one, else any; states that fail, or a conflict."""

@@ -12,7 +12,8 @@ from collections.abc import Iterator, Sequence
 from itertools import count, islice
 from pathlib import Path
 
-from tests.export.cases import MODES, generated, is_right, stepwise
+from tests.checker.stepwise import MODES
+from tests.export.cases import generated, is_right, stepwise
 from tests.export.compiler import Case, Library
 from tests.profiles import ALL_PROFILES
 

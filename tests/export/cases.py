@@ -48,19 +48,6 @@ def generated(profile: str, seed: int, mutants: int) -> list[Case]:
     ]
 
 
-MODES: list[tuple[Restoration, int]] = [
-    ("one_step", 2),
-    ("one_step", 3),
-    ("bounded", 1),
-    ("bounded", 2),
-    ("bounded", 3),
-    ("fair", 1),
-    ("fair", 2),
-    ("fair", 3),
-]
-"""Ways to restore safety and numbers of severities, but for the plain one."""
-
-
 def stepwise(seed: int, restoration: Restoration, tiers: int, mutants: int = 3, samples: int = 8) -> list[Case]:
     """Policies that restore safety in several steps or by severity, right and wrong, for one specification.
 

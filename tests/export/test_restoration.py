@@ -7,8 +7,10 @@ from dataclasses import replace
 
 import pytest
 
-from tests.export.cases import MODES, is_right, stepwise
+from tests.checker.stepwise import MODES
+from tests.export.cases import is_right, stepwise
 from tests.export.compiler import Case, Library, needs_coq
+from tests.semantics.test_restoration import OVERRIDE
 from tumato_symbolic import parse
 from tumato_symbolic.export.efforts import nominal_sums
 from tumato_symbolic.semantics import NOTHING, ActionSet, Restorations, State, is_safe, is_valid, judge
@@ -37,17 +39,6 @@ END ACTIONS
 BEGIN STATE RULES rule: A is closed rule: B is closed END STATE RULES
 """
 
-OVERRIDE = """
-BEGIN STATE VECTOR state P can be s, t, x, y END STATE VECTOR
-BEGIN RESOURCES resource R END RESOURCES
-BEGIN ACTIONS
-action to_t duration: 1 controlled resources: R preconditions: P is s nominal effects: P is t
-action to_x duration: 1 controlled resources: R preconditions: P is t nominal effects: P is x
-action to_y duration: 2 controlled resources: R preconditions: P is t nominal effects: P is y
-END ACTIONS
-BEGIN STATE RULES rule: P is x OR P is y END STATE RULES
-BEGIN GOALS goal type: priority when P is s then goal: P is y END GOALS
-"""
 
 BRAKING: dict[State, ActionSet] = {(0,): frozenset((0,)), (1,): frozenset((1,)), (2,): frozenset()}
 

@@ -39,6 +39,18 @@ action fold duration: 1 preconditions: Place is floor, Arm is out nominal effect
 END ACTIONS
 BEGIN STATE RULES severity: {} rule: NOT Place is edge severity: {} rule: Arm is in END STATE RULES
 """
+OVERRIDE = """
+BEGIN STATE VECTOR state P can be s, t, x, y END STATE VECTOR
+BEGIN RESOURCES resource R END RESOURCES
+BEGIN ACTIONS
+action to_t duration: 1 controlled resources: R preconditions: P is s nominal effects: P is t
+action to_x duration: 1 controlled resources: R preconditions: P is t nominal effects: P is x
+action to_y duration: 2 controlled resources: R preconditions: P is t nominal effects: P is y
+END ACTIONS
+BEGIN STATE RULES rule: P is x OR P is y END STATE RULES
+BEGIN GOALS goal type: priority when P is s then goal: P is y END GOALS
+"""
+"""In `t`, `to_x` restores better than `to_y`; but the run from `s`, which passes through `t`, has to reach `y`."""
 OPEN, CLOSED = 0, 1
 
 

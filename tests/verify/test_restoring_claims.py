@@ -6,6 +6,7 @@ from random import Random
 
 import pytest
 
+from tests.semantics.test_restoration import OVERRIDE
 from tests.verify.several_steps import RESTORATIONS, Efforts, Said, certified, detours, exact, near, stepwise_spec
 from tests.verify.test_several_steps import PROVERS, judged_by
 from tumato_symbolic import parse
@@ -15,18 +16,6 @@ from tumato_symbolic.semantics import State, all_states, allowed_sets, judge
 from tumato_symbolic.spec import Restoration, Spec
 from tumato_symbolic.verify import ProverName, verify
 
-OVERRIDE = """
-BEGIN STATE VECTOR state P can be s, t, x, y END STATE VECTOR
-BEGIN RESOURCES resource R END RESOURCES
-BEGIN ACTIONS
-action to_t duration: 1 controlled resources: R preconditions: P is s nominal effects: P is t
-action to_x duration: 1 controlled resources: R preconditions: P is t nominal effects: P is x
-action to_y duration: 2 controlled resources: R preconditions: P is t nominal effects: P is y
-END ACTIONS
-BEGIN STATE RULES rule: P is x OR P is y END STATE RULES
-BEGIN GOALS goal type: priority when P is s then goal: P is y END GOALS
-"""
-"""In `t`, `to_x` restores better than `to_y`; but the run from `s`, which passes through `t`, has to reach `y`."""
 S, T, X, Y = (0,), (1,), (2,), (3,)
 ROWS = {S: frozenset((0,)), T: frozenset((2,)), X: frozenset[int](), Y: frozenset[int]()}
 LISTED = [Deviation(T, frozenset((1,)), S)]

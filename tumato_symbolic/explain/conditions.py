@@ -25,6 +25,7 @@ from tumato_symbolic.symbolic import (
     encode,
     regions,
     staying_in,
+    tiers_within,
 )
 
 
@@ -79,10 +80,8 @@ class Conditions:
             safe = valid & self._all_of(kept, "state-rule")
             return Steps(encoding, self.ordering, valid, safe, allowed, allowed, (valid, safe))
         encoding = replace(encoding, spec=keep_only(self.spec, kept))
-        tiers = [valid]
-        for tier in encoding.spec.tiers:
-            tiers.append(tiers[-1] & encoding.all_of(rule.formula for rule in tier))
-        return Steps(encoding, self.ordering, valid, tiers[-1], allowed, allowed, tuple(tiers))
+        tiers = tiers_within(encoding, valid)
+        return Steps(encoding, self.ordering, valid, tiers[-1], allowed, allowed, tiers)
 
     def changed(self, element: Element, rule: Rule) -> Conditions:
         """The same with another predicate in the place of a rule or a precondition; the rest is not computed again."""

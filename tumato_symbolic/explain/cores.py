@@ -49,27 +49,42 @@ def causes(plans: Plans, states: Failing) -> Iterator[Cause]:
 
     A typical state gives a core, and the core gives all states that have it: as many rounds as there are cores.
     """
-    yield from _no_allowed_set(plans.conditions, states.no_allowed_set)
-    yield from _no_restoration(plans, states.no_restoration)
+    yield from _by_core(plans, "no-allowed-set", states.no_allowed_set)
+    yield from _by_core(plans, "no-restoration", states.no_restoration)
     yield from _no_plan(plans, states.no_plan)
 
 
-def _no_allowed_set(conditions: Conditions, left: Bdd) -> Iterator[Cause]:
-    while left != conditions.false:
-        example = typical_state(conditions, left)
-        core = core_without_set(conditions, example, conditions.everything)
-        alike = _having(core, left, lambda kept, states: states & conditions.stuck(kept))
-        yield Cause("no-allowed-set", alike, core, example)
-        left = left & ~alike
+@dataclass(frozen=True)
+class Question:
+    """Whether one state fails in one way when only some elements are kept, and which of some states do."""
+
+    fails: Callable[[State, Elements], bool]
+    failing: Callable[[Elements, Bdd], Bdd]
+
+    @classmethod
+    def of(cls, plans: Plans, kind: FailingKind) -> Question:
+        """The question about one way to fail."""
+        conditions = plans.conditions
+        match kind:
+            case "no-allowed-set":
+                return cls(conditions.is_stuck, lambda kept, states: states & conditions.stuck(kept))
+            case "no-restoration":
+                contains = conditions.encoding.contains
+                return cls(
+                    lambda state, kept: contains(plans.lost(kept), state),
+                    lambda kept, states: states & plans.lost(kept),
+                )
+            case "no-plan":
+                return cls(plans.fails, plans.failing)
 
 
-def _no_restoration(plans: Plans, left: Bdd) -> Iterator[Cause]:
-    conditions = plans.conditions
+def _by_core(plans: Plans, kind: FailingKind, left: Bdd) -> Iterator[Cause]:
+    conditions, question = plans.conditions, Question.of(plans, kind)
     while left != conditions.false:
         example = typical_state(conditions, left)
-        core = core_without_restoration(plans, example, conditions.everything)
-        alike = _having(core, left, lambda kept, states: states & plans.lost(kept))
-        yield Cause("no-restoration", alike, core, example)
+        core = core_of(plans, kind, example, conditions.everything)
+        alike = _having(core, left, question.failing)
+        yield Cause(kind, alike, core, example)
         left = left & ~alike
 
 
@@ -86,7 +101,7 @@ def _no_plan(plans: Plans, left: Bdd) -> Iterator[Cause]:
     for blamed in (assumptions, conditions.everything):
         while (these := plans.failing(blamed, left)) != conditions.false:
             example = typical_state(conditions, these)
-            core = core_without_plan(plans, example, blamed)
+            core = core_of(plans, "no-plan", example, blamed)
             alike = _having(core, left, plans.failing)
             yield Cause("no-plan", alike, core, example)
             left = left & ~alike
@@ -100,23 +115,11 @@ def _having(core: Elements, left: Bdd, fail: Callable[[Elements, Bdd], Bdd]) -> 
     return states
 
 
-def core_without_set(conditions: Conditions, state: State, among: Elements) -> Elements:
-    """A minimal set of elements, out of some that suffice, that leaves a state without an allowed set."""
-    items = [each for each in conditions.elements if each in among]
-    return minimal(items, lambda kept: conditions.is_stuck(state, kept))
-
-
-def core_without_restoration(plans: Plans, state: State, among: Elements) -> Elements:
-    """A minimal set of elements, out of some that suffice, because of which safety cannot be restored from a state."""
+def core_of(plans: Plans, kind: FailingKind, state: State, among: Elements) -> Elements:
+    """A minimal set of elements, out of some that suffice, because of which a state fails in one way."""
+    question = Question.of(plans, kind)
     items = [each for each in plans.conditions.elements if each in among]
-    contains = plans.conditions.encoding.contains
-    return minimal(items, lambda kept: contains(plans.lost(kept), state))
-
-
-def core_without_plan(plans: Plans, state: State, among: Elements) -> Elements:
-    """A minimal set of elements, out of some that suffice, that lets a state fail."""
-    items = [each for each in plans.conditions.elements if each in among]
-    return minimal(items, lambda kept: plans.fails(state, kept))
+    return minimal(items, lambda kept: question.fails(state, kept))
 
 
 def more_cores(
@@ -148,17 +151,12 @@ def more_cores(
 
 def core_finder(plans: Plans, cause: Cause) -> Callable[[Elements], Elements | None]:
     """A core of a cause's example among some elements, None where these do not suffice."""
-    conditions, example = plans.conditions, cause.example
-    if cause.kind == "no-allowed-set":
-        return lambda among: (
-            core_without_set(conditions, example, among) if conditions.is_stuck(example, among) else None
-        )
-    if cause.kind == "no-restoration":
-        contains = conditions.encoding.contains
-        return lambda among: (
-            core_without_restoration(plans, example, among) if contains(plans.lost(among), example) else None
-        )
-    return lambda among: core_without_plan(plans, example, among) if plans.fails(example, among) else None
+    question, example = Question.of(plans, cause.kind), cause.example
+
+    def find(among: Elements) -> Elements | None:
+        return core_of(plans, cause.kind, example, among) if question.fails(example, among) else None
+
+    return find
 
 
 def typical_state(conditions: Conditions, states: Bdd) -> State:

@@ -104,9 +104,12 @@ class Decisions(Mapping[State, ActionSet]):
 
 def why(spec: Spec, policy: Mapping[State, ActionSet], state: State, ordering: Ordering) -> Decision:
     """Why `policy` decides as it does in a valid state. Raises `KeyError` where it does not decide."""
-    chosen = policy[state]
-    others = (judged(spec, policy, state, other, ordering) for other in candidates(spec, state) if other != chosen)
-    restoring = RestoringFrom(spec, policy, ordering)
+    chosen, restoring = policy[state], RestoringFrom(spec, policy, ordering)
+    others = (
+        judged(spec, policy, state, other, ordering, restoring=restoring)
+        for other in candidates(spec, state)
+        if other != chosen
+    )
     stepwise = spec.restores_stepwise and not is_safe(spec, state)
     return Decision(
         state,
@@ -122,14 +125,23 @@ def why(spec: Spec, policy: Mapping[State, ActionSet], state: State, ordering: O
     )
 
 
-def judged(spec: Spec, policy: Mapping[State, ActionSet], state: State, other: ActionSet, ordering: Ordering) -> Other:
-    """What another set would mean in a state that the policy decides."""
+def judged(
+    spec: Spec,
+    policy: Mapping[State, ActionSet],
+    state: State,
+    other: ActionSet,
+    ordering: Ordering,
+    *,
+    restoring: RestoringFrom | None = None,
+) -> Other:
+    """What another set would mean in a state that the policy decides; `restoring` is what is known from other sets."""
     chosen, cost = policy[state], duration(spec, other)
     objection = next(objections(spec, state, other, ordering), None)
     if objection is not None:
         return Other(other, "forbidden", cost, objection)
     run = follow(spec, policy, state, other)
-    ours, theirs = (_quality(spec, policy, state, each, ordering) for each in (chosen, other))
+    restoring = restoring or RestoringFrom(spec, policy, ordering)
+    ours, theirs = (_quality(spec, restoring, state, each) for each in (chosen, other))
     found = Other(other, "as-good", cost, run=run, quality=theirs if spec.restores_stepwise else None)
     if other == chosen:
         return replace(found, verdict="chosen")
@@ -148,14 +160,12 @@ _WORST: Quality = (3, (0, 0))
 """After all that restores anything."""
 
 
-def _quality(
-    spec: Spec, policy: Mapping[State, ActionSet], state: State, chosen: ActionSet, ordering: Ordering
-) -> Quality | None:
+def _quality(spec: Spec, restoring: RestoringFrom, state: State, chosen: ActionSet) -> Quality | None:
     """How well a set restores a state: by its duration in one step, and all alike in a safe state."""
     if is_safe(spec, state):
         return 0, (0, 0)
     if spec.restores_stepwise:
-        return RestoringFrom(spec, policy, ordering).quality(state, chosen)
+        return restoring.quality(state, chosen)
     return 0, (duration(spec, chosen), 1)
 
 

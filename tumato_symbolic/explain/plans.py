@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from tumato_symbolic.explain.conditions import Conditions
 from tumato_symbolic.explain.elements import Element, Elements
-from tumato_symbolic.game import Problem, chances, way_of, winning
+from tumato_symbolic.game import Problem, chances, way_of, winning_alone
 from tumato_symbolic.semantics import ActiveGoals, State
 from tumato_symbolic.symbolic import Bdd, Regions, targets
 
@@ -22,7 +22,7 @@ def build_kept_problem(conditions: Conditions, kept: Elements, regions: Regions)
 def failing(conditions: Conditions, kept: Elements, states: Bdd) -> Bdd:
     """Those of some valid states that fail, either way, when only these elements are kept."""
     problem = build_kept_problem(conditions, kept, restricted(conditions.regions, states, conditions.false))
-    return states & ~winning(problem, *chances(problem, way_of(problem, conditions.compatible)))
+    return states & ~winning_alone(problem, conditions.compatible)
 
 
 class Plans:

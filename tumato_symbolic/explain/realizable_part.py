@@ -11,7 +11,7 @@ from tumato_symbolic.explain.conditions import Conditions
 from tumato_symbolic.explain.plans import restricted
 from tumato_symbolic.explain.predicates import predicate_text, shortest_formula
 from tumato_symbolic.explain.trial import trial
-from tumato_symbolic.game import Problem, chances, way_of, winning
+from tumato_symbolic.game import Problem, winning_alone
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Formula, Rule, Spec
 from tumato_symbolic.symbolic import Bdd, targets
@@ -69,7 +69,7 @@ def _without_failing(conditions: Conditions, states: Bdd) -> Bdd:
     """`ν X. {s ∈ states ∩ X : s does not fail when outcomes have to stay in X}`."""
     while states != conditions.false:
         problem = _within(conditions, states)
-        kept = states & winning(problem, *chances(problem, way_of(problem, conditions.compatible)))
+        kept = states & winning_alone(problem, conditions.compatible)
         if kept == states:
             break
         states = kept

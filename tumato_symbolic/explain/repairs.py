@@ -8,7 +8,7 @@ from typing import Literal, TypeAlias
 
 from tumato_symbolic.explain.conditions import Conditions
 from tumato_symbolic.explain.conflicts import conflict_core
-from tumato_symbolic.explain.cores import core_without_plan, core_without_set, element_list, typical_state
+from tumato_symbolic.explain.cores import core_of, element_list, typical_state
 from tumato_symbolic.explain.elements import Element, ElementKind, Elements, without
 from tumato_symbolic.explain.explanation import Change, Explanation, Repair
 from tumato_symbolic.explain.plans import Plans
@@ -125,10 +125,10 @@ class _Search:
         kept = conditions.everything - dropped
         stuck = conditions.stuck(kept)
         if stuck != conditions.false:
-            return core_without_set(conditions, typical_state(conditions, stuck), kept)
+            return core_of(self._plans, "no-allowed-set", typical_state(conditions, stuck), kept)
         helpless = self._plans.failing(kept, conditions.valid)
         if helpless != conditions.false:
-            return core_without_plan(self._plans, typical_state(conditions, helpless), kept)
+            return core_of(self._plans, "no-plan", typical_state(conditions, helpless), kept)
         outcome = trial(conditions, without(conditions.spec, dropped))
         if isinstance(outcome, Realizable):
             return None

@@ -6,13 +6,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from tumato_symbolic.semantics import (
+    AT_ONCE,
     ActionSet,
     Effort,
     Outcome,
     Quality,
     Restorations,
     State,
+    duration,
     is_safe,
+    longer,
     nominal_agrees,
     outcomes,
     restored,
@@ -64,7 +67,7 @@ class RestoringFrom:
         """The way from an unsafe state that is decided; None where it does not end, or is too long to look at."""
         self._visit([state])
         steps: list[RestoringStep] = []
-        here, effort, bounded = state, (0, 0), True
+        here, effort, bounded = state, AT_ONCE, True
         while not is_safe(self._spec, here):
             chosen = self._met.get(here)
             if chosen is None or len(steps) > len(self._met):
@@ -74,7 +77,7 @@ class RestoringFrom:
                 return None
             bounded = bounded and quality[0] < 2
             steps.append(self._worst_step(here, chosen) if bounded else self._nominal_step(here, chosen))
-            effort = effort[0] + self._duration(chosen), effort[1] + 1
+            effort = longer(effort, duration(self._spec, chosen))
             here = steps[-1].after
         return WayToSafety(effort, bounded, tuple(steps))
 
@@ -83,7 +86,7 @@ class RestoringFrom:
         worst = self._restorations.worst
 
         def effort(after: State) -> Effort:
-            return (0, 0) if restored(self._spec, state, after) else worst[after]
+            return AT_ONCE if restored(self._spec, state, after) else worst[after]
 
         nominal = self._nominal_step(state, chosen)
         ways = outcomes(self._spec, state, chosen, self._ordering)
@@ -95,9 +98,6 @@ class RestoringFrom:
 
     def _next(self, state: State, chosen: ActionSet) -> list[State]:
         return [*outcomes(self._spec, state, chosen, self._ordering), successor(self._spec, state, chosen)]
-
-    def _duration(self, chosen: ActionSet) -> int:
-        return sum(self._spec.actions[action].duration for action in chosen)
 
     def _visit(self, states: list[State]) -> None:
         """Look up the unsafe states that the policy leads to from some states, and what it makes of them."""

@@ -11,6 +11,7 @@ from tumato_symbolic.semantics import (
     State,
     duration,
     is_safe,
+    longer,
     nominal_agrees,
     restored,
     successor,
@@ -44,7 +45,7 @@ def nominal_sums(spec: Spec, rows: Mapping[State, ActionSet]) -> dict[State, Eff
             here = after
         if effort is not None:
             for state in reversed(path):
-                effort = effort[0] + duration(spec, rows[state]), effort[1] + 1
+                effort = longer(effort, duration(spec, rows[state]))
                 sums[state] = effort
             lost.difference_update(path)
     return sums

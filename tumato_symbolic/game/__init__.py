@@ -1,6 +1,6 @@
 """The game that a policy plays: steps, targets, the fixpoints over them, and how well a policy does."""
 
-from tumato_symbolic.game.alone import Alone, alone, chances, way_of
+from tumato_symbolic.game.alone import Alone, alone, chances, way_of, winning_alone
 from tumato_symbolic.game.fixpoints import (
     ClosedLoop,
     Layers,
@@ -40,4 +40,5 @@ __all__ = [
     "shortest_decisions",
     "way_of",
     "winning",
+    "winning_alone",
 ]

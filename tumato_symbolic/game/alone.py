@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from tumato_symbolic.game.fixpoints import Layers, distances, preimage
+from tumato_symbolic.game.judging import winning
 from tumato_symbolic.game.problem import Problem
 from tumato_symbolic.symbolic import Bdd, compatible_sets, staying_in, without_effect
 
@@ -28,8 +29,8 @@ def alone(problem: Problem, pending: Bdd | None = None) -> Alone:
     steps, encoding = problem.steps, problem.encoding
     restorable, pairs = steps.safe, steps.allowed & steps.safe
     compatible = compatible_sets(encoding) if pending is None else pending
-    for lower, upper in zip(steps.tiers, steps.tiers[1:], strict=False):
-        here = steps.allowed & lower & ~upper
+    for states, upper in steps.levels:
+        here = steps.allowed & states
         if here == problem.false:
             continue
         if problem.spec.restoration == "bounded":
@@ -60,6 +61,11 @@ def chances(problem: Problem, way: Alone | None) -> tuple[tuple[Layers, ...], Bd
     if way is None:
         return distances(problem), problem.steps.allowed
     return distances(problem, way.pairs), way.pairs
+
+
+def winning_alone(problem: Problem, pending: Bdd | None = None) -> Bdd:
+    """The states that have a plan when each is taken alone; `pending` is as in `staying_in`, if it is known."""
+    return winning(problem, *chances(problem, way_of(problem, pending)))
 
 
 def _attracted(problem: Problem, pairs: Bdd, target: Bdd, into: Callable[[Bdd, Bdd], Bdd]) -> Bdd:

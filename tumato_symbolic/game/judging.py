@@ -78,12 +78,10 @@ class Judge:
         found, steps = closed_loop(problem, policy), problem.steps
         ranks = tuple(attractor(problem, t.states, found.predecessor, steps.safe, None) for t in problem.targets)
         near = [union(layers) for layers in in_time(problem, ranks)]
+        safe = union(found.predecessor(*pair) for pair in zip(found.owing, near, strict=True))
         if problem.spec.restores_stepwise:
             restoration = self.restorer.restore(ranks, self._forced, self._required)
-            safe = union(found.predecessor(*pair) for pair in zip(found.owing, near, strict=True))
-            failing = (steps.safe & ~safe) | restoration.failing
-            return Evaluation(found, ranks, failing, restoration)
-        safe = union(found.predecessor(*pair) for pair in zip(found.owing, near, strict=True))
+            return Evaluation(found, ranks, (steps.safe & ~safe) | restoration.failing, restoration)
         return Evaluation(found, ranks, steps.valid & ~(safe | union(map(self._restored, range(len(near)), near))))
 
     def serves_all(self, found: ClosedLoop, suspects: list[int]) -> bool:

@@ -15,7 +15,7 @@ from tumato_symbolic.game.fixpoints import Layers, preimage
 from tumato_symbolic.game.problem import Problem
 from tumato_symbolic.game.routing import shortest_decisions
 from tumato_symbolic.policy import Deviation
-from tumato_symbolic.semantics import AT_ONCE, Effort
+from tumato_symbolic.semantics import AT_ONCE, Effort, longer
 from tumato_symbolic.symbolic import Bdd, by_duration, compatible_sets, preferred, staying_in
 
 Efforts = dict[Effort, Bdd]
@@ -55,12 +55,16 @@ class Restorer:
         pairs = steps.allowed & steps.unsafe
         if forced != problem.false:
             pairs = (pairs & ~steps.states_of(forced)) | (forced & steps.unsafe)
-        work = _Work(problem, self.durations, ranks, steps.unsafe & ~required)
-        for lower, upper in reversed(list(zip(steps.tiers, steps.tiers[1:], strict=False))):
-            if (lower & ~upper) != problem.false:
-                work.restore_level(pairs & lower & ~upper, lower & ~upper, upper)
+        work = _Work(problem, self.durations, self._compatible, ranks, free=steps.unsafe & ~required)
+        for here, upper in reversed(steps.levels):
+            if here != problem.false:
+                work.restore_level(pairs & here, here, upper)
         failing = steps.unsafe & required & ~steps.states_of(work.policy)
         return Restoration(work.policy, work.worst, work.nominal, tuple(work.ranks), failing)
+
+    @cached_property
+    def _compatible(self) -> Bdd:
+        return compatible_sets(self.problem.encoding)
 
     @cached_property
     def durations(self) -> dict[int, Bdd]:
@@ -72,7 +76,9 @@ class Restorer:
 class _Work:
     """One restoration under way: decisions, efforts and ranks so far."""
 
-    def __init__(self, problem: Problem, durations: dict[int, Bdd], ranks: Sequence[Layers], free: Bdd) -> None:
+    def __init__(
+        self, problem: Problem, durations: dict[int, Bdd], compatible: Bdd, ranks: Sequence[Layers], *, free: Bdd
+    ) -> None:
         self.problem = problem
         self._free = free
         self.durations = durations
@@ -80,7 +86,7 @@ class _Work:
         self.policy = problem.false
         self.worst: Efforts = {}
         self.nominal: Efforts = {}
-        self._compatible = compatible_sets(problem.encoding)
+        self._compatible = compatible
 
     def restore_level(self, pairs: Bdd, here: Bdd, upper: Bdd) -> None:
         """Decide states of one level; `pairs` are what they may do, `upper` is where they are restored."""
@@ -109,7 +115,7 @@ class _Work:
             found = self._into(reached, left)
             covered = covered | found
             for duration, part in self._by_duration(found):
-                waiting.add(_later(effort, duration), problem.false, part)
+                waiting.add(longer(effort, duration), problem.false, part)
         if problem.spec.restoration == "fair" and undecided != problem.false:
             self._restore_fairly(pairs & undecided, self.policy & here, upper)
 
@@ -128,9 +134,9 @@ class _Work:
             if front == problem.false:
                 continue
             for duration, part in self._by_duration(follow(front)):
-                waiting.add(_later(effort, duration), steps.states_of(part), problem.false)
+                waiting.add(longer(effort, duration), steps.states_of(part), problem.false)
             for duration, part in self._by_duration(lead(front) & undecided):
-                waiting.add(_later(effort, duration), problem.false, part)
+                waiting.add(longer(effort, duration), problem.false, part)
 
     def _into(self, target: Bdd, pairs: Bdd) -> Bdd:
         """Those of some pairs after which every state, and that after all nominal effects, is in `target`."""
@@ -207,7 +213,3 @@ class _Queue:
     def settled(self) -> list[tuple[Effort, Bdd]]:
         """What is left of the states."""
         return [(effort, settled) for effort, (settled, _) in sorted(self._parts.items())]
-
-
-def _later(effort: Effort, duration: int) -> Effort:
-    return effort[0] + duration, effort[1] + 1

@@ -5,7 +5,7 @@ from tumato_symbolic.semantics.goals import ActiveGoals, Residual, active_goals,
 from tumato_symbolic.semantics.guarantees import Guarantee, Prospects, guarantees, steps_from
 from tumato_symbolic.semantics.judge import Judgement, better_sets, judge
 from tumato_symbolic.semantics.partial import settled_truth
-from tumato_symbolic.semantics.restoration import AT_ONCE, Effort, Quality, Restorations, restored
+from tumato_symbolic.semantics.restoration import AT_ONCE, Effort, Quality, Restorations, longer, restored
 from tumato_symbolic.semantics.runs import Run, follow
 from tumato_symbolic.semantics.shortcomings import Move, Shortcoming, Shortcomings, shows
 from tumato_symbolic.semantics.states import (
@@ -88,6 +88,7 @@ __all__ = [
     "is_valid",
     "judge",
     "level",
+    "longer",
     "named",
     "next_states",
     "nominal_agrees",

@@ -18,6 +18,11 @@ Quality: TypeAlias = tuple[int, Effort]
 """How well a set restores safety, the smaller the better; see `Restorations.quality`."""
 
 
+def longer(effort: Effort, lasting: int) -> Effort:
+    """An effort with one step more, which lasts so long."""
+    return effort[0] + lasting, effort[1] + 1
+
+
 def restored(spec: Spec, state: State, after: State) -> bool:
     """Whether `after` satisfies a tier of state rules more than `state` does: with one tier, whether it is safe."""
     return is_valid(spec, after) and level(spec, after) > level(spec, state)
@@ -26,14 +31,28 @@ def restored(spec: Spec, state: State, after: State) -> bool:
 class Restorations:
     """How a policy, which need not be defined everywhere, restores the unsafe states that it decides.
 
-    `worst` has `w_π(s)` for each of them; states where it is infinite are absent.
+    `worst` has `w_π(s)` for each of them; states where it is infinite are absent. Where it is given, neither it nor the
+    policy is listed.
     """
 
-    def __init__(self, spec: Spec, policy: Mapping[State, ActionSet], ordering: Ordering) -> None:
+    def __init__(
+        self,
+        spec: Spec,
+        policy: Mapping[State, ActionSet],
+        ordering: Ordering,
+        worst: Mapping[State, Effort] | None = None,
+    ) -> None:
         self._spec = spec
         self._policy = policy
         self._ordering: Ordering = ordering
-        self.worst: dict[State, Effort] = {}
+        self.worst: Mapping[State, Effort] = {} if worst is None else worst
+        if worst is None:
+            self._find_worst()
+
+    def _find_worst(self) -> None:
+        spec, policy, ordering = self._spec, self._policy, self._ordering
+        known: dict[State, Effort] = {}
+        self.worst = known
         open_ = {
             state: next_states(spec, state, chosen, ordering)
             for state, chosen in policy.items()
@@ -42,7 +61,7 @@ class Restorations:
         while found := {
             state: effort for state, after in open_.items() if (effort := self._worst_after(state, after)) is not None
         }:
-            self.worst |= {state: _longer(spec, policy[state], effort) for state, effort in found.items()}
+            known |= {state: longer(effort, duration(spec, policy[state])) for state, effort in found.items()}
             open_ = {state: after for state, after in open_.items() if state not in found}
 
     def quality(self, state: State, chosen: ActionSet) -> Quality | None:
@@ -56,7 +75,7 @@ class Restorations:
         worst = self._worst_after(state, after)
         if worst is not None:
             kind = 0 if worst == AT_ONCE else 1
-            return kind, _longer(self._spec, chosen, worst)
+            return kind, longer(worst, duration(self._spec, chosen))
         if self._spec.restoration == "fair":
             nominal = self.nominal(state, chosen)
             return None if nominal is None else (2, nominal)
@@ -67,14 +86,16 @@ class Restorations:
 
         The run is that of the policy changed to `chosen` in `state`.
         """
-        spec, changed = self._spec, {**self._policy, state: chosen}
-        effort, here, seen = AT_ONCE, state, set[State]()
-        while here not in seen and here in changed and nominal_agrees(spec, changed[here]):
+        spec, effort, here = self._spec, AT_ONCE, state
+        executed: ActionSet | None = chosen
+        seen: set[State] = set()
+        while here not in seen and executed is not None and nominal_agrees(spec, executed):
             seen.add(here)
-            effort = _longer(spec, changed[here], effort)
-            here = successor(spec, here, changed[here])
+            effort = longer(effort, duration(spec, executed))
+            here = successor(spec, here, executed)
             if restored(spec, state, here):
                 return effort
+            executed = chosen if here == state else self._policy.get(here)
         return None
 
     def _worst_after(self, state: State, after: set[State]) -> Effort | None:
@@ -83,7 +104,3 @@ class Restorations:
         if all(each in self.worst for each in still_unsafe):
             return max((self.worst[each] for each in still_unsafe), default=AT_ONCE)
         return None
-
-
-def _longer(spec: Spec, chosen: ActionSet, effort: Effort) -> Effort:
-    return effort[0] + duration(spec, chosen), effort[1] + 1

@@ -5,7 +5,7 @@ from tumato_symbolic.symbolic.encoding import Encoding, encode
 from tumato_symbolic.symbolic.extract import Extractor
 from tumato_symbolic.symbolic.goals import Regions, Target, never_entered, regions, targets
 from tumato_symbolic.symbolic.manager import Backend, Bdd, Manager, available_backend
-from tumato_symbolic.symbolic.steps import Steps, build_steps, compatible_sets, staying_in, without_effect
+from tumato_symbolic.symbolic.steps import Steps, build_steps, compatible_sets, staying_in, tiers_within, without_effect
 
 __all__ = [
     "Backend",
@@ -27,5 +27,6 @@ __all__ = [
     "regions",
     "staying_in",
     "targets",
+    "tiers_within",
     "without_effect",
 ]

@@ -38,6 +38,11 @@ class Steps:
         """`V \\ S`."""
         return self.valid & ~self.safe
 
+    @property
+    def levels(self) -> tuple[tuple[Bdd, Bdd], ...]:
+        """The unsafe states of each level, from 0 on, with the states that satisfy a tier more."""
+        return tuple((lower & ~upper, upper) for lower, upper in pairwise(self.tiers))
+
     def before(self, target: Bdd) -> Bdd:
         """`{(s, A) : δ(s, A) ∈ target}` for sets whose nominal effects agree; `target` is a set of states."""
         return nominal_predecessor(self.encoding, target)
@@ -104,9 +109,7 @@ def build_steps(encoding: Encoding, ordering: Ordering, within: Bdd | None = Non
     spec, domain = encoding.spec, encoding.domain()
     valid = domain & encoding.all_of(rule.formula for rule in spec.assumptions)
     valid = valid if within is None else valid & within
-    tiers = tuple(
-        accumulate((encoding.all_of(rule.formula for rule in tier) for tier in spec.tiers), and_, initial=valid)
-    )
+    tiers = tiers_within(encoding, valid)
     safe = tiers[-1]
     compatible, applicable = compatible_sets(encoding), applicable_sets(encoding)
     candidates = valid & compatible & applicable
@@ -117,6 +120,12 @@ def build_steps(encoding: Encoding, ordering: Ordering, within: Bdd | None = Non
     else:
         allowed = allowed & staying_in(encoding, ordering, safe, pending, allowed)
     return Steps(encoding, ordering, valid, safe, candidates, allowed, tiers)
+
+
+def tiers_within(encoding: Encoding, valid: Bdd) -> tuple[Bdd, ...]:
+    """`S_0` to `S_m`: the valid states that satisfy more and more tiers of state rules, severe ones first."""
+    each = (encoding.all_of(rule.formula for rule in tier) for tier in encoding.spec.tiers)
+    return tuple(accumulate(each, and_, initial=valid))
 
 
 def _keeping(encoding: Encoding, ordering: Ordering, tiers: tuple[Bdd, ...], pending: Bdd, asked: Bdd) -> Bdd:

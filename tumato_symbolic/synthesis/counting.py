@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
-from itertools import pairwise
 
 from tumato_symbolic.game import Problem, Restoration
 from tumato_symbolic.semantics import Effort
@@ -14,7 +13,7 @@ from tumato_symbolic.synthesis.outcome import RestoredIn
 
 def restored_in(problem: Problem, restoration: Restoration) -> RestoredIn:
     """Exact counts of the unsafe states that a policy restores."""
-    count, tiers = problem.encoding.count_states, problem.steps.tiers
+    count = problem.encoding.count_states
 
     def by_steps(efforts: Mapping[Effort, Bdd]) -> tuple[tuple[int, int], ...]:
         found: Counter[int] = Counter()
@@ -26,5 +25,5 @@ def restored_in(problem: Problem, restoration: Restoration) -> RestoredIn:
         by_steps(restoration.worst),
         by_steps(restoration.nominal),
         max((duration for duration, _ in (*restoration.worst, *restoration.nominal)), default=0),
-        tuple(count(lower & ~upper) for lower, upper in pairwise(tiers)),
+        tuple(count(states) for states, _ in problem.steps.levels),
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import combinations, pairwise
+from itertools import combinations
 from math import prod
 
 from tumato_symbolic.diagrams import DiagramBuilder
@@ -130,11 +130,7 @@ def _name(spec: Spec, rule: Rule) -> str:
 
 def no_restoration(problem: Problem, state: State, lost: Bdd) -> NoRestoration:
     """The states of the level of `state` that are `lost`: nothing surely leads out of them."""
-    here = next(
-        lower & ~upper
-        for lower, upper in pairwise(problem.steps.tiers)
-        if problem.encoding.contains(lower & ~upper, state)
-    )
+    here = next(states for states, _ in problem.steps.levels if problem.encoding.contains(states, state))
     builder: DiagramBuilder[bool] = DiagramBuilder(problem.encoding.order, (False, True))
     extract = Extractor(problem.encoding, builder, default=False)
     trap, level = (extract.function([(True, states)]) for states in (lost & here, here))

@@ -2,24 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
+from typing import TypeVar
 
 from tumato_symbolic.game import Evaluation, Judge, attractor, closed_loop, in_time
 from tumato_symbolic.policy import Deviation
-from tumato_symbolic.semantics import (
-    AT_ONCE,
-    ActionSet,
-    Effort,
-    Quality,
-    State,
-    duration,
-    next_states,
-    restored,
-    successor,
-)
-from tumato_symbolic.spec import Spec
-from tumato_symbolic.symbolic import Bdd
+from tumato_symbolic.semantics import ActionSet, Quality, Restorations, State
+from tumato_symbolic.symbolic import Bdd, Encoding
+
+Value = TypeVar("Value")
 
 TRIES = 2_000
 """So many changed policies are judged."""
@@ -89,46 +81,17 @@ class Improving:
         """The sets that restore an unsafe state better than what is decided, the best first."""
         encoding = self._problem.encoding
         left = encoding.at(self._problem.steps.allowed, state)
-        now = self._quality(state, encoding.first_set(encoding.at(self._whole, state)))
+        restorations = self._restorations()
+        now = restorations.quality(state, encoding.first_set(encoding.at(self._whole, state)))
         found: list[tuple[Quality, int, list[int]]] = []
         while left != self._problem.false:
             self._problem.context.check()
             chosen = encoding.first_set(left)
             left = left & ~encoding.choices_cube(chosen)
-            quality = self._quality(state, chosen)
+            quality = restorations.quality(state, chosen)
             if quality is not None and (now is None or quality < now):
                 found.append((quality, len(chosen), sorted(chosen)))
         return [frozenset(actions) for _, _, actions in sorted(found)]
-
-    def _quality(self, state: State, chosen: ActionSet) -> Quality | None:
-        """How well a set restores a state, by the efforts of the present policy."""
-        spec = self._problem.spec
-        after = next_states(spec, state, chosen, self._problem.steps.ordering)
-        left = [each for each in after if not restored(spec, state, each)]
-        efforts = [self._effort(each) for each in left]
-        if all(kind == 1 for kind, _ in efforts):
-            return (1 if left else 0), _later(max((effort for _, effort in efforts), default=AT_ONCE), spec, chosen)
-        if spec.restoration == "fair":
-            nominal = self._nominal(state, successor(spec, state, chosen))
-            return None if nominal is None else (2, _later(nominal, spec, chosen))
-        return None
-
-    def _effort(self, state: State) -> tuple[int, Effort]:
-        """The worst effort of an unsafe state (kind 1); where it is infinite, kind 2."""
-        restoration, contains = self._found.restoration, self._problem.encoding.contains
-        worst = restoration.worst.items() if restoration is not None else ()
-        return next(((1, effort) for effort, states in worst if contains(states, state)), (2, AT_ONCE))
-
-    def _nominal(self, start: State, state: State) -> Effort | None:
-        """The effort along the nominal run from a state until it is restored; None where it comes back to `start`."""
-        spec, effort = self._problem.spec, AT_ONCE
-        while not restored(spec, start, state):
-            if state == start:
-                return None
-            chosen = self._problem.encoding.first_set(self._problem.encoding.at(self._whole, state))
-            effort = _later(effort, spec, chosen)
-            state = successor(spec, state, chosen)
-        return effort
 
     def _misses(self, policy: Bdd) -> Bdd:
         """The states whose run misses its goal under a policy for all valid states."""
@@ -139,6 +102,36 @@ class Improving:
         near = [union(layers) for layers in in_time(problem, ranks)]
         return valid & ~union(found.predecessor(*pair) for pair in zip(found.owing, near, strict=True))
 
+    def _restorations(self) -> Restorations:
+        """How the present policy restores safety; decisions and efforts are looked up."""
+        encoding, restoration = self._problem.encoding, self._found.restoration
+        worst = {} if restoration is None else restoration.worst
+        policy = _LookedUp(lambda state: _decision(encoding, self._whole, state))
+        efforts = _LookedUp(
+            lambda state: next((e for e, states in worst.items() if encoding.contains(states, state)), None)
+        )
+        return Restorations(self._problem.spec, policy, self._problem.steps.ordering, efforts)
 
-def _later(effort: Effort, spec: Spec, chosen: ActionSet) -> Effort:
-    return effort[0] + duration(spec, chosen), effort[1] + 1
+
+def _decision(encoding: Encoding, policy: Bdd, state: State) -> ActionSet | None:
+    choices = encoding.at(policy, state)
+    return None if choices == encoding.manager.false else encoding.first_set(choices)
+
+
+class _LookedUp(Mapping[State, Value]):
+    """What a function says of states, None standing for nothing; never listed."""
+
+    def __init__(self, find: Callable[[State], Value | None]) -> None:
+        self._find = find
+
+    def __getitem__(self, state: State) -> Value:
+        found = self._find(state)
+        if found is None:
+            raise KeyError(state)
+        return found
+
+    def __iter__(self) -> Iterator[State]:
+        raise TypeError("it is looked up, not listed")
+
+    def __len__(self) -> int:
+        raise TypeError("it is looked up, not listed")

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from functools import cached_property
 
 from tumato_symbolic.semantics import ActionSet, duration, takes_effect
-from tumato_symbolic.semantics.restoration import AT_ONCE, Effort, Quality
+from tumato_symbolic.semantics.restoration import AT_ONCE, Effort, Quality, longer
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.verify.by_states.packed import Code
 from tumato_symbolic.verify.by_states.steps import Steps
@@ -27,7 +27,7 @@ class Efforts:
         length = self._lengths.get(chosen)
         if length is None:
             length = self._lengths[chosen] = duration(self._spec, chosen)
-        return effort[0] + length, effort[1] + 1
+        return longer(effort, length)
 
     def unrestored(self, code: Code, chosen: ActionSet) -> set[Code]:
         """The states of `Next(s, A)` that satisfy no tier more than an unsafe state does."""

@@ -6,9 +6,9 @@ from functools import cached_property
 
 from tumato_symbolic.diagrams import DiagramBuilder
 from tumato_symbolic.policy.records import Restoring
-from tumato_symbolic.semantics import AT_ONCE, Effort, Restorations, State, is_safe, restored
+from tumato_symbolic.semantics import AT_ONCE, Effort, Restorations, State, duration, is_safe, longer, restored
 from tumato_symbolic.spec import Ordering
-from tumato_symbolic.verify.by_z3.efforts import Efforts, longer
+from tumato_symbolic.verify.by_z3.efforts import Efforts
 from tumato_symbolic.verify.by_z3.frame import Frame
 from tumato_symbolic.verify.by_z3.rank_source import RankSource
 from tumato_symbolic.verify.by_z3.solver import UndecidedError
@@ -111,7 +111,7 @@ class EffortSource:
         effort, here, met = AT_ONCE, state, set[State]()
         while here not in met and here in decisions.followers:
             met.add(here)
-            effort, here = longer(spec, decisions[here], effort), decisions.followers[here]
+            effort, here = longer(effort, duration(spec, decisions[here])), decisions.followers[here]
             if restored(spec, state, here):
                 return effort
         return None

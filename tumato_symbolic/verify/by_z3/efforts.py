@@ -15,10 +15,11 @@ from tumato_symbolic.semantics import (
     State,
     duration,
     is_valid,
+    longer,
     outcomes_in_turn,
     restored,
 )
-from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.spec import Ordering
 from tumato_symbolic.verify.by_z3.effort_codes import EffortCodes
 from tumato_symbolic.verify.by_z3.encoding import Place, diagram_terms, valid_term
 from tumato_symbolic.verify.by_z3.frame import Frame
@@ -170,7 +171,7 @@ class Efforts:
             if restored(spec, state, after):
                 continue
             effort = self.worst_of(after) if is_valid(spec, after) else None
-            if effort is None or (bound is not None and longer(spec, chosen, effort) >= bound):
+            if effort is None or (bound is not None and longer(effort, duration(spec, chosen)) >= bound):
                 yield way
 
     def nominal_is_exact(self) -> bool:
@@ -219,8 +220,3 @@ class EveryOutcome:
         written = dict(pair for step in outcome for pair in step.effect)
         together = conjunction(self._executed[step.action] for step in outcome)
         return implies(together, self._condition(self._here.after(tuple(sorted(written.items())))))
-
-
-def longer(spec: Spec, chosen: ActionSet, effort: Effort) -> Effort:
-    """An effort with one step more."""
-    return effort[0] + duration(spec, chosen), effort[1] + 1
