@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Callable
 from contextlib import suppress
@@ -128,6 +129,38 @@ def test_signals_end_the_child(number: int, raised: type[BaseException]) -> None
     finally:
         signal.signal(signal.SIGINT, before)
     assert context.known == "something"
+
+
+def test_a_signal_that_is_ignored_stays_so() -> None:
+    """A command under `nohup` goes on when its terminal is closed."""
+    parent = os.getpid()
+
+    def work() -> int:
+        os.kill(parent, signal.SIGHUP)
+        time.sleep(0.3)
+        return 3
+
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        assert supervised(work, Context(Limits(seconds=1000.0))) == 3
+        assert signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
+    finally:
+        signal.signal(signal.SIGHUP, before)
+
+
+def test_signals_are_noted_whichever_thread_receives_them() -> None:
+    """A solver's thread may receive what this one has blocked; what the child knew is known all the same."""
+    ended = threading.Event()
+    other = threading.Thread(target=ended.wait)
+    other.start()
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGTERM})
+    try:
+        test_signals_end_the_child(signal.SIGTERM, TerminatedError)
+        assert signal.pthread_sigmask(signal.SIG_BLOCK, ()) == before | {signal.SIGTERM}
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        ended.set()
+        other.join()
 
 
 @pytest.mark.parametrize(("number", "raised"), [(signal.SIGINT, KeyboardInterrupt), (signal.SIGTERM, TerminatedError)])

@@ -15,7 +15,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
 from types import FrameType
-from typing import NoReturn
+from typing import NoReturn, TypeAlias
 
 from tumato_symbolic.cli import console
 from tumato_symbolic.limits import Context
@@ -35,6 +35,8 @@ _FAREWELL = 1.0
 
 _SIGNALS = frozenset({signal.SIGINT, signal.SIGTERM, signal.SIGHUP})
 """What ends the work from outside."""
+
+_Handler: TypeAlias = Callable[[int, FrameType | None], object] | int | None
 
 _HEAD = 9
 """Bytes before the body of a message: its kind, and how long the body is."""
@@ -69,28 +71,42 @@ def supervised(work: Callable[[], int], context: Context) -> int:
     leave, granter = os.pipe()
     parent = os.getpid()
     console.flush()
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, _SIGNALS)
+    noted: list[int] = []
+    handlers = _note_signals(noted)
     child = os.fork()
     if child == 0:
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # Ctrl-C is for the parent
+        _restore(handlers)
         os.close(messages)
         os.close(granter)
-        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGTERM, signal.SIGHUP})  # Ctrl-C is for the parent
         _be_the_child(work, context, _Sender(sender, leave), parent)
     os.close(sender)
     os.close(leave)
-    handlers = {number: signal.signal(number, _terminate) for number in (signal.SIGTERM, signal.SIGHUP)}
-    watch = _Watch(child, messages, granter, context)
+    watch = _Watch(child, messages, granter, context, noted)
     try:
-        return watch.run(before)
+        return watch.run()
     finally:
         watch.end()
-        for number, handler in handlers.items():
-            signal.signal(number, handler)
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        _restore(handlers)
 
 
-def _terminate(number: int, _: FrameType | None) -> NoReturn:
-    raise TerminatedError(number)
+def _note_signals(noted: list[int]) -> dict[int, _Handler]:
+    """Have signals that ask this process to end added to `noted`; the handlers that they had.
+
+    Blocking them while a message is taken would not do: another thread, such as a solver's, may receive them all the
+    same. A signal that is ignored, as under `nohup`, stays so.
+    """
+    handlers: dict[int, _Handler] = {}
+    for number in _SIGNALS:
+        handler = signal.getsignal(number)
+        if handler is not None and handler is not signal.SIG_IGN:
+            handlers[number] = signal.signal(number, lambda received, _: noted.append(received))
+    return handlers
+
+
+def _restore(handlers: dict[int, _Handler]) -> None:
+    for number, handler in handlers.items():
+        signal.signal(number, handler)
 
 
 def _be_the_child(work: Callable[[], int], context: Context, sender: _Sender, parent: int) -> NoReturn:
@@ -134,17 +150,17 @@ class _Watch:
     messages: int
     granter: int
     context: Context
+    noted: list[int]
     _received: bytearray = field(default_factory=bytearray)
     _known: bytes | None = None
     _writing: bool = False
     _open: bool = True
     _status: int | None = None
 
-    def run(self, mask: set[int]) -> int:
-        """Wait for the exit code, with this signal mask: until then, and while messages are taken, signals wait."""
+    def run(self) -> int:
+        """Wait for the exit code."""
         line = console.ProgressLine(self.context)
         try:
-            signal.pthread_sigmask(signal.SIG_SETMASK, mask)
             while not self._ended():
                 line.draw()
                 self._check()
@@ -194,13 +210,14 @@ class _Watch:
 
     def _let_it_write(self, line: console.ProgressLine) -> None:
         """Wait for the end of an output that was begun, for a while."""
-        signal.pthread_sigmask(signal.SIG_BLOCK, _SIGNALS)
         latest = time.monotonic() + PATIENCE_WITH_OUTPUT
         while self._writing and self._open and time.monotonic() < latest:
             self._receive(line)
 
     def _check(self) -> None:
-        """Raise `EndedError` where a limit was met, and no output is under way."""
+        """Raise what a signal asks for, or `EndedError` where a limit was met and no output is under way."""
+        if self.noted:
+            raise KeyboardInterrupt if self.noted[0] == signal.SIGINT else TerminatedError(self.noted[0])
         why = None if self._writing else self._limit()
         if why is not None:
             raise EndedError(why)
@@ -218,14 +235,10 @@ class _Watch:
         """Take what the child sends within some seconds; False where it sends nothing."""
         if not select.select([self.messages], [], [], within)[0]:
             return False
-        mask = signal.pthread_sigmask(signal.SIG_BLOCK, _SIGNALS)
-        try:
-            data = os.read(self.messages, 2**20)
-            self._open = bool(data)
-            self._received += data
-            self._take_all(line)
-        finally:
-            signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+        data = os.read(self.messages, 2**20)
+        self._open = bool(data)
+        self._received += data
+        self._take_all(line)
         return True
 
     def _take_all(self, line: console.ProgressLine) -> None:
