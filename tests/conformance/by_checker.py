@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from functools import cache
+from functools import lru_cache
 from json import loads
 from typing import Any
 
 from tests.checker.standalone import checker
 from tests.conformance.roles import Rows
-from tests.conformance.world import World
+from tests.conformance.world import REMEMBERED, World
 from tumato_symbolic.policy.unrealizable import Unrealizability
 from tumato_symbolic.policy.unrealizable_file import dumps
 from tumato_symbolic.semantics import ActionSet, Effort, State
@@ -83,7 +83,7 @@ class Checker:
         return True
 
 
-@cache
+@lru_cache(maxsize=REMEMBERED)
 def _own(text: str, ordering: Ordering) -> Any:
     return checker.World(checker.read_specification(text.encode()), ordering)
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from functools import cache
+from functools import lru_cache
 
 from tests.conformance.by_trying import best_answer
 from tests.conformance.roles import PROPERTIES, Answer, Rows
-from tests.conformance.world import World
+from tests.conformance.world import REMEMBERED, World
 from tests.oracle import Together, decide_world
 from tests.oracle import World as OracleWorld
 from tests.reference_policy import reference_policy
@@ -209,15 +209,15 @@ class Bdd:
         assert all((each.count, each.example) == (len(each.states), each.states[0]) for each in outcome.failures)
         return Answer(None, {each.kind: frozenset(each.states) for each in outcome.failures})
 
-    @cache  # noqa: B019 - there is one engine of each backend
+    @lru_cache(maxsize=REMEMBERED)  # noqa: B019 - there is one engine of each backend
     def _steps(self, spec: Spec, ordering: Ordering) -> Steps:
         return build_steps(self._encoding(spec), ordering)
 
-    @cache  # noqa: B019 - as above
+    @lru_cache(maxsize=REMEMBERED)  # noqa: B019 - as above
     def _encoding(self, spec: Spec) -> Encoding:
         return encode(spec, self.backend)
 
-    @cache  # noqa: B019 - as above
+    @lru_cache(maxsize=REMEMBERED)  # noqa: B019 - as above
     def _targets(self, spec: Spec, ordering: Ordering) -> list[Target]:
         steps = self._steps(spec, ordering)
         return targets(steps, regions(steps.encoding, steps.valid))

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import cache
+from functools import cache, lru_cache
 from unittest.mock import patch
 
 import z3
 
 from tests.conformance.roles import PROPERTIES, Rows
 from tests.conformance.turned import arriving, as_rival, jumping
-from tests.conformance.world import World
+from tests.conformance.world import REMEMBERED, World
 from tumato_symbolic import parse
 from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.limits import Budget
@@ -176,7 +176,7 @@ class Walk(Prover):
             return False
         return model.holds(model.allowed, state, chosen)
 
-    @cache  # noqa: B019 - there is one of them
+    @lru_cache(maxsize=REMEMBERED)  # noqa: B019 - there is one of them
     def _model(self, spec: Spec, ordering: Ordering) -> Model:
         return Model(spec, as_diagram(policy_from_rows(spec, {})), ordering)
 
@@ -205,7 +205,7 @@ class Z3(Prover):
         with patch.object(z3, "Context", lambda: self._context):
             return super()._refuted(names, spec, ordering, rows)
 
-    @cache  # noqa: B019 - there is one of them
+    @lru_cache(maxsize=REMEMBERED)  # noqa: B019 - there is one of them
     def _step(self, spec: Spec, ordering: Ordering) -> AllowedStep:
         with patch.object(z3, "Context", lambda: self._context):
             return AllowedStep(spec, ordering, Budget())

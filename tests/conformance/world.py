@@ -17,6 +17,10 @@ Decisions = Mapping[str, str]
 """A policy in words: for a state the names of the actions."""
 
 
+REMEMBERED = 4
+"""Specifications for which an engine keeps what it has built: a manager of diagrams takes megabytes."""
+
+
 @dataclass(frozen=True)
 class World:
     """A specification, as text and as a record, under one effect ordering."""
