@@ -17,7 +17,7 @@ from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.limits import Context
 from tumato_symbolic.policy import Policy, as_diagram, dumps
 from tumato_symbolic.spec import Spec, load
-from tumato_symbolic.synthesis import Outcome, Realizable, Undecided, Unrealizable, synthesize
+from tumato_symbolic.synthesis import Realizable, SynthesisResult, Undecided, Unrealizable, synthesize
 
 STAGES = {
     "encoding": "encode",
@@ -77,7 +77,7 @@ def main() -> None:
     print(json.dumps(record))
 
 
-def _outcome(spec: Spec, outcome: Outcome) -> dict[str, object]:
+def _outcome(spec: Spec, outcome: SynthesisResult) -> dict[str, object]:
     record: dict[str, object] = {
         "variables": len(spec.variables),
         "actions": len(spec.actions),

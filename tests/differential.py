@@ -15,7 +15,7 @@ from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.policy import Policy, Table, as_table, dumps, loads, policy_from_rows, unrealizable_file
 from tumato_symbolic.semantics import ActionSet, Judgement, State, better_sets, count_states, duration, judge
 from tumato_symbolic.spec import Ordering, Spec
-from tumato_symbolic.synthesis import Outcome, Realizable, Undecided, Unrealizable, synthesize
+from tumato_symbolic.synthesis import Realizable, SynthesisResult, Undecided, Unrealizable, synthesize
 from tumato_symbolic.verify import Refutation, Verification, verify, verify_unrealizable
 
 Decisions = Mapping[State, ActionSet]
@@ -70,13 +70,13 @@ def examine(case: Case, mutants: int = 3) -> Report:
     return report
 
 
-def _decisions(outcome: Outcome) -> Decisions | None:
+def _decisions(outcome: SynthesisResult) -> Decisions | None:
     if isinstance(outcome, Realizable) and isinstance(outcome.policy.decisions, Table):
         return outcome.policy.decisions.rows
     return None
 
 
-def _compare(world: World, verdict: OracleVerdict, outcome: Outcome, report: Report) -> Iterator[str]:
+def _compare(world: World, verdict: OracleVerdict, outcome: SynthesisResult, report: Report) -> Iterator[str]:
     """Complaints about the synthesizer."""
     match outcome:
         case Undecided():
@@ -153,7 +153,7 @@ def _compare_policy(world: World, outcome: Realizable, report: Report) -> Iterat
             yield f"not the preferred policy (state: found, preferred): {other}"
 
 
-def _compare_forms(world: World, outcome: Outcome) -> Iterator[str]:
+def _compare_forms(world: World, outcome: SynthesisResult) -> Iterator[str]:
     """Complaints where the pure Python backend answers differently, or the diagram decides differently."""
     other = synthesize(world.spec, world.ordering, backend="autoref")
     diagram = synthesize(world.spec, world.ordering, policy_format="diagram")

@@ -9,14 +9,14 @@ from tumato_symbolic import Realizable, Unrealizable, synthesize
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.semantics import all_states, allowed_sets, count_states, is_safe, is_valid
 from tumato_symbolic.spec import Spec, load
-from tumato_symbolic.synthesis import Outcome
+from tumato_symbolic.synthesis import SynthesisResult
 
 NAMES = sorted(FAMILIES)
 COUNTED_UP_TO = 50_000
 
 
 @cache
-def _solved(name: str, realizable: bool) -> tuple[Spec, Outcome]:
+def _solved(name: str, realizable: bool) -> tuple[Spec, SynthesisResult]:
     family = FAMILIES[name]
     spec = load(Source(name, family.text(family.sizes[0], realizable))).spec
     assert spec is not None

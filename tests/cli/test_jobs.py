@@ -17,10 +17,10 @@ import pytest
 from tests.cli.conftest import Cli, Ran
 from tests.repo.documents import ROOT
 from tumato_symbolic.cli import folder as folder_command
-from tumato_symbolic.cli import judging
-from tumato_symbolic.verify import children, provers
-from tumato_symbolic.verify.by_walk import prover
-from tumato_symbolic.verify.by_walk.ranks import WalkRanks
+from tumato_symbolic.cli import verifying
+from tumato_symbolic.verify import portfolio, workers
+from tumato_symbolic.verify.by_diagrams import prover
+from tumato_symbolic.verify.by_diagrams.ranks import WalkRanks
 
 TEST_PROCESS = os.getpid()
 
@@ -37,8 +37,8 @@ def forked(monkeypatch: pytest.MonkeyPatch) -> list[int]:
         return child
 
     monkeypatch.setattr(prover, "FEWEST_NODES", 0)
-    monkeypatch.setattr(provers, "MANY_RANK_NODES", -1)
-    monkeypatch.setattr(provers, "LARGEST_TABLE", -1)
+    monkeypatch.setattr(portfolio, "MANY_RANK_NODES", -1)
+    monkeypatch.setattr(portfolio, "LARGEST_TABLE", -1)
     monkeypatch.setattr(folder_command, "FEWEST_BYTES", 0)
     monkeypatch.setattr(os, "fork", counted)
     return made
@@ -76,16 +76,16 @@ def test_jobs_is_a_positive_number(cli: Cli, jobs: str) -> None:
 def test_the_default_is_every_processor(cli: Cli, monkeypatch: pytest.MonkeyPatch, command: str) -> None:
     """Without `--jobs`, as many processes may work as there are processors; with it, as many as it says."""
     given: list[int] = []
-    original = judging.verify
+    original = verifying.verify
 
     def recorded(*arguments: Any, jobs: int, **named: Any) -> Any:
         given.append(jobs)
         return original(*arguments, jobs=jobs, **named)
 
-    monkeypatch.setattr(judging, "verify", recorded)
+    monkeypatch.setattr(verifying, "verify", recorded)
     monkeypatch.setattr(import_module("tumato_symbolic.verify"), "verify", recorded, raising=False)
-    monkeypatch.setattr(children, "cores", lambda: 5)
-    monkeypatch.setattr(judging, "cores", lambda: 5)
+    monkeypatch.setattr(workers, "cores", lambda: 5)
+    monkeypatch.setattr(verifying, "cores", lambda: 5)
     assert cli(*command.split()).code == 0
     assert cli(*command.split(), "--jobs", "3").code == 0
     assert given == [5, 3]
@@ -152,10 +152,10 @@ def test_an_exception_in_a_child_is_a_bug(cli: Cli, forked: list[int], monkeypat
 ENDLESS = """
 import os, signal, sys
 from tumato_symbolic.cli.main import entry
-from tumato_symbolic.verify import provers
-from tumato_symbolic.verify.by_walk import prover, ranks
+from tumato_symbolic.verify import portfolio
+from tumato_symbolic.verify.by_diagrams import prover, ranks
 
-prover.FEWEST_NODES, provers.MANY_RANK_NODES = 0, -1
+prover.FEWEST_NODES, portfolio.MANY_RANK_NODES = 0, -1
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 def endless(found, goal):
@@ -169,7 +169,7 @@ entry()
 
 
 def _started(tmp_path: Path) -> tuple[subprocess.Popen[str], list[int]]:
-    """A command whose two children never end, and the children."""
+    """A command whose two children never end, and these children."""
     files = (str(ROOT / "proofs" / "amr.policy.json"), str(ROOT / "examples" / "amr.tum"))
     command = [sys.executable, "-c", ENDLESS, "verify", *files, "--jobs", "2", "--prover", "walk"]
     process = subprocess.Popen(
@@ -209,7 +209,7 @@ def test_ctrl_c_ends_all_processes(tmp_path: Path, to_all: bool) -> None:
 
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="looks for processes in /proc")
-def test_children_end_with_their_parent(tmp_path: Path) -> None:
+def test_workers_end_with_their_parent(tmp_path: Path) -> None:
     """A command that is killed outright leaves no child that works on."""
     process, pids = _started(tmp_path)
     with process:

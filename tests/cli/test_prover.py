@@ -7,7 +7,7 @@ import pytest
 from tests.cli.conftest import Cli
 from tumato_symbolic.semantics import State
 from tumato_symbolic.verify import PropertyResult, Refutation
-from tumato_symbolic.verify.by_walk.prover import WalkProver
+from tumato_symbolic.verify.by_diagrams.prover import WalkProver
 
 
 @pytest.mark.parametrize(
@@ -47,7 +47,7 @@ def test_synth_proves_by_the_walk(cli: Cli) -> None:
     assert (ran.code, {found["proved_by"] for found in proof["properties"].values()}) == (0, {"walk"})
 
 
-def test_provers_that_disagree_exit_as_a_bug(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_portfolio_that_disagree_exit_as_a_bug(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
     """A proof against a refutation is no verdict: exit code 70."""
     start: State = (0, 0, 0, 0)
     wrong = PropertyResult("total", "refuted", refutation=Refutation("missing", start))

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.conftest import Cli
-from tumato_symbolic.verify.no_policy import no_plan, unrealizable
+from tumato_symbolic.verify.unrealizability import no_plan, verdict
 
 
 def files(folder: Path) -> set[str]:
@@ -67,7 +67,7 @@ def test_without_a_proof_the_report_says_so(cli: Cli, tmp_path: Path) -> None:
 def test_time_that_runs_out_is_3(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
     """A certificate that is not proved in time is undecided; `synth` says so, and answers no all the same."""
     assert cli("synth", "conflict.tum").code == 1
-    monkeypatch.setitem(unrealizable.verify_unrealizable.__kwdefaults__, "timeout", 0.0)
+    monkeypatch.setitem(verdict.verify_unrealizable.__kwdefaults__, "timeout", 0.0)
     checked = cli("verify", "policy.unrealizable.json", "conflict.tum")
     assert checked.code == 3
     assert "undecided" in checked.out

@@ -12,8 +12,7 @@ from tests.oracle import World as OracleWorld
 from tests.reference_policy import reference_policy
 from tumato_symbolic import parse
 from tumato_symbolic.diagnostics import Code, UserError
-from tumato_symbolic.game import Judge as SynthesisJudge
-from tumato_symbolic.game import build_problem
+from tumato_symbolic.game import Evaluator, build_problem
 from tumato_symbolic.policy import as_table
 from tumato_symbolic.semantics import (
     ActionSet,
@@ -175,7 +174,7 @@ class Bdd:
         encoding, steps = problem.encoding, problem.steps
         pairs = {state: encoding.state_cube(state) & encoding.choices_cube(chosen) for state, chosen in rows.items()}
         forced = encoding.manager.union(pairs.values())
-        judge = SynthesisJudge(problem, forced & steps.unsafe, required=steps.safe)
+        judge = Evaluator(problem, forced & steps.unsafe, required=steps.safe)
         restoration = judge.evaluate(forced & steps.safe).restoration
         assert restoration is not None
         return {state: effort for effort, states in restoration.worst.items() for state in encoding.states_in(states)}

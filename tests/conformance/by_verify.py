@@ -20,12 +20,12 @@ from tumato_symbolic.policy.unrealizable import Unrealizability
 from tumato_symbolic.semantics import ActionSet, Effort, State, all_states, takes_effect
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify import ProverName, verify, verify_unrealizable
+from tumato_symbolic.verify.by_diagrams.efforts import WalkEfforts
+from tumato_symbolic.verify.by_diagrams.model import Model
 from tumato_symbolic.verify.by_states.efforts import Efforts
 from tumato_symbolic.verify.by_states.packed import Packing
 from tumato_symbolic.verify.by_states.steps import Steps
-from tumato_symbolic.verify.by_walk.efforts import WalkEfforts
-from tumato_symbolic.verify.by_walk.model import Model
-from tumato_symbolic.verify.no_policy.allowed_step import AllowedStep, is_state
+from tumato_symbolic.verify.unrealizability.allowed_step import AllowedStep, is_state
 
 
 class Prover:

@@ -35,19 +35,19 @@ from tumato_symbolic.symbolic import goals as symbolic_goals
 from tumato_symbolic.symbolic import steps as symbolic_steps
 from tumato_symbolic.symbolic.encoding import Encoding, Group
 from tumato_symbolic.symbolic.manager import Bdd as Set
+from tumato_symbolic.verify.by_diagrams.efforts import WalkEfforts
+from tumato_symbolic.verify.by_diagrams.goals import WalkGoals
+from tumato_symbolic.verify.by_diagrams.model import Model
 from tumato_symbolic.verify.by_states import prover as states_prover
 from tumato_symbolic.verify.by_states import steps as states_steps
 from tumato_symbolic.verify.by_states.efforts import Efforts
-from tumato_symbolic.verify.by_walk.efforts import WalkEfforts
-from tumato_symbolic.verify.by_walk.goals import WalkGoals
-from tumato_symbolic.verify.by_walk.model import Model
-from tumato_symbolic.verify.by_z3 import frame, prover
+from tumato_symbolic.verify.by_z3 import policy_problem, prover
 from tumato_symbolic.verify.by_z3.choice import Choice
 
 explicit_judge = import_module("tumato_symbolic.semantics.judge")
 taken_alone = import_module("tumato_symbolic.game.alone")
 game_restoration = import_module("tumato_symbolic.game.restoration")
-refutations = import_module("tumato_symbolic.verify.no_policy.unrealizable")
+refutations = import_module("tumato_symbolic.verify.unrealizability.verdict")
 
 
 @dataclass(frozen=True)
@@ -143,7 +143,7 @@ def _no_coq_rules(written: Any) -> Any:
 
 
 BUGS = (
-    Bug("1.2", "no assumption counts", Z3, frame, "valid_term", lambda _: lambda spec, place: True,
+    Bug("1.2", "no assumption counts", Z3, policy_problem, "valid_term", lambda _: lambda spec, place: True,
         states.test_a_state_is_valid_when_every_assumption_holds),
     Bug("1.3", "invalid states are safe", Checker, checker.World, "is_safe",
         lambda _: lambda world, state: world.broken(world.spec.state_rules, state) is None,
@@ -157,7 +157,7 @@ BUGS = (
     Bug("3.7", "an action takes effect again", lambda: Bdd("autoref"), symbolic_steps, "_after_effect_of", _again,
         steps.test_an_action_takes_effect_at_most_once),
     Bug("3.8", "`first` is taken for `any`", Z3, prover, "prove_safe",
-        lambda prove: lambda frame, _: prove(frame, "any"),
+        lambda prove: lambda problem, _: prove(problem, "any"),
         steps.test_effects_come_one_after_the_other_under_any_and_one_alone_under_first),
     Bug("3.10", "the search forgets the nominal successor", Z3, Choice, "conditions",
         lambda conditions: lambda choice: conditions(choice)[:-1],

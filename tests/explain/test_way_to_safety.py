@@ -6,7 +6,7 @@ from tests.semantics.test_restoration import CLOSED, EDGE, OPEN, RETRY, VALVES, 
 from tumato_symbolic import parse
 from tumato_symbolic.explain.decision import judged, why
 from tumato_symbolic.report.decided import Decided, as_json, as_text
-from tumato_symbolic.report.reasons import Place
+from tumato_symbolic.report.objections import Place
 from tumato_symbolic.semantics import NOTHING, ActionSet, Restorations, State, all_states, is_safe
 from tumato_symbolic.spec import Spec
 

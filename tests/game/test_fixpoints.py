@@ -9,8 +9,8 @@ import pytest
 from tests.generate import ALL_PROFILES, random_spec
 from tumato_symbolic import parse
 from tumato_symbolic.game import fixpoints
+from tumato_symbolic.game.evaluation import Evaluator
 from tumato_symbolic.game.fixpoints import closed_loop, mixed, preimage
-from tumato_symbolic.game.judging import Judge
 from tumato_symbolic.game.problem import Problem, build_problem
 from tumato_symbolic.symbolic import Bdd, Manager, available_backend, preferred
 
@@ -86,7 +86,7 @@ def test_whether_all_are_served_is_whether_none_fails(profile: str) -> None:
     """The quick question and the whole judgement agree on every policy, whatever target is asked first."""
     seen = set()
     for problem in problems(profile):
-        judge = Judge(problem)
+        judge = Evaluator(problem)
         for policy in policies(problem, Random(4)):
             found = judge.evaluate(policy)
             suspects = list(range(len(problem.targets)))
@@ -120,7 +120,7 @@ END GOALS
 def test_unsafe_states_have_to_be_served_as_well() -> None:
     """A policy that serves all safe states still fails where what restores safety leads to where it stays."""
     problem = build_problem(parse(LEFT_BEHIND), "any", available_backend())
-    judge, encoding, steps = Judge(problem), problem.encoding, problem.steps
+    judge, encoding, steps = Evaluator(problem), problem.encoding, problem.steps
     idle = preferred(encoding, steps.allowed & steps.safe)
     found = judge.evaluate(idle)
     assert found.failing == steps.unsafe == encoding.state_cube((0,))

@@ -19,7 +19,7 @@ from tumato_symbolic.cli.supervise import ChildCrashedError, EndedError, Termina
 from tumato_symbolic.limits import Context, Limits
 from tumato_symbolic.limits.processes import can_fork, end_with
 from tumato_symbolic.policy.saving import save_text
-from tumato_symbolic.verify.children import in_children
+from tumato_symbolic.verify.workers import in_workers
 
 pytestmark = pytest.mark.skipif(not can_fork(), reason="there are no children here")
 
@@ -32,6 +32,11 @@ def _impatient(monkeypatch: pytest.MonkeyPatch) -> None:
 def _for_ever() -> int:
     while True:
         time.sleep(100)
+
+
+def _kept(numbers: list[int], number: int) -> int:
+    numbers.append(number)
+    return number
 
 
 def _soon() -> Context:
@@ -51,9 +56,10 @@ def test_the_exit_code_is_the_childs(code: int) -> None:
     assert supervised(lambda: code, Context(Limits(seconds=1000.0))) == code
 
 
-def test_a_child_that_does_not_end_is_ended() -> None:
+def test_a_child_that_does_not_end_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:
     """Whatever a child is at, it is gone soon after the limit; what it did and knew last is known."""
-    context = _soon()
+    context, fork, children = _soon(), os.fork, list[int]()
+    monkeypatch.setattr(os, "fork", lambda: _kept(children, fork()))
 
     def work() -> int:
         context.enter("proving goals")
@@ -64,10 +70,10 @@ def test_a_child_that_does_not_end_is_ended() -> None:
         supervised(work, context)
     assert context.known == ("an", "answer")
     with pytest.raises(ChildProcessError):
-        os.waitpid(-1, os.WNOHANG)
+        os.waitpid(children[0], os.WNOHANG)
 
 
-def test_children_of_the_child_end_with_it(tmp_path: Path) -> None:
+def test_workers_of_the_child_end_with_it(tmp_path: Path) -> None:
     """Processes that the child has made are ended as well."""
     place = tmp_path / "number"
 
@@ -76,7 +82,7 @@ def test_children_of_the_child_end_with_it(tmp_path: Path) -> None:
         return _for_ever()
 
     with pytest.raises(EndedError):
-        supervised(lambda: len(in_children([grandchild], 1)), Context(Limits(seconds=1.0)))
+        supervised(lambda: len(in_workers([grandchild], 1)), Context(Limits(seconds=1.0)))
     _wait_for_the_end_of(int(place.read_text()))
 
 

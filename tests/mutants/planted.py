@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from tumato_symbolic import Realizable, parse, synthesize
-from tumato_symbolic.game import fixpoints, judging, routing
+from tumato_symbolic.game import evaluation, fixpoints, routing
 from tumato_symbolic.policy import Policy
 from tumato_symbolic.spec import GoalList, Spec
 from tumato_symbolic.symbolic import extract, goals, steps
@@ -87,7 +87,7 @@ def _predecessor(patch: pytest.MonkeyPatch) -> None:
     patch.setattr(steps, "nominal_predecessor", mistaken(steps.nominal_predecessor))
     patch.setattr(steps.Steps, "next_state", mistaken(steps.Steps.next_state))
     patch.setattr(fixpoints.ClosedLoop, "predecessor", mistaken(fixpoints.ClosedLoop.predecessor))
-    for room in (routing, judging):
+    for room in (routing, evaluation):
         patch.setattr(room, "preimage", lambda *given: mistaken(mistaken(preimage)(*given)))
 
 

@@ -12,7 +12,7 @@ import pytest
 
 from tests.policy.strategies import amr_like
 from tumato_symbolic.diagnostics import UserError
-from tumato_symbolic.policy import dumps, load, loads, save, shape
+from tumato_symbolic.policy import dumps, json_shape, load, loads, save
 
 
 def names(folder):
@@ -130,7 +130,7 @@ def test_what_cannot_be_read_is_said(tmp_path):
 
 def test_an_endless_file_is_too_large(monkeypatch):
     """Reading stops at the limit, and texts beyond it are neither read nor written."""
-    monkeypatch.setattr(shape, "MAX_BYTES", 100)
+    monkeypatch.setattr(json_shape, "MAX_BYTES", 100)
     monkeypatch.setattr("tumato_symbolic.policy.text_input.MAX_BYTES", 100)
     monkeypatch.setattr("tumato_symbolic.policy.write.MAX_BYTES", 100)
     with pytest.raises(UserError, match="TUM508"):

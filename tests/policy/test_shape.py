@@ -7,8 +7,8 @@ import pytest
 from tests.policy.strategies import amr_like
 from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.policy import dumps, loads
+from tumato_symbolic.policy.json_shape import parse_json
 from tumato_symbolic.policy.objects import Row
-from tumato_symbolic.policy.shape import parse_json
 
 
 def numbered(*firsts, diagram=False):

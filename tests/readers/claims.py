@@ -16,7 +16,7 @@ from tumato_symbolic.policy.claim import load_claim
 from tumato_symbolic.semantics import all_states, is_safe
 from tumato_symbolic.spec import Spec, canonical_text
 from tumato_symbolic.verify import verify_unrealizable
-from tumato_symbolic.verify.given import GivenRanks
+from tumato_symbolic.verify.claimed_ranks import ClaimedRanks
 
 Found = Meaning | str
 """What a policy says, the verdict on a certificate of the answer no, or that the file is refused."""
@@ -50,7 +50,7 @@ def claim_by_package(path: Path, spec: Spec) -> Found:
 
 def _ranks_by_package(policy: Policy, spec: Spec) -> Any:
     """The ranks of the safe states by residual goal, or why there are none."""
-    given = GivenRanks(spec, policy, lambda: True)
+    given = ClaimedRanks(spec, policy, lambda: True)
     if given.use.status != "unneeded" or policy.certificate is None:
         return given.use.status
     safe = [state for state in all_states(spec) if is_safe(spec, state)]

@@ -3,7 +3,7 @@
 import pytest
 
 from tumato_symbolic import parse
-from tumato_symbolic.report.reasons import Place, broken_here, objection_text, why_no_set
+from tumato_symbolic.report.objections import Place, broken_here, objection_text, why_no_set
 from tumato_symbolic.semantics import objections
 
 TEXT = """\

@@ -5,7 +5,7 @@ from dataclasses import replace
 from tests.semantics.test_restoration import EDGE, RETRY, VALVES, restoring
 from tumato_symbolic import Realizable, Unrealizable, parse, synthesize
 from tumato_symbolic.diagnostics import Source
-from tumato_symbolic.report.reasons import Place
+from tumato_symbolic.report.objections import Place
 from tumato_symbolic.report.restorable import restorable_json, restorable_lines
 from tumato_symbolic.report.restored import restored_json, restored_text
 from tumato_symbolic.report.synthesized import Synthesized, as_text

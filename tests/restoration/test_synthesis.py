@@ -11,7 +11,7 @@ from tumato_symbolic import Realizable, Unrealizable, parse, synthesize
 from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.policy import as_table
 from tumato_symbolic.report.failures import failure_text
-from tumato_symbolic.report.reasons import Place
+from tumato_symbolic.report.objections import Place
 from tumato_symbolic.semantics import Effort, Restorations, State, count_states, judge
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.verify import verify_unrealizable

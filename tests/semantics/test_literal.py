@@ -12,7 +12,7 @@ from tests.semantics import literal
 from tests.semantics.build import Build, chosen
 from tumato_symbolic.semantics import (
     NOTHING,
-    Effectuation,
+    EffectStep,
     active_goals,
     all_states,
     allowed_sets,
@@ -132,7 +132,7 @@ def test_objections_say_who_and_where() -> None:
         (build.state("bb"), spec.state_rules[0]),
         (build.state("cb"), spec.state_rules[1]),
     ]
-    first = Effectuation(0, ((0, 1),), build.state("bb"))
+    first = EffectStep(0, ((0, 1),), build.state("bb"))
     assert found[4].outcome == (first,)
     (unsafe, nominal) = objections(spec, build.state("ca"), NOTHING, "first")
     assert (unsafe.kind, nominal.kind) == ("unsafe", "nominal-unsafe")

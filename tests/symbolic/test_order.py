@@ -13,7 +13,7 @@ from tumato_symbolic.policy import Table
 from tumato_symbolic.spec import Spec, load
 from tumato_symbolic.symbolic import build_steps, encode, encoding
 from tumato_symbolic.symbolic.order import variable_order
-from tumato_symbolic.synthesis import Outcome, Realizable, Undecided, Unrealizable, synthesize
+from tumato_symbolic.synthesis import Realizable, SynthesisResult, Undecided, Unrealizable, synthesize
 
 
 def family(name: str, size: int) -> Spec:
@@ -23,7 +23,7 @@ def family(name: str, size: int) -> Spec:
     return spec
 
 
-def answer(outcome: Outcome) -> object:
+def answer(outcome: SynthesisResult) -> object:
     """All decisions, or all failing states; of a conflict its kind: there may be many minimal sets."""
     match outcome:
         case Realizable(policy):

@@ -17,12 +17,12 @@ from tumato_symbolic.policy import Policy, Table, as_table, dumps
 from tumato_symbolic.semantics import ActionSet, State, judge
 from tumato_symbolic.spec import FALSE, And, Is, Not, Or, Spec
 from tumato_symbolic.symbolic import Backend, available_backend
-from tumato_symbolic.synthesis import Outcome, Realizable, Undecided, Unrealizable, synthesize
+from tumato_symbolic.synthesis import Realizable, SynthesisResult, Undecided, Unrealizable, synthesize
 
 pipeline = import_module("tumato_symbolic.synthesis.synthesize")
 
 
-def rows(outcome: Outcome) -> dict[State, ActionSet]:
+def rows(outcome: SynthesisResult) -> dict[State, ActionSet]:
     """The decisions of a realizable outcome."""
     assert isinstance(outcome, Realizable)
     assert isinstance(outcome.policy.decisions, Table)

@@ -17,7 +17,7 @@ from tumato_symbolic.limits import Context
 from tumato_symbolic.policy import policy_from_rows
 from tumato_symbolic.semantics import Residual, duration, nominal_agrees
 from tumato_symbolic.spec import TRUE, Not, Ordering, Spec
-from tumato_symbolic.verify import provers
+from tumato_symbolic.verify import portfolio
 from tumato_symbolic.verify.by_states import prover, steps
 from tumato_symbolic.verify.by_states.packed import Packing, valid_states
 from tumato_symbolic.verify.by_states.prover import StateProver
@@ -114,7 +114,7 @@ def test_too_many_ways(monkeypatch: pytest.MonkeyPatch) -> None:
         result = _prover(spec, rows).prove("safe")
         assert result.verdict == verdict
         work = _prover(spec, rows).work
-        assert work is not None and (work == 17 if verdict == "proved" else work >= most * provers.LARGEST_TABLE)
+        assert work is not None and (work == 17 if verdict == "proved" else work >= most * portfolio.LARGEST_TABLE)
         assert _prover(spec, rows, "first").prove("safe").verdict == "proved"
     assert result.reason == "4 actions at a time take effect in too many ways to list"
 

@@ -13,8 +13,8 @@ from tests.verify.policies import leaving, near_policies
 from tumato_symbolic import parse
 from tumato_symbolic.limits import Context, LimitReachedError, Limits
 from tumato_symbolic.policy import as_diagram, policy_from_rows
+from tumato_symbolic.report.objections import Place
 from tumato_symbolic.report.proof import proof_json, refutation_text
-from tumato_symbolic.report.reasons import Place
 from tumato_symbolic.semantics import ActionSet, State, all_states, is_valid
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify import ProverName, Refutation, closure, verify

@@ -19,10 +19,10 @@ from tumato_symbolic.policy import Certificate, Policy, RankedGoal, as_diagram, 
 from tumato_symbolic.semantics import ActionSet, Residual, State, all_states, residual_goal
 from tumato_symbolic.spec import FALSE, And, Executing, Iff, Not, Or, Ordering, Spec, canonical_text, digest
 from tumato_symbolic.verify import PropertyResult, ProverName, Verification, verify
+from tumato_symbolic.verify.by_diagrams.prover import WalkProver
 from tumato_symbolic.verify.by_states.prover import StateProver
-from tumato_symbolic.verify.by_walk.prover import WalkProver
 from tumato_symbolic.verify.by_z3 import rank_terms
-from tumato_symbolic.verify.by_z3.frame import Frame
+from tumato_symbolic.verify.by_z3.policy_problem import PolicyProblem
 from tumato_symbolic.verify.by_z3.prover import Z3Prover
 from tumato_symbolic.verify.by_z3.rank_source import RankSource
 from tumato_symbolic.verify.decisions import Decisions
@@ -317,9 +317,9 @@ def test_who_owes_a_run() -> None:
     fine, wrong = build.action("x=b"), build.action("y=b", when=[build.atom("x=b")])
     spec = build.spec(constraint(build.goal(build.atom("x=b"))))
     policy = policy_from_rows(spec, {(0, 0): chosen(fine), (0, 1): chosen(wrong)})
-    frame = Frame(spec, as_diagram(policy), Budget())
+    problem = PolicyProblem(spec, as_diagram(policy), Budget())
     for known in (False, True):
-        source = RankSource(frame, policy, "any", known)
+        source = RankSource(problem, policy, "any", known)
         assert [source.owes_a_run(state) for state in ((0, 0), (0, 1))] == [True, known]
 
 
@@ -425,7 +425,7 @@ def test_nothing_asked_is_an_error_of_the_caller() -> None:
 @pytest.mark.parametrize("cases", [0, 128])
 def test_a_run_ends_where_nominal_effects_disagree(prover: Name, cases: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """Whatever one of the two would lead to: there is no next state, and a run that comes there misses its goal."""
-    monkeypatch.setattr(import_module("tumato_symbolic.verify.by_walk.model"), "MOST_CASES", cases)
+    monkeypatch.setattr(import_module("tumato_symbolic.verify.by_diagrams.model"), "MOST_CASES", cases)
     build = Build({"x": "abcd"})
     first = build.action("x=b", when=[build.atom("x=a")])
     one, two = build.action("x=c"), build.action("x=d")

@@ -20,8 +20,8 @@ from tumato_symbolic.policy import Policy
 from tumato_symbolic.semantics import Residual
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.verify import PROPERTIES, PropertyName, PropertyResult, Verification, verify, verify_unrealizable
-from tumato_symbolic.verify.by_walk import prover as by_walk
-from tumato_symbolic.verify.by_walk.prover import WalkProver
+from tumato_symbolic.verify.by_diagrams import prover as by_diagrams
+from tumato_symbolic.verify.by_diagrams.prover import WalkProver
 from tumato_symbolic.verify.by_z3 import rank_terms
 from tumato_symbolic.verify.by_z3.solver import LONGEST, NO_TIMEOUT, Solver
 from tumato_symbolic.verify.result import Verdict
@@ -64,7 +64,7 @@ def test_answers_of_children_are_forgotten_only_where_all_memory_is_used(
     left: int, most: int | None, forgets: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A property that may remember little, and does not get by with that, leaves what children have found as it is."""
-    monkeypatch.setattr(by_walk, "FEWEST_NODES", 0)
+    monkeypatch.setattr(by_diagrams, "FEWEST_NODES", 0)
     policy, spec = _policy()
     prover = WalkProver(spec, policy, "any")
     prover.ahead(("goals", "minimal"), 2, lambda _: None)
@@ -82,7 +82,7 @@ def test_small_ranks_are_not_prepared(jobs: int, more: int, asked: bool, monkeyp
     """From a number of nodes on, children begin, or this process does what `goals` and `minimal` have in common."""
     policy, spec = _policy()
     assert policy.certificate is not None
-    monkeypatch.setattr(by_walk, "FEWEST_NODES", len(policy.certificate.ranks.nodes) + more)
+    monkeypatch.setattr(by_diagrams, "FEWEST_NODES", len(policy.certificate.ranks.nodes) + more)
     prover = WalkProver(spec, policy, "any")
     spent = prover.ahead(("goals", "minimal"), jobs, lambda _: None)
     assert "goals" in spent if asked else not spent
@@ -251,5 +251,5 @@ def test_without_a_proof_nobody_has_proved_anything() -> None:
     wrong = verify_unrealizable(certificate, replace(spec, effect_ordering="first"))
     for found, verdict in ((late, "undecided"), (wrong, "refuted")):
         assert found.verdict == verdict and found.reason
-        assert (found.obligations, found.by_solver, found.by_walk) == (0, False, False)
+        assert (found.obligations, found.by_solver, found.by_diagrams) == (0, False, False)
         assert (found.state, found.chosen) == (None, None)

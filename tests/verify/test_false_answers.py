@@ -18,8 +18,8 @@ from tumato_symbolic.spec import Not, Spec
 from tumato_symbolic.verify import PropertyName, verify, verify_unrealizable
 from tumato_symbolic.verify.by_z3 import goals_property, minimal_property, outcomes, step_property
 from tumato_symbolic.verify.by_z3.rank_terms import RankProof
-from tumato_symbolic.verify.no_policy import allowed_step
-from tumato_symbolic.verify.no_policy.allowed_step import AllowedStep, is_state
+from tumato_symbolic.verify.unrealizability import allowed_step
+from tumato_symbolic.verify.unrealizability.allowed_step import AllowedStep, is_state
 
 Rows = Mapping[State, ActionSet]
 

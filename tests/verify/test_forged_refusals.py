@@ -20,11 +20,11 @@ from tumato_symbolic.policy.unrealizable import Conflict, Cut, NoAllowedSet, NoP
 from tumato_symbolic.policy.unrealizable_file import bind
 from tumato_symbolic.spec import And, Iff, Not, Or, Ordering, Spec, canonical_text
 from tumato_symbolic.verify import verify_unrealizable
-from tumato_symbolic.verify.no_policy import no_plan
-from tumato_symbolic.verify.no_policy.allowed_step import AllowedStep, FalseClaimError
-from tumato_symbolic.verify.no_policy.conflict import clause
-from tumato_symbolic.verify.no_policy.distances import Distances
-from tumato_symbolic.verify.no_policy.no_allowed_set import _unproved
+from tumato_symbolic.verify.unrealizability import no_plan
+from tumato_symbolic.verify.unrealizability.allowed_step import AllowedStep, FalseClaimError
+from tumato_symbolic.verify.unrealizability.conflict import clause
+from tumato_symbolic.verify.unrealizability.distances import Distances
+from tumato_symbolic.verify.unrealizability.no_allowed_set import _unproved
 
 
 def crossing(bound: int | None = None) -> Spec:
@@ -272,14 +272,14 @@ def test_claims_are_counted(walk: bool, monkeypatch: pytest.MonkeyPatch) -> None
     certificate = certified(line(2), "any")
     assert certificate is not None
     answer = verify_unrealizable(certificate, line(2))
-    assert (answer.obligations, answer.by_solver, answer.by_walk) == (5, True, walk)
+    assert (answer.obligations, answer.by_solver, answer.by_diagrams) == (5, True, walk)
     spec, conflict = CONFLICTS["conflicting"]
     reason = conflict.reason
     assert isinstance(reason, Conflict)
     answer = verify_unrealizable(conflict, spec)
     checked = 2 * len(reason.choices) + len(reason.cuts) + 2 * len({goal.root for goal in reason.goals}) + 1
-    assert (answer.obligations, answer.by_solver, answer.by_walk) == (checked, True, False)
+    assert (answer.obligations, answer.by_solver, answer.by_diagrams) == (checked, True, False)
     cubes = certified(stuck()[1], "any")
     assert cubes is not None and isinstance(cubes.reason, NoAllowedSet) and cubes.reason.cubes is not None
     answer = verify_unrealizable(cubes, stuck()[1])
-    assert (answer.obligations, answer.by_solver, answer.by_walk) == (3 + len(cubes.reason.cubes), False, False)
+    assert (answer.obligations, answer.by_solver, answer.by_diagrams) == (3 + len(cubes.reason.cubes), False, False)

@@ -14,7 +14,7 @@ from tests.semantics.build import Build
 from tumato_symbolic.policy import as_diagram, policy_from_rows
 from tumato_symbolic.spec import And, Iff, Is, Not, Or, Ordering, Spec
 from tumato_symbolic.verify import verify
-from tumato_symbolic.verify.by_walk.model import Model
+from tumato_symbolic.verify.by_diagrams.model import Model
 
 Name = Literal["z3", "walk", "explicit"]
 PROVERS: tuple[Name, ...] = ("z3", "walk", "explicit")

@@ -30,8 +30,8 @@ from tumato_symbolic.semantics import (
 )
 from tumato_symbolic.semantics import guarantees as by_meaning
 from tumato_symbolic.spec import Ordering, Restoration, Spec
-from tumato_symbolic.verify.by_walk.goals import WalkGoals
-from tumato_symbolic.verify.by_walk.model import Model
+from tumato_symbolic.verify.by_diagrams.goals import WalkGoals
+from tumato_symbolic.verify.by_diagrams.model import Model
 from tumato_symbolic.verify.guarantees.analyse import guarantees
 from tumato_symbolic.verify.guarantees.prospects import WalkProspects
 from tumato_symbolic.verify.guarantees.result import Level

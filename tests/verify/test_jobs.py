@@ -24,10 +24,10 @@ from tumato_symbolic.limits import Context
 from tumato_symbolic.policy import policy_from_rows
 from tumato_symbolic.semantics import Residual
 from tumato_symbolic.spec import Ordering, Spec, load
-from tumato_symbolic.verify import PROPERTIES, ProverName, Verification, children, provers, verify
-from tumato_symbolic.verify.by_walk import ahead, prover
-from tumato_symbolic.verify.by_walk.ranks import WalkRanks
-from tumato_symbolic.verify.by_walk.walk import Walk
+from tumato_symbolic.verify import PROPERTIES, ProverName, Verification, portfolio, verify, workers
+from tumato_symbolic.verify.by_diagrams import parallel, prover
+from tumato_symbolic.verify.by_diagrams.ranks import WalkRanks
+from tumato_symbolic.verify.by_diagrams.walk import Walk
 
 TEST_PROCESS = os.getpid()
 
@@ -38,14 +38,14 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     counts = []
 
     def counting(tasks: Iterator[Callable[[], object]], jobs: int) -> list[object]:
-        found = children.in_children(tasks, jobs)
+        found = workers.in_workers(tasks, jobs)
         counts.append(len(found))
         return found
 
     monkeypatch.setattr(prover, "FEWEST_NODES", 0)
-    monkeypatch.setattr(provers, "MANY_RANK_NODES", -1)
-    monkeypatch.setattr(provers, "LARGEST_TABLE", -1)
-    monkeypatch.setattr(ahead, "in_children", counting)
+    monkeypatch.setattr(portfolio, "MANY_RANK_NODES", -1)
+    monkeypatch.setattr(portfolio, "LARGEST_TABLE", -1)
+    monkeypatch.setattr(parallel, "in_workers", counting)
     return counts
 
 
@@ -96,7 +96,7 @@ def test_the_limit_on_memory_does_not_depend_on_the_jobs(
     verdicts = set()
     for most in range(200, 4000, 100):
         monkeypatch.setattr(
-            import_module("tumato_symbolic.verify.by_walk.model"), "Walk", partial(Walk, most_steps=most)
+            import_module("tumato_symbolic.verify.by_diagrams.model"), "Walk", partial(Walk, most_steps=most)
         )
         alone = _ask(policy, spec, "any", name, 1)
         assert _ask(policy, spec, "any", name, 2) == alone
@@ -161,7 +161,7 @@ def test_an_exception_in_a_child_arrives(asked: list[int], monkeypatch: pytest.M
         raise error
 
     monkeypatch.setattr(WalkRanks, "decreases", _only_in_children(partial(fail, ValueError("planted"))))
-    with pytest.raises(children.ChildError, match=r'(?s)File ".*test_jobs.py", line .*ValueError: planted'):
+    with pytest.raises(workers.WorkerError, match=r'(?s)File ".*test_jobs.py", line .*ValueError: planted'):
         verify(*_amr(), prover="walk", jobs=2)
     monkeypatch.setattr(WalkRanks, "decreases", _only_in_children(partial(fail, MemoryError())))
     with pytest.raises(MemoryError):

@@ -29,15 +29,15 @@ from tumato_symbolic.semantics import (
     residual_goal,
 )
 from tumato_symbolic.spec import And, Executing, Not, Ordering, Spec
+from tumato_symbolic.verify.by_diagrams.goals import WalkGoals
+from tumato_symbolic.verify.by_diagrams.model import Model
+from tumato_symbolic.verify.by_diagrams.order import walk_order
+from tumato_symbolic.verify.by_diagrams.parallel import ParallelProofs, Task
+from tumato_symbolic.verify.by_diagrams.walk import FALSE, TRUE, BudgetError, Walk, given_up
+from tumato_symbolic.verify.by_diagrams.witnesses import Witnesses
 from tumato_symbolic.verify.by_states.packed import Packing
 from tumato_symbolic.verify.by_states.runs import Runs
 from tumato_symbolic.verify.by_states.steps import Steps
-from tumato_symbolic.verify.by_walk.ahead import Ahead, Task
-from tumato_symbolic.verify.by_walk.goals import WalkGoals
-from tumato_symbolic.verify.by_walk.model import Model
-from tumato_symbolic.verify.by_walk.order import walk_order
-from tumato_symbolic.verify.by_walk.walk import FALSE, TRUE, BudgetError, Walk, given_up
-from tumato_symbolic.verify.by_walk.witnesses import Witnesses
 from tumato_symbolic.verify.by_z3.encoding import Place
 from tumato_symbolic.verify.by_z3.goal_terms import GoalTerms
 from tumato_symbolic.verify.by_z3.solver import Solver
@@ -291,7 +291,7 @@ class _Times(Budget):
 
 def test_what_children_are_given() -> None:
     """The time that is left to each property, what tasks share done before, and no answer that needed too much."""
-    walk, ahead, budget, told = Walk(range(2), [2, 2]), Ahead(), _Times(), list[str]()
+    walk, ahead, budget, told = Walk(range(2), [2, 2]), ParallelProofs(), _Times(), list[str]()
     ahead.seconds["goals"] = 1000.0
     shared: list[int] = []
     tasks = [
@@ -310,7 +310,7 @@ def test_what_children_are_given() -> None:
     assert ahead.take("four", lambda: 5) == 5
 
 
-def test_children_share_what_may_be_remembered() -> None:
+def test_workers_share_what_may_be_remembered() -> None:
     """Where all together remember more than one may, no answer counts; else so much less is left."""
 
     def work(walk: Walk, count: int) -> int:
@@ -319,7 +319,7 @@ def test_children_share_what_may_be_remembered() -> None:
         return count
 
     for most, counts in ((10, True), (9, False)):
-        walk, ahead = Walk(range(2), [2, 2], most_steps=most + 5), Ahead()
+        walk, ahead = Walk(range(2), [2, 2], most_steps=most + 5), ParallelProofs()
         walk.remembered = 5
         taken: list[int] = []
         tasks = [Task("goals", count, partial(work, walk, count)) for count in (4, 6)]
@@ -371,7 +371,7 @@ def test_the_next_state_by_cases_and_by_variables(actions: int, monkeypatch: pyt
     states = literal.states(spec)
     rows = {state: frozenset(n for n in range(actions) if (state[n] + sum(state)) % 2 == 0) for state in states}
     for most in (0, 128):
-        monkeypatch.setattr(import_module("tumato_symbolic.verify.by_walk.model"), "MOST_CASES", most)
+        monkeypatch.setattr(import_module("tumato_symbolic.verify.by_diagrams.model"), "MOST_CASES", most)
         model = Model(spec, as_diagram(policy_from_rows(spec, rows)), "any")
         for variable in range(actions):
             after = model.next(model.walk.variable(variable))

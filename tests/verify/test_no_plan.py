@@ -16,11 +16,11 @@ from tumato_symbolic.policy.unrealizable import Layers, NoPlan, Unrealizability
 from tumato_symbolic.policy.unrealizable_file import dumps, loads
 from tumato_symbolic.semantics import Residual, State
 from tumato_symbolic.spec import And, Or, Ordering, Spec
-from tumato_symbolic.synthesis import disproof
+from tumato_symbolic.synthesis import unrealizability
 from tumato_symbolic.synthesis.certificate import goal_names
 from tumato_symbolic.verify import verify_unrealizable
-from tumato_symbolic.verify.by_walk.walk import BudgetError
-from tumato_symbolic.verify.no_policy import no_plan
+from tumato_symbolic.verify.by_diagrams.walk import BudgetError
+from tumato_symbolic.verify.unrealizability import no_plan
 
 ORDERINGS = pytest.mark.parametrize("ordering", ["any", "first"])
 TARGETS = tuple(f"t{number}" for number in range(14))
@@ -95,8 +95,8 @@ def test_several_proofs_by_both_provers(profile, ordering, monkeypatch):
                 by_z3 = verify_unrealizable(loads(dumps(each)), spec, ordering=ordering)
                 walk_first(patch)
                 walked = verify_unrealizable(loads(dumps(each)), spec, ordering=ordering)
-            assert (by_z3.verdict, by_z3.by_solver, by_z3.by_walk) == ("proved", True, False)
-            assert (walked.verdict, walked.by_walk) == ("proved", True)
+            assert (by_z3.verdict, by_z3.by_solver, by_z3.by_diagrams) == ("proved", True, False)
+            assert (walked.verdict, walked.by_diagrams) == ("proved", True)
             assert by_z3.obligations == walked.obligations
     assert bounds == {True, False}
 
@@ -240,7 +240,7 @@ def test_layers_that_count_are_left_to_the_walk(monkeypatch):
     assert len(certificate.reason.goals[0].roots) == 2 * count - 1
     assert len(certificate.reason.diagram.nodes) > no_plan.MANY_NODES
     verdict = verify_unrealizable(certificate, targets(count, 2 * count - 1))
-    assert (verdict.verdict, verdict.by_solver, verdict.by_walk) == ("proved", True, True)
+    assert (verdict.verdict, verdict.by_solver, verdict.by_diagrams) == ("proved", True, True)
     longer = verify_unrealizable(certificate, targets(count, 2 * count))
     assert (longer.verdict, longer.stale) == ("refuted", True)
     assert "the plan bound is not met" in longer.reason
@@ -248,7 +248,7 @@ def test_layers_that_count_are_left_to_the_walk(monkeypatch):
 
 def test_what_the_runs_reach_is_written_where_it_is_smaller(monkeypatch):
     """From where only three states can be reached, these are enough, whatever the way to the goal is elsewhere."""
-    monkeypatch.setattr(disproof, "FEW_NODES", 50)
+    monkeypatch.setattr(unrealizability, "FEW_NODES", 50)
     spec = targets(10, 19, "zyx")
     certificate = certified(spec, "any")
     assert (certificate.reason.state, len(certificate.reason.goals[0].roots)) == ((0,) * 11, 1)
@@ -271,10 +271,10 @@ def test_z3_has_the_last_word(over, monkeypatch):
 
     monkeypatch.setattr(no_plan, "SOON", -1.0)
     walked = verify_unrealizable(certificate, spec)
-    assert (walked.verdict, walked.by_walk) == ("proved", True)
+    assert (walked.verdict, walked.by_diagrams) == ("proved", True)
     monkeypatch.setattr(no_plan, "first_left", given_up)
     verdict = verify_unrealizable(certificate, spec)
-    assert (verdict.verdict, verdict.by_walk, asked) == ("proved", False, [True])
+    assert (verdict.verdict, verdict.by_diagrams, asked) == ("proved", False, [True])
 
 
 def test_a_state_that_only_the_walk_finds_is_a_bug(monkeypatch):

@@ -15,8 +15,8 @@ from tumato_symbolic.policy.unrealizable import Conflict, Cube, NoAllowedSet, No
 from tumato_symbolic.semantics import allowed
 from tumato_symbolic.spec import And, Not, Or, Spec
 from tumato_symbolic.verify import UnrealizabilityVerdict, verify_unrealizable
-from tumato_symbolic.verify.by_walk.walk import BudgetError
-from tumato_symbolic.verify.no_policy import no_plan
+from tumato_symbolic.verify.by_diagrams.walk import BudgetError
+from tumato_symbolic.verify.unrealizability import no_plan
 
 # conflict: states and cuts; for each class of goals, 0 at the goal and no drop; options of each state; no choice
 # no plan: the state; no other goal; first layer, no goal met, next layers
@@ -42,7 +42,7 @@ def test_claims_are_counted(spec: Spec, count: int, by_solver: bool) -> None:
     certificate = certificate_of(spec)
     found = verify_unrealizable(certificate, spec)
     assert (found.verdict, found.obligations) == ("proved", count)
-    assert (found.by_solver, found.by_walk) == (by_solver, False)
+    assert (found.by_solver, found.by_diagrams) == (by_solver, False)
     if by_solver:
         late = verify_unrealizable(certificate, spec, timeout=0.0)
         assert (late.verdict, late.obligations, late.by_solver) == ("undecided", 0, False)
@@ -63,7 +63,7 @@ def test_layers_that_the_walk_has_proved(monkeypatch: pytest.MonkeyPatch) -> Non
     certificate = certificate_of(spec)
     monkeypatch.setattr(no_plan, "MANY_NODES", -1)
     found = verify_unrealizable(certificate, spec)
-    assert (found.verdict, found.obligations, found.by_solver, found.by_walk) == ("proved", 5, True, True)
+    assert (found.verdict, found.obligations, found.by_solver, found.by_diagrams) == ("proved", 5, True, True)
     longer = verify_unrealizable(certificate, replace(spec, max_plan_length=3))
     assert (longer.verdict, longer.obligations, longer.state) == ("refuted", 0, (2,))
     assert longer.reason is not None

@@ -32,9 +32,9 @@ from tumato_symbolic.spec import And, Not, Ordering, Spec
 from tumato_symbolic.verify.by_z3 import outcomes
 from tumato_symbolic.verify.by_z3.choice import Choice
 from tumato_symbolic.verify.by_z3.encoding import Place, formula_term, safe_term, successor_place, valid_term
-from tumato_symbolic.verify.by_z3.frame import Frame
 from tumato_symbolic.verify.by_z3.goal_terms import GoalTerms, reached_term
 from tumato_symbolic.verify.by_z3.outcomes import UnsafeOutcome, objections_to
+from tumato_symbolic.verify.by_z3.policy_problem import PolicyProblem
 from tumato_symbolic.verify.by_z3.solver import Solver, UndecidedError
 from tumato_symbolic.verify.by_z3.step_counts import StepCounts
 from tumato_symbolic.verify.by_z3.terms import (
@@ -48,7 +48,7 @@ from tumato_symbolic.verify.by_z3.terms import (
     negation,
     same,
 )
-from tumato_symbolic.verify.no_policy.allowed_step import is_state
+from tumato_symbolic.verify.unrealizability.allowed_step import is_state
 
 GENERATED = [random_spec(seed, ALL_PROFILES[profile]) for profile in ALL_PROFILES for seed in (3000, 3001)]
 
@@ -371,11 +371,11 @@ def test_the_bits_of_a_state() -> None:
     """The literals of a state hold there and nowhere else, the most significant bits of the first variable first."""
     build = Build({"x": "abcdefg", "y": "ab", "z": "abc"})
     spec = build.spec()
-    frame = Frame(spec, as_diagram(policy_from_rows(spec, {})), Budget())
+    problem = PolicyProblem(spec, as_diagram(policy_from_rows(spec, {})), Budget())
     for state in literal.states(spec):
-        with frame.solver.scope(*frame.literals(state)):
-            assert frame.solver.ask(is_state(frame.state, state)) == "sat"
-            assert frame.solver.ask(negation(is_state(frame.state, state))) == "unsat"
-    model = frame.first_model("nothing", formula_term(build.atom("y=b"), frame.state))
-    assert frame.state.read(model) == (0, 1, 0)
-    assert frame.first_model("nothing", frame.defined) is None
+        with problem.solver.scope(*problem.literals(state)):
+            assert problem.solver.ask(is_state(problem.state, state)) == "sat"
+            assert problem.solver.ask(negation(is_state(problem.state, state))) == "unsat"
+    model = problem.first_model("nothing", formula_term(build.atom("y=b"), problem.state))
+    assert problem.state.read(model) == (0, 1, 0)
+    assert problem.first_model("nothing", problem.defined) is None

@@ -15,8 +15,8 @@ from tumato_symbolic.policy import policy_from_rows
 from tumato_symbolic.semantics import ActionSet, State, all_states, better_sets, duration, judge
 from tumato_symbolic.spec import Not, Or, Ordering, Spec
 from tumato_symbolic.verify import PropertyResult, Refutation, Verification, verify
-from tumato_symbolic.verify.by_walk.prover import WalkProver
-from tumato_symbolic.verify.by_walk.walk import FALSE, TRUE, BudgetError, Walk
+from tumato_symbolic.verify.by_diagrams.prover import WalkProver
+from tumato_symbolic.verify.by_diagrams.walk import FALSE, TRUE, BudgetError, Walk
 
 Rows = dict[State, ActionSet]
 SIZES = (2, 3, 1, 4)
@@ -131,7 +131,7 @@ def test_the_walk_judges_as_the_explicit_meaning_does(
     cases: int, profile: str, ordering: Ordering, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Every verdict is the judge's; the witness is the first state that fails, and the best set."""
-    monkeypatch.setattr(import_module("tumato_symbolic.verify.by_walk.model"), "MOST_CASES", cases)
+    monkeypatch.setattr(import_module("tumato_symbolic.verify.by_diagrams.model"), "MOST_CASES", cases)
     met = set()
     for seed in range(300, 308):
         spec, random = random_spec(seed, ALL_PROFILES[profile]), Random(seed)

@@ -10,17 +10,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 from tumato_symbolic.cli.exits import NO, UNDECIDED, USAGE, YES
-from tumato_symbolic.cli.judging import Criteria, exit_code, judge
 from tumato_symbolic.cli.matching import Specifications
+from tumato_symbolic.cli.verifying import Criteria, exit_code, verify_claim
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.limits import NO_LIMITS, Context, LimitReachedError
 from tumato_symbolic.limits.processes import can_fork
 from tumato_symbolic.policy.claim import load_claim
 from tumato_symbolic.report.folder import Entry, Folder
-from tumato_symbolic.verify.children import Lost, in_children
+from tumato_symbolic.verify.workers import Lost, in_workers
 
 if TYPE_CHECKING:
-    from tumato_symbolic.cli.judging import Judged
+    from tumato_symbolic.cli.verifying import Judged
 
 SUFFIXES = (".policy.json", ".unrealizable.json")
 """How the names of files end that are verified by folder."""
@@ -31,7 +31,7 @@ FEWEST_BYTES = 100_000
 _WORST_FIRST = (USAGE, NO, UNDECIDED, YES)
 
 
-def judge_folder(
+def verify_folder(
     name: str, specs: Specifications, criteria: Criteria, context: Context, *, jobs: int, require_all: bool
 ) -> Folder:
     """Every file of a folder; with `require_all`, the specifications as well that have none.
@@ -112,7 +112,7 @@ def _entries(
         learn(found)
 
     context.tell(f"verifying {len(paths)} files")
-    in_children([partial(_part, part, specs, criteria, context) for part in parts], jobs, heard)
+    in_workers([partial(_part, part, specs, criteria, context) for part in parts], jobs, heard)
     return found
 
 
@@ -153,7 +153,7 @@ def _entry(path: Path, specs: Specifications, criteria: Criteria, context: Conte
     try:
         claim = load_claim(str(path))
         return Entry(
-            str(path), judge(claim, str(path), str(specs.of(path, claim.digest)), criteria, context, jobs=jobs)
+            str(path), verify_claim(claim, str(path), str(specs.of(path, claim.digest)), criteria, context, jobs=jobs)
         )
     except UserError as error:
         return Entry(str(path), error=error)

@@ -15,7 +15,7 @@ from tumato_symbolic.limits import Context
 from tumato_symbolic.policy import dumps
 from tumato_symbolic.policy.saving import save_text
 from tumato_symbolic.report.synthesized import Synthesized
-from tumato_symbolic.synthesis import Outcome, Realizable, Undecided, Unrealizable, synthesize
+from tumato_symbolic.synthesis import Realizable, SynthesisResult, Undecided, Unrealizable, synthesize
 
 if TYPE_CHECKING:
     from tumato_symbolic.policy.unrealizable import Unrealizability
@@ -29,7 +29,7 @@ def solve(so_far: Synthesized, ordering: Ordering | None, policy_format: PolicyF
     """The outcome of synthesis."""
     started, warnings = time.perf_counter(), so_far.warnings
 
-    def having(outcome: Outcome) -> Synthesized:
+    def having(outcome: SynthesisResult) -> Synthesized:
         took = time.perf_counter() - started
         return replace(so_far, outcome=outcome, warnings=(*warnings, *outcome.warnings), solved_in=took)
 
@@ -38,7 +38,7 @@ def solve(so_far: Synthesized, ordering: Ordering | None, policy_format: PolicyF
             so_far.spec,
             ordering,
             policy_format=policy_format,
-            context=context.within(learned=lambda outcome: context.learn(having(cast("Outcome", outcome)))),
+            context=context.within(learned=lambda outcome: context.learn(having(cast("SynthesisResult", outcome)))),
         )
     )
 
@@ -66,7 +66,7 @@ def _without_policy(done: Synthesized) -> Synthesized:
 def _prove_policy(
     so_far: Synthesized, outcome: Realizable, prover: ProverName, jobs: int | None, context: Context
 ) -> Synthesized:
-    from tumato_symbolic.cli.judging import wanted_jobs
+    from tumato_symbolic.cli.verifying import wanted_jobs
     from tumato_symbolic.verify import verify
 
     started = time.perf_counter()
@@ -94,7 +94,7 @@ def _prove_certificate(so_far: Synthesized, certificate: Unrealizability, contex
     found = verify_unrealizable(certificate, so_far.spec, ordering=certificate.ordering, context=context.within())
     if found.verdict == "refuted":
         raise AssertionError(f"the certificate that there is no policy is refuted: {found}")
-    return replace(so_far, disproof=found, proved_in=time.perf_counter() - started)
+    return replace(so_far, unrealizability=found, proved_in=time.perf_counter() - started)
 
 
 def write_answer(so_far: Synthesized, context: Context) -> Synthesized:

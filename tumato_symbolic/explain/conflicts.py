@@ -5,42 +5,42 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from tumato_symbolic.explain.conditions import Conditions
+from tumato_symbolic.explain.demands import Demands
 from tumato_symbolic.explain.elements import Elements, keep_only
+from tumato_symbolic.explain.failing_states import build_kept_problem
 from tumato_symbolic.explain.minimize import minimal
-from tumato_symbolic.explain.plans import build_kept_problem
 from tumato_symbolic.explain.trial import trial
-from tumato_symbolic.game import Judge, Problem, distances, shortest_decisions, winning
+from tumato_symbolic.game import Evaluator, Problem, distances, shortest_decisions, winning
 from tumato_symbolic.semantics import State
 from tumato_symbolic.symbolic import Bdd, preferred, regions
 from tumato_symbolic.synthesis import Unrealizable
-from tumato_symbolic.synthesis.repair import Impossible, Repair, RoundsExhaustedError
+from tumato_symbolic.synthesis.repair import Repair, RepairConflict, RoundsExhaustedError
 
 
-def conflict_core(conditions: Conditions, states: Sequence[State], among: Elements) -> Elements:
+def conflict_core(demands: Demands, states: Sequence[State], among: Elements) -> Elements:
     """A set of elements, out of some that suffice, because of which nothing serves the states together.
 
     It is minimal, but for elements of which it cannot be found out in time whether they are needed. Where dropping
     assumptions makes more states valid, a run may end in those without an allowed set, but not go on.
     """
-    wanted = conditions.manager.union(map(conditions.encoding.state_cube, states))
-    items = [each for each in conditions.elements if each in among]
-    return minimal(items, lambda kept: conflicting(conditions, wanted, kept))
+    wanted = demands.manager.union(map(demands.encoding.state_cube, states))
+    items = [each for each in demands.elements if each in among]
+    return minimal(items, lambda kept: conflicting(demands, wanted, kept))
 
 
-def conflicting(conditions: Conditions, wanted: Bdd, kept: Elements) -> bool:
+def conflicting(demands: Demands, wanted: Bdd, kept: Elements) -> bool:
     """Whether it is shown that no policy serves these states when only some elements are kept."""
-    if conditions.spec.restores_stepwise:
-        return isinstance(trial(conditions, keep_only(conditions.spec, kept)), Unrealizable)
-    valid = conditions.steps(kept).valid
-    problem = build_kept_problem(conditions, kept, regions(conditions.encoding, valid))
+    if demands.spec.restores_stepwise:
+        return isinstance(trial(demands, keep_only(demands.spec, kept)), Unrealizable)
+    valid = demands.steps(kept).valid
+    problem = build_kept_problem(demands, kept, regions(demands.encoding, valid))
     problem = replace(problem, steps=replace(problem.steps, valid=wanted))
     ranks = distances(problem)
-    if (wanted & ~winning(problem, ranks, problem.steps.allowed)) != conditions.false:
+    if (wanted & ~winning(problem, ranks, problem.steps.allowed)) != demands.false:
         return True
     policy = shortest_decisions(problem, ranks, problem.steps.safe, problem.steps.allowed)
     try:
-        return isinstance(Repair(Judge(problem), _completed(problem, policy), ranks).run(), Impossible)
+        return isinstance(Repair(Evaluator(problem), _completed(problem, policy), ranks).run(), RepairConflict)
     except RoundsExhaustedError:
         return False
 

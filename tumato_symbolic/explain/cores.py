@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from tumato_symbolic.explain.conditions import Conditions
 from tumato_symbolic.explain.cubes import disjoint_cubes, set_of
+from tumato_symbolic.explain.demands import Demands
 from tumato_symbolic.explain.elements import Element, Elements
+from tumato_symbolic.explain.failing_states import FailingStates
 from tumato_symbolic.explain.minimize import minimal
-from tumato_symbolic.explain.plans import Plans
 from tumato_symbolic.semantics import State
 from tumato_symbolic.symbolic import Bdd
 
@@ -36,15 +36,15 @@ class Failing:
     no_plan: Bdd
 
 
-def failing_states(plans: Plans) -> Failing:
+def failing_states(plans: FailingStates) -> Failing:
     """All states that fail (`docs/semantics.md`, section 7)."""
-    conditions = plans.conditions
-    stuck, lost = conditions.stuck(conditions.everything), plans.lost(conditions.everything)
-    no_plan = plans.failing(conditions.everything, conditions.valid & ~stuck & ~lost)
+    demands = plans.demands
+    stuck, lost = demands.stuck(demands.everything), plans.lost(demands.everything)
+    no_plan = plans.failing(demands.everything, demands.valid & ~stuck & ~lost)
     return Failing(stuck & ~lost, lost, no_plan)
 
 
-def causes(plans: Plans, states: Failing) -> Iterator[Cause]:
+def causes(plans: FailingStates, states: Failing) -> Iterator[Cause]:
     """The failing states by kind and core, in no order.
 
     A typical state gives a core, and the core gives all states that have it: as many rounds as there are cores.
@@ -62,14 +62,14 @@ class Question:
     failing: Callable[[Elements, Bdd], Bdd]
 
     @classmethod
-    def of(cls, plans: Plans, kind: FailingKind) -> Question:
+    def of(cls, plans: FailingStates, kind: FailingKind) -> Question:
         """The question about one way to fail."""
-        conditions = plans.conditions
+        demands = plans.demands
         match kind:
             case "no-allowed-set":
-                return cls(conditions.is_stuck, lambda kept, states: states & conditions.stuck(kept))
+                return cls(demands.is_stuck, lambda kept, states: states & demands.stuck(kept))
             case "no-restoration":
-                contains = conditions.encoding.contains
+                contains = demands.encoding.contains
                 return cls(
                     lambda state, kept: contains(plans.lost(kept), state),
                     lambda kept, states: states & plans.lost(kept),
@@ -78,29 +78,29 @@ class Question:
                 return cls(plans.fails, plans.failing)
 
 
-def _by_core(plans: Plans, kind: FailingKind, left: Bdd) -> Iterator[Cause]:
-    conditions, question = plans.conditions, Question.of(plans, kind)
-    while left != conditions.false:
-        example = typical_state(conditions, left)
-        core = core_of(plans, kind, example, conditions.everything)
+def _by_core(plans: FailingStates, kind: FailingKind, left: Bdd) -> Iterator[Cause]:
+    demands, question = plans.demands, Question.of(plans, kind)
+    while left != demands.false:
+        example = typical_state(demands, left)
+        core = core_of(plans, kind, example, demands.everything)
         alike = _having(core, left, question.failing)
         yield Cause(kind, alike, core, example)
         left = left & ~alike
 
 
-def _no_plan(plans: Plans, left: Bdd) -> Iterator[Cause]:
+def _no_plan(plans: FailingStates, left: Bdd) -> Iterator[Cause]:
     """What fails even with nothing kept, then what does with the assumptions alone, which no repair drops."""
-    conditions = plans.conditions
+    demands = plans.demands
     hopeless = plans.failing(frozenset(), left)
-    for region in conditions.regions.values():
+    for region in demands.regions.values():
         here = region & hopeless
-        if here != conditions.false:
-            yield Cause("no-plan", here, frozenset(), typical_state(conditions, here))
+        if here != demands.false:
+            yield Cause("no-plan", here, frozenset(), typical_state(demands, here))
     left = left & ~hopeless
-    assumptions = frozenset(each for each in conditions.elements if each.kind == "assumption")
-    for blamed in (assumptions, conditions.everything):
-        while (these := plans.failing(blamed, left)) != conditions.false:
-            example = typical_state(conditions, these)
+    assumptions = frozenset(each for each in demands.elements if each.kind == "assumption")
+    for blamed in (assumptions, demands.everything):
+        while (these := plans.failing(blamed, left)) != demands.false:
+            example = typical_state(demands, these)
             core = core_of(plans, "no-plan", example, blamed)
             alike = _having(core, left, plans.failing)
             yield Cause("no-plan", alike, core, example)
@@ -115,15 +115,15 @@ def _having(core: Elements, left: Bdd, fail: Callable[[Elements, Bdd], Bdd]) -> 
     return states
 
 
-def core_of(plans: Plans, kind: FailingKind, state: State, among: Elements) -> Elements:
+def core_of(plans: FailingStates, kind: FailingKind, state: State, among: Elements) -> Elements:
     """A minimal set of elements, out of some that suffice, because of which a state fails in one way."""
     question = Question.of(plans, kind)
-    items = [each for each in plans.conditions.elements if each in among]
+    items = [each for each in plans.demands.elements if each in among]
     return minimal(items, lambda kept: question.fails(state, kept))
 
 
 def more_cores(
-    conditions: Conditions, first: Elements, wanted: int, find: Callable[[Elements], Elements | None]
+    demands: Demands, first: Elements, wanted: int, find: Callable[[Elements], Elements | None]
 ) -> tuple[Elements, ...]:
     """Up to `wanted` cores, `first` among them: one element of a known core after another is dropped.
 
@@ -137,11 +137,11 @@ def more_cores(
         dropped = waiting.pop(0)
         core = next((core for core in found if not core & dropped), None)
         if core is None:
-            core = find(conditions.everything - dropped)
+            core = find(demands.everything - dropped)
             if core is None:
                 continue
             found.append(core)
-        for element in sorted(core, key=conditions.elements.index):
+        for element in sorted(core, key=demands.elements.index):
             following = dropped | {element}
             if following not in seen:
                 seen.add(following)
@@ -149,7 +149,7 @@ def more_cores(
     return tuple(found)
 
 
-def core_finder(plans: Plans, cause: Cause) -> Callable[[Elements], Elements | None]:
+def core_finder(plans: FailingStates, cause: Cause) -> Callable[[Elements], Elements | None]:
     """A core of a cause's example among some elements, None where these do not suffice."""
     question, example = Question.of(plans, cause.kind), cause.example
 
@@ -159,13 +159,13 @@ def core_finder(plans: Plans, cause: Cause) -> Callable[[Elements], Elements | N
     return find
 
 
-def typical_state(conditions: Conditions, states: Bdd) -> State:
+def typical_state(demands: Demands, states: Bdd) -> State:
     """A state of the largest cube of a set, preferably one like most others: the first one there."""
-    encoding = conditions.encoding
-    cover = disjoint_cubes(encoding, states, encoding.domain() & ~conditions.valid, 1)
+    encoding = demands.encoding
+    cover = disjoint_cubes(encoding, states, encoding.domain() & ~demands.valid, 1)
     return encoding.first_state(states & set_of(encoding, cover.cubes[0]))
 
 
-def element_list(conditions: Conditions, core: Elements) -> tuple[Element, ...]:
+def element_list(demands: Demands, core: Elements) -> tuple[Element, ...]:
     """A core in the order of the specification's elements."""
-    return tuple(each for each in conditions.elements if each in core)
+    return tuple(each for each in demands.elements if each in core)

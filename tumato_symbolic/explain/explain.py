@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Final, TypeAlias
 
-from tumato_symbolic.explain.conditions import Conditions
+from tumato_symbolic.explain.demands import Demands
 from tumato_symbolic.explain.explanation import (
     STAGES,
     Explanation,
@@ -95,11 +95,11 @@ def explained(
     yield known
     try:
         context.tell("encoding what every line demands")
-        conditions = Conditions(spec, ordering, backend, context)
+        demands = Demands(spec, ordering, backend, context)
     except LimitReachedError as limit:
         yield stopped(known, str(limit))
         return
-    work = Work(conditions, context, outcome, max_cubes, cores, wanted_repairs)
+    work = Work(demands, context, outcome, max_cubes, cores, wanted_repairs)
     for stage in STAGES:
         for more in _within_its_share(work, known, stage):
             known = more
@@ -150,12 +150,12 @@ def _states(work: Work, found: Explanation) -> Iterator[Explanation]:
 
 def _part(work: Work, found: Explanation) -> Iterator[Explanation]:
     """The largest realizable part."""
-    conditions = work.conditions
+    demands = work.demands
     work.context.tell("looking for the largest realizable part")
-    part = largest_part(conditions)
+    part = largest_part(demands)
     if part is not None:
-        given_up = work.count(conditions.valid) - part.count
-        text = predicate_text(conditions.spec, part.formula)
+        given_up = work.count(demands.valid) - part.count
+        text = predicate_text(demands.spec, part.formula)
         known = RealizablePart(part.count, given_up, part.formula, text, part.unique, part.largest)
         yield replace(found, part=known)
 
@@ -166,7 +166,7 @@ def _near(work: Work, found: Explanation) -> Iterator[Explanation]:
     stuck = [number for number, reason in enumerate(reasons) if reason.kind == "no-allowed-set"]
     for place, number in enumerate(stuck):
         work.context.tell(f"looking for what comes near: reason {place + 1} of {len(stuck)}")
-        work.conditions.manager.context.check()
+        work.demands.manager.context.check()
         nearest = near_misses(found.spec, reasons[number].example, found.ordering, NEAR_MISSES)
         passed_over += nearest.passed_over
         reasons[number] = replace(reasons[number], near=nearest.misses)

@@ -11,7 +11,7 @@ from tumato_symbolic.explain.near_misses import NearMiss
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Formula, Ordering, Spec
 from tumato_symbolic.synthesis.diagnosis import Restorability
-from tumato_symbolic.synthesis.outcome import FailureKind, Statistics
+from tumato_symbolic.synthesis.result import FailureKind, Statistics
 
 
 @dataclass(frozen=True, slots=True)

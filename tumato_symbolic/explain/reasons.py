@@ -9,7 +9,7 @@ from tumato_symbolic.explain.conflicts import conflict_core, conflicting
 from tumato_symbolic.explain.cores import Cause, causes, core_finder, element_list, more_cores
 from tumato_symbolic.explain.elements import Element, Elements
 from tumato_symbolic.explain.explanation import Explanation, Reason
-from tumato_symbolic.explain.plans import shortest_plan
+from tumato_symbolic.explain.failing_states import shortest_plan
 from tumato_symbolic.explain.unmet_goals import own_goals
 from tumato_symbolic.explain.work import Work
 
@@ -41,8 +41,8 @@ def _tell(work: Work, found: Explanation) -> None:
 
 
 def _reason(work: Work, cause: Cause, limit: int) -> Reason:
-    conditions, example = work.conditions, cause.example
-    shown = more_cores(conditions, cause.core, work.cores, core_finder(work.plans, cause))
+    demands, example = work.demands, cause.example
+    shown = more_cores(demands, cause.core, work.cores, core_finder(work.plans, cause))
     bounded = Element("plan-bound") in cause.core
     cover = work.cubes(cause.states, limit)
     return Reason(
@@ -51,24 +51,24 @@ def _reason(work: Work, cause: Cause, limit: int) -> Reason:
         cover.cubes,
         work.count(cover.rest),
         example,
-        tuple(element_list(conditions, core) for core in shown),
-        () if cause.kind != "no-plan" else own_goals(conditions, example),
-        shortest_plan=shortest_plan(conditions, conditions.encoding.state_cube(example)) if bounded else None,
+        tuple(element_list(demands, core) for core in shown),
+        () if cause.kind != "no-plan" else own_goals(demands, example),
+        shortest_plan=shortest_plan(demands, demands.encoding.state_cube(example)) if bounded else None,
     )
 
 
 def _conflict(work: Work, found: Explanation) -> Reason:
     group = found.groups[0]
-    cores = tuple(element_list(work.conditions, core) for core in _conflict_cores(work))
+    cores = tuple(element_list(work.demands, core) for core in _conflict_cores(work))
     return Reason(group.kind, group.count, group.cubes, group.omitted, group.example, cores, together=group.together)
 
 
 def _conflict_cores(work: Work) -> tuple[Elements, ...]:
-    conditions, states = work.conditions, work.states_of("conflict")
+    demands, states = work.demands, work.states_of("conflict")
     together = work.outcome.failures[0].states
 
     def find(among: Elements) -> Elements | None:
-        return conflict_core(conditions, together, among) if conflicting(conditions, states, among) else None
+        return conflict_core(demands, together, among) if conflicting(demands, states, among) else None
 
-    first = conflict_core(conditions, together, conditions.everything)
-    return more_cores(conditions, first, work.cores, find)
+    first = conflict_core(demands, together, demands.everything)
+    return more_cores(demands, first, work.cores, find)

@@ -6,12 +6,12 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import Literal, TypeAlias
 
-from tumato_symbolic.explain.conditions import Conditions
 from tumato_symbolic.explain.conflicts import conflict_core
 from tumato_symbolic.explain.cores import core_of, element_list, typical_state
+from tumato_symbolic.explain.demands import Demands
 from tumato_symbolic.explain.elements import Element, ElementKind, Elements, without
 from tumato_symbolic.explain.explanation import Change, Explanation, Repair
-from tumato_symbolic.explain.plans import Plans
+from tumato_symbolic.explain.failing_states import FailingStates
 from tumato_symbolic.explain.trial import trial
 from tumato_symbolic.explain.weaken import weakening
 from tumato_symbolic.explain.work import Work
@@ -45,9 +45,9 @@ def repairs_found(work: Work, found: Explanation) -> Iterator[Explanation]:
     A repair hits every core. Smallest sets that hit all known cores are tried; one that does not do shows a new core.
     Single elements, and the first repair where it is small, are weakened as well.
     """
-    conditions, wanted = work.conditions, work.wanted_repairs
+    demands, wanted = work.demands, work.wanted_repairs
     work.context.tell("repairs: finding out whether there is one")
-    hopeless = _hopeless(conditions)
+    hopeless = _hopeless(demands)
     if hopeless is not None or wanted < 1:
         yield replace(found, hopeless=hopeless, repairs_complete=hopeless is not None)
         return
@@ -58,11 +58,11 @@ def repairs_found(work: Work, found: Explanation) -> Iterator[Explanation]:
         if dropped is None:
             yield replace(found, repairs_complete=search.complete)
             return
-        elements = element_list(conditions, dropped)
+        elements = element_list(demands, dropped)
         found = replace(found, repairs=(*found.repairs, Repair(tuple(Change(each, None) for each in elements))))
         yield found
         worth_it = len(dropped) <= (MOST_WEAKENED if number == 0 else 1)
-        weaker = weakening(conditions, dropped) if worth_it else None
+        weaker = weakening(demands, dropped) if worth_it else None
         if weaker is not None:
             texts: dict[Element, str | None] = {edit.element: edit.text for edit in weaker.edits}
             changes = tuple(Change(each, texts.get(each)) for each in elements)
@@ -75,8 +75,8 @@ def _droppable(elements: Iterable[Element]) -> list[Element]:
     return [each for each in elements if each.kind != "assumption"]
 
 
-def _hopeless(conditions: Conditions) -> Hopeless | None:
-    outcome = trial(conditions, without(conditions.spec, _droppable(conditions.elements)))
+def _hopeless(demands: Demands) -> Hopeless | None:
+    outcome = trial(demands, without(demands.spec, _droppable(demands.elements)))
     if isinstance(outcome, Realizable):
         return None
     conflicts = not isinstance(outcome, Unrealizable) or outcome.failures[0].kind == "conflict"
@@ -86,12 +86,12 @@ def _hopeless(conditions: Conditions) -> Hopeless | None:
 class _Search:
     """Implicit hitting sets: candidates, and the cores that they miss."""
 
-    def __init__(self, plans: Plans, cores: Iterable[Elements]) -> None:
+    def __init__(self, plans: FailingStates, cores: Iterable[Elements]) -> None:
         self._plans = plans
-        conditions = plans.conditions
-        self._numbers = {element: number for number, element in enumerate(_droppable(conditions.elements))}
+        demands = plans.demands
+        self._numbers = {element: number for number, element in enumerate(_droppable(demands.elements))}
         penalties = [_PENALTIES[element.kind] for element in self._numbers]
-        self._hitting = HittingSets(penalties, conditions.manager.context.seconds_left)
+        self._hitting = HittingSets(penalties, demands.manager.context.seconds_left)
         self._rounds = ROUNDS
         self.complete = False
         """Whether there are no other repairs than those that were found."""
@@ -103,7 +103,7 @@ class _Search:
         elements = list(self._numbers)
         while self._rounds:
             self._rounds -= 1
-            self._plans.conditions.manager.context.check()
+            self._plans.demands.manager.context.check()
             candidate = self._hitting.smallest()
             if candidate is None:
                 self.complete = True
@@ -121,17 +121,17 @@ class _Search:
 
     def _missed_core(self, dropped: Elements) -> Elements | None:
         """A core without any dropped element; None where the specification without them is realizable."""
-        conditions = self._plans.conditions
-        kept = conditions.everything - dropped
-        stuck = conditions.stuck(kept)
-        if stuck != conditions.false:
-            return core_of(self._plans, "no-allowed-set", typical_state(conditions, stuck), kept)
-        helpless = self._plans.failing(kept, conditions.valid)
-        if helpless != conditions.false:
-            return core_of(self._plans, "no-plan", typical_state(conditions, helpless), kept)
-        outcome = trial(conditions, without(conditions.spec, dropped))
+        demands = self._plans.demands
+        kept = demands.everything - dropped
+        stuck = demands.stuck(kept)
+        if stuck != demands.false:
+            return core_of(self._plans, "no-allowed-set", typical_state(demands, stuck), kept)
+        helpless = self._plans.failing(kept, demands.valid)
+        if helpless != demands.false:
+            return core_of(self._plans, "no-plan", typical_state(demands, helpless), kept)
+        outcome = trial(demands, without(demands.spec, dropped))
         if isinstance(outcome, Realizable):
             return None
         if isinstance(outcome, Unrealizable):
-            return conflict_core(conditions, outcome.failures[0].states, kept)
+            return conflict_core(demands, outcome.failures[0].states, kept)
         return kept  # whatever is kept is to blame: the next candidate has to drop more

@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-from tumato_symbolic.explain.conditions import Conditions
+from tumato_symbolic.explain.demands import Demands
 from tumato_symbolic.limits import Context, Limits
 from tumato_symbolic.spec import Spec
-from tumato_symbolic.synthesis import Outcome, Realizable, synthesize
+from tumato_symbolic.synthesis import Realizable, SynthesisResult, synthesize
 
 
-def trial(conditions: Conditions, spec: Spec) -> Outcome:
+def trial(demands: Demands, spec: Spec) -> SynthesisResult:
     """The outcome of synthesis. Raises `LimitReachedError` when the time of the stage that asks is up."""
-    context = conditions.manager.context
+    context = demands.manager.context
     left = Context(Limits(context.seconds_left(), context.limits.megabytes))
     outcome = synthesize(
-        spec, conditions.ordering, backend=conditions.manager.backend, context=left, certify=False, diagnose=False
+        spec, demands.ordering, backend=demands.manager.backend, context=left, certify=False, diagnose=False
     )
     context.check()
     return outcome
 
 
-def is_realizable(conditions: Conditions, spec: Spec) -> bool:
+def is_realizable(demands: Demands, spec: Spec) -> bool:
     """Whether synthesis finds a policy."""
-    return isinstance(trial(conditions, spec), Realizable)
+    return isinstance(trial(demands, spec), Realizable)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from tumato_symbolic.explain.conditions import Conditions
+from tumato_symbolic.explain.demands import Demands
 from tumato_symbolic.explain.explanation import OwnGoal
 from tumato_symbolic.explain.minimize import minimal
 from tumato_symbolic.explain.predicates import conjunction
@@ -15,26 +15,26 @@ from tumato_symbolic.spec import And, Formula, Not, Or, Rule
 from tumato_symbolic.symbolic import targets
 
 
-def own_goals(conditions: Conditions, state: State) -> tuple[OwnGoal, ...]:
+def own_goals(demands: Demands, state: State) -> tuple[OwnGoal, ...]:
     """The active goals of a state, each with the parts that no run of nominal effects makes true."""
-    bodies = sorted(active_goals(conditions.spec, state))
-    never = {body: tuple(_never(conditions, state, body)) for body in bodies}
+    bodies = sorted(active_goals(demands.spec, state))
+    never = {body: tuple(_never(demands, state, body)) for body in bodies}
     clash = frozenset[int]()
-    if not any(never.values()) and not _together(conditions, state, frozenset(bodies)):
-        clash = minimal(bodies, lambda some: not _together(conditions, state, some))
+    if not any(never.values()) and not _together(demands, state, frozenset(bodies)):
+        clash = minimal(bodies, lambda some: not _together(demands, state, some))
     return tuple(OwnGoal(body, never[body], body in clash) for body in bodies)
 
 
-def _together(conditions: Conditions, state: State, bodies: frozenset[int]) -> bool:
+def _together(demands: Demands, state: State, bodies: frozenset[int]) -> bool:
     """Whether some run meets these goals at once."""
-    rules = [conditions.spec.bodies[body] for body in sorted(bodies)]
+    rules = [demands.spec.bodies[body] for body in sorted(bodies)]
     whole = conjunction([rule.formula for rule in rules])
-    return not rules or _can_be_met(conditions, state, rules[0], whole)
+    return not rules or _can_be_met(demands, state, rules[0], whole)
 
 
-def _never(conditions: Conditions, state: State, body: int) -> Iterator[Formula]:
-    rule = conditions.spec.bodies[body]
-    return (part for part in _conjuncts(rule.formula) if not _can_be_met(conditions, state, rule, part))
+def _never(demands: Demands, state: State, body: int) -> Iterator[Formula]:
+    rule = demands.spec.bodies[body]
+    return (part for part in _conjuncts(rule.formula) if not _can_be_met(demands, state, rule, part))
 
 
 def _conjuncts(formula: Formula) -> Iterator[Formula]:
@@ -52,10 +52,10 @@ def _conjuncts(formula: Formula) -> Iterator[Formula]:
             yield formula
 
 
-def _can_be_met(conditions: Conditions, state: State, rule: Rule, part: Formula) -> bool:
+def _can_be_met(demands: Demands, state: State, rule: Rule, part: Formula) -> bool:
     """Whether some run from a state meets one part of a goal, with every element dropped."""
-    spec = replace(conditions.encoding.spec, bodies=(replace(rule, formula=part),), max_plan_length=None)
-    steps = replace(conditions.steps(frozenset()), encoding=replace(conditions.encoding, spec=spec))
-    region = {frozenset((0,)): conditions.encoding.state_cube(state)}
+    spec = replace(demands.encoding.spec, bodies=(replace(rule, formula=part),), max_plan_length=None)
+    steps = replace(demands.steps(frozenset()), encoding=replace(demands.encoding, spec=spec))
+    region = {frozenset((0,)): demands.encoding.state_cube(state)}
     problem = Problem(spec, steps, region, tuple(targets(steps, region)))
-    return winning(problem, distances(problem), steps.allowed) != conditions.false
+    return winning(problem, distances(problem), steps.allowed) != demands.false

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from tumato_symbolic.semantics import (
     AT_ONCE,
     ActionSet,
+    EffectSequence,
     Effort,
-    Outcome,
     Quality,
     Restorations,
     State,
@@ -32,7 +32,7 @@ class RestoringStep:
     """One step on the way: what is executed, the effects that take place (None: all nominal ones), where they lead."""
 
     chosen: ActionSet
-    outcome: Outcome | None
+    outcome: EffectSequence | None
     after: State
 
 

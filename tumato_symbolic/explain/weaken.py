@@ -6,10 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
-from tumato_symbolic.explain.conditions import Conditions
 from tumato_symbolic.explain.cubes import StateCube
+from tumato_symbolic.explain.demands import Demands
 from tumato_symbolic.explain.elements import Element, Elements, rule_of, without
-from tumato_symbolic.explain.plans import failing
+from tumato_symbolic.explain.failing_states import failing
 from tumato_symbolic.explain.predicates import cube_formula, predicate_text
 from tumato_symbolic.explain.trial import is_realizable, trial
 from tumato_symbolic.semantics import count_states
@@ -22,7 +22,7 @@ TRIES = 400
 MOST_STATES = 10_000
 """In larger specifications no exceptions are looked for that settle conflicts of goals."""
 
-_Test: TypeAlias = Callable[[Conditions, Elements], bool]
+_Test: TypeAlias = Callable[[Demands, Elements], bool]
 """Whether the specification that is left when some elements are dropped will do."""
 
 
@@ -43,58 +43,56 @@ class Weakening:
     spec: Spec
 
 
-def weakening(conditions: Conditions, repair: Elements) -> Weakening | None:
+def weakening(demands: Demands, repair: Elements) -> Weakening | None:
     """A repair in which as much as possible is changed rather than dropped; None where nothing can be.
 
     A rule or a precondition gets the exception `OR c` for one cube `c`, which is as small as can be: with one value of
     one variable less it would not do. The plan bound is raised as little as possible. Verified by synthesis.
     """
     for suffices in (_no_state_fails, _is_realizable):
-        found = _weakened(conditions, repair, suffices)
-        if found is None or is_realizable(conditions, found.spec):
+        found = _weakened(demands, repair, suffices)
+        if found is None or is_realizable(demands, found.spec):
             return found
     return None
 
 
-def _weakened(conditions: Conditions, repair: Elements, suffices: _Test) -> Weakening | None:
+def _weakened(demands: Demands, repair: Elements, suffices: _Test) -> Weakening | None:
     """A weakening that passes a test, None where nothing can be changed."""
     edits: list[Edit] = []
     dropped = repair
-    for element in [each for each in conditions.elements if each in repair]:
+    for element in [each for each in demands.elements if each in repair]:
         others = dropped - {element}
         found = (
-            _raised(conditions, element, others)
+            _raised(demands, element, others)
             if element.kind == "plan-bound"
-            else _excepted(conditions, element, others, suffices)
+            else _excepted(demands, element, others, suffices)
         )
         if found is not None:
-            conditions, edit = found
+            demands, edit = found
             edits.append(edit)
             dropped = others
-    return Weakening(tuple(edits), dropped, without(conditions.spec, dropped)) if edits else None
+    return Weakening(tuple(edits), dropped, without(demands.spec, dropped)) if edits else None
 
 
-def _raised(conditions: Conditions, bound: Element, others: Elements) -> tuple[Conditions, Edit] | None:
+def _raised(demands: Demands, bound: Element, others: Elements) -> tuple[Demands, Edit] | None:
     """The smallest bound that suffices: realizability is monotone in it."""
-    base = without(conditions.spec, others)
-    outcome = trial(conditions, without(conditions.spec, others | {bound}))
+    base = without(demands.spec, others)
+    outcome = trial(demands, without(demands.spec, others | {bound}))
     if not isinstance(outcome, Realizable) or base.max_plan_length is None:
         return None
     too_small, enough = base.max_plan_length, outcome.statistics.longest_run or 1
     while enough - too_small > 1:
         middle = (too_small + enough) // 2
-        if is_realizable(conditions, replace(base, max_plan_length=middle)):
+        if is_realizable(demands, replace(base, max_plan_length=middle)):
             enough = middle
         else:
             too_small = middle
-    return conditions.bounded(enough), Edit(bound, f"max_plan_length: {enough}")
+    return demands.bounded(enough), Edit(bound, f"max_plan_length: {enough}")
 
 
-def _excepted(
-    conditions: Conditions, element: Element, others: Elements, suffices: _Test
-) -> tuple[Conditions, Edit] | None:
+def _excepted(demands: Demands, element: Element, others: Elements, suffices: _Test) -> tuple[Demands, Edit] | None:
     """The rule with the smallest exception that this search finds; None where it must be dropped whole."""
-    spec, rule = conditions.spec, rule_of(conditions.spec, element)
+    spec, rule = demands.spec, rule_of(demands.spec, element)
     if rule is None:
         return None
     everything: StateCube = tuple(tuple(range(len(variable.values))) for variable in spec.variables)
@@ -106,23 +104,23 @@ def _excepted(
             tries += 1
             if tries > TRIES:
                 return None
-            if smaller and suffices(conditions.changed(element, _with_exception(spec, rule, candidate)), others):
+            if smaller and suffices(demands.changed(element, _with_exception(spec, rule, candidate)), others):
                 cube = candidate
     if cube == everything:
         return None
     wider = _with_exception(spec, rule, cube)
-    return conditions.changed(element, wider), Edit(element, wider.text)
+    return demands.changed(element, wider), Edit(element, wider.text)
 
 
-def _is_realizable(conditions: Conditions, dropped: Elements) -> bool:
+def _is_realizable(demands: Demands, dropped: Elements) -> bool:
     """The exact test, for where goals conflict; it is too slow for large specifications."""
-    return count_states(conditions.spec) <= MOST_STATES and is_realizable(conditions, without(conditions.spec, dropped))
+    return count_states(demands.spec) <= MOST_STATES and is_realizable(demands, without(demands.spec, dropped))
 
 
-def _no_state_fails(conditions: Conditions, dropped: Elements) -> bool:
-    kept = conditions.everything - dropped
-    stuck = conditions.stuck(kept)
-    return stuck == conditions.false and failing(conditions, kept, conditions.valid) == conditions.false
+def _no_state_fails(demands: Demands, dropped: Elements) -> bool:
+    kept = demands.everything - dropped
+    stuck = demands.stuck(kept)
+    return stuck == demands.false and failing(demands, kept, demands.valid) == demands.false
 
 
 def _with_exception(spec: Spec, rule: Rule, cube: StateCube) -> Rule:

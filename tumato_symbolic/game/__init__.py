@@ -1,6 +1,7 @@
 """The game that a policy plays: steps, targets, the fixpoints over them, and how well a policy does."""
 
 from tumato_symbolic.game.alone import Alone, alone, chances, way_of, winning_alone
+from tumato_symbolic.game.evaluation import Evaluation, Evaluator, in_time, winning
 from tumato_symbolic.game.fixpoints import (
     ClosedLoop,
     Layers,
@@ -11,7 +12,6 @@ from tumato_symbolic.game.fixpoints import (
     mixed,
     preimage,
 )
-from tumato_symbolic.game.judging import Evaluation, Judge, in_time, winning
 from tumato_symbolic.game.problem import Problem, build_problem
 from tumato_symbolic.game.restoration import Restoration, Restorer
 from tumato_symbolic.game.routing import own_region_policy, route, shortest_decisions
@@ -20,7 +20,7 @@ __all__ = [
     "Alone",
     "ClosedLoop",
     "Evaluation",
-    "Judge",
+    "Evaluator",
     "Layers",
     "Problem",
     "Restoration",

@@ -8,8 +8,8 @@ from itertools import islice
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.diagrams import Diagram, Leaf, Reference, rebuild
+from tumato_symbolic.policy.messages import MOST, show, way_out
 from tumato_symbolic.policy.policy import Policy
-from tumato_symbolic.policy.problems import MOST, show, way_out
 from tumato_symbolic.policy.records import (
     Certificate,
     DecisionDiagram,

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from tumato_symbolic.diagnostics import Source, UserError
+from tumato_symbolic.policy.json_shape import as_object, parse_json
 from tumato_symbolic.policy.policy import Policy
 from tumato_symbolic.policy.read import UNREALIZABLE, fields_of
-from tumato_symbolic.policy.shape import as_object, parse_json
 from tumato_symbolic.policy.text_input import read_text
 
 if TYPE_CHECKING:

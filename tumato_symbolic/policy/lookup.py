@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from tumato_symbolic.diagrams import Reference
-from tumato_symbolic.policy.problems import described
+from tumato_symbolic.policy.messages import described
 from tumato_symbolic.policy.records import DecisionDiagram, Table, Vocabulary
 from tumato_symbolic.policy.states import check_state
 

@@ -7,12 +7,12 @@ from typing import Any, NamedTuple
 from tumato_symbolic.diagnostics import Code, Source, UserError
 from tumato_symbolic.diagnostics.wording import listed
 from tumato_symbolic.diagrams import Diagram, Reference, rebuild
+from tumato_symbolic.policy.json_shape import as_list, as_names, as_object, as_text, as_whole, member, parse_json, wrong
+from tumato_symbolic.policy.messages import described, fault, show, way_out
 from tumato_symbolic.policy.objects import Row
-from tumato_symbolic.policy.problems import described, fault, show, way_out
 from tumato_symbolic.policy.read_diagrams import read_diagram
 from tumato_symbolic.policy.records import Certificate, DecisionDiagram, RankedGoal, Table, Vocabulary
 from tumato_symbolic.policy.restoring_file import read_restoring
-from tumato_symbolic.policy.shape import as_list, as_names, as_object, as_text, as_whole, member, parse_json, wrong
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import Ordering, Restoration
 

@@ -21,8 +21,8 @@ from tumato_symbolic.diagrams import (
 )
 from tumato_symbolic.limits import Context, LimitReachedError
 from tumato_symbolic.policy.convert import as_diagram
+from tumato_symbolic.policy.messages import fault
 from tumato_symbolic.policy.policy import Policy
-from tumato_symbolic.policy.problems import fault
 from tumato_symbolic.policy.records import DecisionDiagram, Vocabulary
 from tumato_symbolic.semantics import ActionSet
 

@@ -11,10 +11,10 @@ from typing import Any
 from tumato_symbolic.diagnostics import Source, UserError
 from tumato_symbolic.diagrams import rebuild
 from tumato_symbolic.policy.bind import Renumbering
+from tumato_symbolic.policy.json_shape import MAX_BYTES, as_object, parse_json, too_large
 from tumato_symbolic.policy.read import FORMAT_VERSION, UNREALIZABLE
 from tumato_symbolic.policy.records import RankedGoal, Vocabulary
 from tumato_symbolic.policy.saving import save_text
-from tumato_symbolic.policy.shape import MAX_BYTES, as_object, parse_json, too_large
 from tumato_symbolic.policy.text_input import read_text
 from tumato_symbolic.policy.unrealizable import (
     Choice,

@@ -8,7 +8,8 @@ from typing import Any, Literal, TypeVar
 from tumato_symbolic.diagnostics import Code
 from tumato_symbolic.diagnostics.wording import count
 from tumato_symbolic.diagrams import Diagram, Reference, rebuild
-from tumato_symbolic.policy.problems import fault, show, way_out
+from tumato_symbolic.policy.json_shape import as_list, as_names, as_object, as_text, as_whole, member, wrong
+from tumato_symbolic.policy.messages import fault, show, way_out
 from tumato_symbolic.policy.read import (
     UNREALIZABLE,
     check_version,
@@ -19,7 +20,6 @@ from tumato_symbolic.policy.read import (
 )
 from tumato_symbolic.policy.read_diagrams import read_diagram
 from tumato_symbolic.policy.records import RankedGoal, Vocabulary
-from tumato_symbolic.policy.shape import as_list, as_names, as_object, as_text, as_whole, member, wrong
 from tumato_symbolic.policy.unrealizable import (
     Choice,
     Conflict,

@@ -7,11 +7,11 @@ from json import dumps as _json
 
 from tumato_symbolic.diagrams import rebuild
 from tumato_symbolic.policy.convert import as_diagram
+from tumato_symbolic.policy.json_shape import MAX_BYTES, too_large
 from tumato_symbolic.policy.policy import Policy
 from tumato_symbolic.policy.read import FORMAT_VERSION
 from tumato_symbolic.policy.records import Certificate, DecisionDiagram, Table, Vocabulary
 from tumato_symbolic.policy.restoring_file import restoring_lines
-from tumato_symbolic.policy.shape import MAX_BYTES, too_large
 from tumato_symbolic.policy.write_diagrams import block, diagram_lines
 
 FRAMEWORK_VERSION = "0.0.0"

@@ -11,10 +11,10 @@ from tumato_symbolic.explain.explanation import Explanation, FailingGroup, Reaso
 from tumato_symbolic.explain.near_misses import NearMiss, applicable
 from tumato_symbolic.explain.predicates import predicate_text
 from tumato_symbolic.report.cubes import cube_text
+from tumato_symbolic.report.element_roles import KINDS, declared, role, where
 from tumato_symbolic.report.failures import FAILURE_CODES
 from tumato_symbolic.report.layout import count, enumeration
-from tumato_symbolic.report.reasons import Place, objection_text
-from tumato_symbolic.report.roles import KINDS, declared, role, where
+from tumato_symbolic.report.objections import Place, objection_text
 from tumato_symbolic.semantics import Objection
 from tumato_symbolic.spec import variables_of
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from tumato_symbolic.explain.decision import Decision, GoalNote, Other
 from tumato_symbolic.report.guaranteed import guarantee_json, guarantee_text, shortcoming_json, shortcoming_lines
 from tumato_symbolic.report.layout import count, enumeration
-from tumato_symbolic.report.reasons import Place, broken_here, objection_text, story
+from tumato_symbolic.report.objections import Place, broken_here, objection_text, story
 from tumato_symbolic.semantics import Quality, Run, State, action_names, level, named
 from tumato_symbolic.spec import Spec
 

@@ -9,10 +9,10 @@ from tumato_symbolic.diagnostics import Diagnostic, Source
 from tumato_symbolic.explain.explanation import STAGES, Explanation, Found, NothingToExplain, Unexplained
 from tumato_symbolic.report.blame import group_lines, near_pieces, reason_pieces
 from tumato_symbolic.report.layout import Paint, count
+from tumato_symbolic.report.objections import Place
+from tumato_symbolic.report.possible_changes import left_out_lines, part_lines, repair_pieces
 from tumato_symbolic.report.proof import ORDERINGS
-from tumato_symbolic.report.reasons import Place
 from tumato_symbolic.report.restorable import restorable_lines
-from tumato_symbolic.report.ways_out import left_out_lines, part_lines, repair_pieces
 from tumato_symbolic.semantics import count_states
 from tumato_symbolic.spec import Spec
 

@@ -20,13 +20,13 @@ from tumato_symbolic.explain.explanation import (
 from tumato_symbolic.explain.predicates import predicate_text
 from tumato_symbolic.report.blame import goal_sentences, headline, near_story
 from tumato_symbolic.report.cubes import cube_json, cube_text
+from tumato_symbolic.report.element_roles import role
 from tumato_symbolic.report.explained import Explained
 from tumato_symbolic.report.failures import FAILURE_CODES
 from tumato_symbolic.report.findings import finding_json, github_command, github_commands
 from tumato_symbolic.report.layout import count
+from tumato_symbolic.report.possible_changes import left_out_lines
 from tumato_symbolic.report.restorable import restorable_json
-from tumato_symbolic.report.roles import role
-from tumato_symbolic.report.ways_out import left_out_lines
 from tumato_symbolic.semantics import action_names, active_goals, named
 from tumato_symbolic.spec import Spec
 

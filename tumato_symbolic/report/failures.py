@@ -7,10 +7,10 @@ from typing import Final
 
 from tumato_symbolic.diagnostics import Code
 from tumato_symbolic.report.layout import count
-from tumato_symbolic.report.reasons import Place, broken_here, why_no_set
+from tumato_symbolic.report.objections import Place, broken_here, why_no_set
 from tumato_symbolic.semantics import named
 from tumato_symbolic.spec import Ordering, Spec
-from tumato_symbolic.synthesis.outcome import Failure, FailureKind
+from tumato_symbolic.synthesis.result import Failure, FailureKind
 
 FAILURE_CODES: Final[dict[FailureKind, Code]] = {
     "no-allowed-set": Code.TUM401,

@@ -11,7 +11,7 @@ from tumato_symbolic.report import unrealizable, verified
 from tumato_symbolic.report.findings import finding_json, github_command, github_commands
 from tumato_symbolic.report.layout import Paint, count, seconds
 from tumato_symbolic.report.proof import states_spoken_of
-from tumato_symbolic.report.unrealizable import Disproved
+from tumato_symbolic.report.unrealizable import VerifiedUnrealizable
 from tumato_symbolic.report.verified import Verified
 from tumato_symbolic.verify.result import Verdict
 
@@ -25,7 +25,7 @@ class Entry:
     """One file: its verification, or the error or limit for which there is none; or a specification without a file."""
 
     path: str
-    done: Verified | Disproved | None = None
+    done: Verified | VerifiedUnrealizable | None = None
     error: UserError | None = None
     missing: bool = False
     limit: str | None = None
@@ -73,8 +73,10 @@ def as_text(folder: Folder, colour: bool) -> str:
     return "\n".join(lines)
 
 
-def _text(done: Verified | Disproved, colour: bool) -> str:
-    return unrealizable.as_text(done, colour) if isinstance(done, Disproved) else verified.as_text(done, colour)
+def _text(done: Verified | VerifiedUnrealizable, colour: bool) -> str:
+    return (
+        unrealizable.as_text(done, colour) if isinstance(done, VerifiedUnrealizable) else verified.as_text(done, colour)
+    )
 
 
 def _words(entry: Entry, width: int, paint: Paint) -> str:
@@ -85,7 +87,7 @@ def _words(entry: Entry, width: int, paint: Paint) -> str:
             return f"{painted}  {_MISSING}"
         case None:
             return f"{painted}  {entry.limit}" if entry.limit else painted.rstrip()
-        case Disproved():
+        case VerifiedUnrealizable():
             stale = ", certificate stale" if entry.done.found.stale else ""
             return f"{painted}  {entry.done.source.name}, unrealizable: {entry.done.found.kind}{stale}"
         case Verified():
@@ -120,7 +122,7 @@ def _json(entry: Entry) -> dict[str, object]:
     match entry.done:
         case Verified():
             return {"file": entry.path, **verified.as_json(entry.done)}
-        case Disproved():
+        case VerifiedUnrealizable():
             return {"file": entry.path, **unrealizable.as_json(entry.done)}
     if entry.missing:
         return {"file": entry.path, "verdict": "missing", "accepted": False}
@@ -143,7 +145,7 @@ def as_github(folder: Folder) -> str:
         match entry.done:
             case Verified():
                 commands.append(verified.as_github(entry.done))
-            case Disproved():
+            case VerifiedUnrealizable():
                 commands.append(unrealizable.as_github(entry.done))
             case None if entry.missing:
                 commands.append(github_command("error", _MISSING, entry.path, None, "missing"))

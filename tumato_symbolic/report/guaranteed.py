@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from tumato_symbolic.report.cubes import cube_json, cube_text
 from tumato_symbolic.report.layout import Paint, count
-from tumato_symbolic.report.reasons import Place, outcome_json, story
+from tumato_symbolic.report.objections import Place, outcome_json, story
 from tumato_symbolic.semantics import Guarantee, Move, Shortcoming, State, action_names, named
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.verify.guarantees.result import Guarantees, Level

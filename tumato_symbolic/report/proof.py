@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Final
 
 from tumato_symbolic.report.layout import Paint, count, enumeration, every, seconds
-from tumato_symbolic.report.reasons import Place, broken_here, objection_text, outcome_json, story
+from tumato_symbolic.report.objections import Place, broken_here, objection_text, outcome_json, story
 from tumato_symbolic.semantics import Quality, Run, action_names, duration, named
 from tumato_symbolic.spec import Ordering, Restoration, Spec
 from tumato_symbolic.verify.result import PropertyName, PropertyResult, Refutation, Verification

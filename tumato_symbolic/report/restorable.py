@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from tumato_symbolic.report.layout import count, enumeration
-from tumato_symbolic.report.reasons import Place
+from tumato_symbolic.report.objections import Place
 from tumato_symbolic.semantics import named
 
 if TYPE_CHECKING:

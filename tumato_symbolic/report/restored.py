@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from tumato_symbolic.report.layout import count, enumeration
-from tumato_symbolic.synthesis.outcome import Statistics
+from tumato_symbolic.synthesis.result import Statistics
 
 
 def restored_text(statistics: Statistics) -> Iterator[str]:

@@ -10,13 +10,13 @@ from tumato_symbolic.policy import as_table, some_decided
 from tumato_symbolic.report.failures import FAILURE_CODES, failure_json, failure_line, failure_text
 from tumato_symbolic.report.findings import finding_json, github_command, github_commands
 from tumato_symbolic.report.layout import Paint, count, every, seconds
-from tumato_symbolic.report.picture import picture
+from tumato_symbolic.report.objections import Place
+from tumato_symbolic.report.policy_tree import policy_tree
 from tumato_symbolic.report.proof import ORDERINGS, proof_json, proof_text, provers
-from tumato_symbolic.report.reasons import Place
 from tumato_symbolic.report.restorable import restorable_json, restorable_lines
 from tumato_symbolic.report.restored import restored_json, restored_text
 from tumato_symbolic.spec import Ordering, Restoration, Spec
-from tumato_symbolic.synthesis.outcome import Outcome, Realizable, Statistics, Undecided, Unrealizable
+from tumato_symbolic.synthesis.result import Realizable, Statistics, SynthesisResult, Undecided, Unrealizable
 from tumato_symbolic.verify.result import UnrealizabilityVerdict, Verification
 
 _PICTURED_STATES = 500
@@ -28,21 +28,21 @@ class Synthesized:
     """An outcome with everything that its report needs. Times are in seconds.
 
     `proof` is None where there was nothing to prove, or where proving was declined; `written` tells whether the
-    policy is in `output` (`-` is the standard output). `disproof` and `certificate` are the same for the answer no: the
-    verdict on its certificate, and the file that it was written to. `cut_short` is why the report is a short one: a
-    limit was met. `restoration` overrules the specification's.
+    policy is in `output` (`-` is the standard output). Where the specification is unrealizable, `unrealizability` is
+    the verdict on the certificate, and `certificate` the file that it was written to. `cut_short` is why the report is
+    a short one: a limit was met. `restoration` overrules the specification's.
     """
 
     source: Source
     spec: Spec
-    outcome: Outcome
+    outcome: SynthesisResult
     proof: Verification | None
     warnings: tuple[Diagnostic, ...]
     output: str
     written: bool
     solved_in: float = 0.0
     proved_in: float = 0.0
-    disproof: UnrealizabilityVerdict | None = None
+    unrealizability: UnrealizabilityVerdict | None = None
     certificate: str | None = None
     cut_short: str | None = None
     restoration: Restoration | None = None
@@ -130,7 +130,7 @@ def _drawn(done: Synthesized, outcome: Realizable) -> list[str]:
     table = as_table(outcome.policy, _PICTURED_STATES)
     if table is None:
         return []
-    lines = picture(done.spec, table.rows)
+    lines = policy_tree(done.spec, table.rows)
     if len(lines) > _PICTURED_LINES:
         return []
     legend = " (! restores safety)" if outcome.statistics.unsafe else ""
@@ -187,18 +187,18 @@ def _certified(done: Synthesized, outcome: Unrealizable, paint: Paint) -> list[s
         lines.append(paint.doubt(f"It is not proved that there is none: {outcome.limit}."))
     elif outcome.certificate is None:
         lines.append(paint.doubt("It is not proved that there is none: this answer has no certificate yet."))
-    if done.disproof is not None:
+    if done.unrealizability is not None:
         from tumato_symbolic.report.unrealizable import proof_line
 
-        proved = done.disproof.verdict == "proved"
+        proved = done.unrealizability.verdict == "proved"
         lines.append(
-            f"{paint.good('Proved')}: {proof_line(done.disproof)}."
+            f"{paint.good('Proved')}: {proof_line(done.unrealizability)}."
             if proved
-            else f"{paint.doubt('The certificate could not be proved')}: {done.disproof.reason}."
+            else f"{paint.doubt('The certificate could not be proved')}: {done.unrealizability.reason}."
         )
     if done.certificate is None:
         return lines
-    if done.disproof is None:
+    if done.unrealizability is None:
         lines.append(paint.doubt("Its certificate is not proved: --no-verify was given."))
     files = f"{shlex.quote(done.certificate)} {shlex.quote(done.source.name)}"
     verify = f"  tumato-sym verify {files}{_overruling(done, ordering)}"
@@ -237,10 +237,10 @@ def as_json(done: Synthesized) -> dict[str, object]:
 
 
 def _proof_json(done: Synthesized) -> dict[str, object] | None:
-    if done.disproof is not None:
+    if done.unrealizability is not None:
         from tumato_symbolic.report.unrealizable import verdict_json
 
-        return verdict_json(done.spec, done.disproof)
+        return verdict_json(done.spec, done.unrealizability)
     return proof_json(done.spec, done.proof) if done.proof is not None else None
 
 

@@ -25,7 +25,7 @@ _PROVERS: Final = {"z3": "Z3", "walk": "the walk"}
 
 
 @dataclass(frozen=True, slots=True)
-class Disproved:
+class VerifiedUnrealizable:
     """A verdict on a certificate with everything that its report needs; `took` is in seconds.
 
     `strict`: a certificate that was made for another specification fails, whatever it proves.
@@ -50,7 +50,7 @@ class Disproved:
         return self.strict and self.found.stale
 
 
-def as_text(done: Disproved, colour: bool) -> str:
+def as_text(done: VerifiedUnrealizable, colour: bool) -> str:
     """The report for a person."""
     paint, found = Paint(colour), done.found
     fits = "another specification; judged against this one all the same" if found.stale else "this specification"
@@ -80,10 +80,10 @@ def proof_line(found: UnrealizabilityVerdict) -> str:
 
 def _proved_by(found: UnrealizabilityVerdict) -> list[str]:
     """Who was needed for a proof; the explicit meaning where nobody else was."""
-    return [*(["z3"] if found.by_solver else []), *(["walk"] if found.by_walk else [])] or ["meaning"]
+    return [*(["z3"] if found.by_solver else []), *(["walk"] if found.by_diagrams else [])] or ["meaning"]
 
 
-def _verdict(done: Disproved, paint: Paint) -> str:
+def _verdict(done: VerifiedUnrealizable, paint: Paint) -> str:
     spec = done.source.name
     match done.found.verdict:
         case "proved":
@@ -109,7 +109,7 @@ def verdict_json(spec: Spec, found: UnrealizabilityVerdict) -> dict[str, object]
     }
 
 
-def as_json(done: Disproved) -> dict[str, object]:
+def as_json(done: VerifiedUnrealizable) -> dict[str, object]:
     """The report for a program."""
     found = done.found
     return {
@@ -129,7 +129,7 @@ def as_json(done: Disproved) -> dict[str, object]:
     }
 
 
-def _misfits(done: Disproved) -> list[Diagnostic]:
+def _misfits(done: VerifiedUnrealizable) -> list[Diagnostic]:
     """The warning that the certificate is stale; `--strict` makes an error of it."""
     if not done.found.stale:
         return []
@@ -137,7 +137,7 @@ def _misfits(done: Disproved) -> list[Diagnostic]:
     return [Diagnostic(Code.TUM507, "certificate: it was made for another specification", help=help_)]
 
 
-def as_github(done: Disproved) -> str:
+def as_github(done: VerifiedUnrealizable) -> str:
     """Warnings at their lines, and one notice or error with the verdict."""
     commands = [github_commands(done.warnings, done.source.name)] if done.warnings else []
     found = done.found

@@ -10,6 +10,7 @@ from tumato_symbolic.diagnostics import Code, Diagnostic, Source
 from tumato_symbolic.report.findings import finding_json, github_command, github_commands
 from tumato_symbolic.report.guaranteed import guarantees_json, guarantees_lines, guarantees_summary
 from tumato_symbolic.report.layout import Paint, enumeration, seconds
+from tumato_symbolic.report.objections import Place
 from tumato_symbolic.report.proof import (
     ORDERINGS,
     proof_json,
@@ -18,7 +19,6 @@ from tumato_symbolic.report.proof import (
     refutation_text,
     states_spoken_of,
 )
-from tumato_symbolic.report.reasons import Place
 from tumato_symbolic.spec import Restoration, Spec
 from tumato_symbolic.verify.guarantees.result import Guarantees
 from tumato_symbolic.verify.result import CertificateUse, OrderingSource, Verdict, Verification, properties_of

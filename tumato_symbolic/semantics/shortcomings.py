@@ -12,7 +12,7 @@ from itertools import islice
 from tumato_symbolic.semantics.goals import Residual, reached, residual_goal
 from tumato_symbolic.semantics.guarantees import Guarantee
 from tumato_symbolic.semantics.states import ActionSet, State
-from tumato_symbolic.semantics.step import Outcome, nominal_agrees, outcomes_in_turn, successor
+from tumato_symbolic.semantics.step import EffectSequence, nominal_agrees, outcomes_in_turn, successor
 from tumato_symbolic.spec import Ordering, Spec
 
 MOST_OUTCOMES = 2_000
@@ -25,7 +25,7 @@ class Move:
 
     decision: ActionSet
     after: State
-    deviation: Outcome | None = None
+    deviation: EffectSequence | None = None
 
 
 @dataclass(frozen=True, slots=True)

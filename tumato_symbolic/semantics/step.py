@@ -12,7 +12,7 @@ from tumato_symbolic.spec import Assignment, Ordering, Rule, Spec
 
 
 @dataclass(frozen=True, slots=True)
-class Effectuation:
+class EffectStep:
     """One action taking one of its effects, and the state after it."""
 
     action: int
@@ -20,11 +20,11 @@ class Effectuation:
     after: State
 
 
-Outcome: TypeAlias = tuple[Effectuation, ...]
+EffectSequence: TypeAlias = tuple[EffectStep, ...]
 """How a state was reached: effects in the order in which they struck. Empty where no action has effects."""
 
 
-def outcomes(spec: Spec, state: State, chosen: ActionSet, ordering: Ordering) -> dict[State, Outcome]:
+def outcomes(spec: Spec, state: State, chosen: ActionSet, ordering: Ordering) -> dict[State, EffectSequence]:
     """`Out(s, A)`: every state that the step can lead to, each with one shortest way of getting there.
 
     Under `any`: after every non-empty sequence of distinct actions of `chosen`, each with any one of its effects.
@@ -36,7 +36,7 @@ def outcomes(spec: Spec, state: State, chosen: ActionSet, ordering: Ordering) ->
 
 def outcomes_in_turn(
     spec: Spec, state: State, chosen: ActionSet, ordering: Ordering
-) -> Iterator[tuple[State, Outcome]]:
+) -> Iterator[tuple[State, EffectSequence]]:
     """`outcomes` one by one, the shortest ways first: there may be more of them than anybody wants to wait for."""
     if not takes_effect(spec, chosen):
         yield state, ()
@@ -50,18 +50,18 @@ def outcomes_in_turn(
 
 def _in_turn(
     spec: Spec, state: State, chosen: ActionSet, ordering: Ordering
-) -> Iterator[tuple[State, ActionSet, Outcome]]:
+) -> Iterator[tuple[State, ActionSet, EffectSequence]]:
     """The states that effects lead to, each with the actions that have not taken effect then, shortest ways first."""
     seen: set[tuple[State, ActionSet]] = set()
-    frontier: list[tuple[State, ActionSet, Outcome]] = [(state, chosen, ())]
+    frontier: list[tuple[State, ActionSet, EffectSequence]] = [(state, chosen, ())]
     while frontier:
-        following: list[tuple[State, ActionSet, Outcome]] = []
+        following: list[tuple[State, ActionSet, EffectSequence]] = []
         for here, waiting, past in frontier:
             for action in sorted(waiting):
                 rest = waiting - {action}
                 for effect in spec.actions[action].effects:
                     there = apply(effect, here)
-                    way = (*past, Effectuation(action, effect, there))
+                    way = (*past, EffectStep(action, effect, there))
                     if (there, rest) not in seen:
                         seen.add((there, rest))
                         following.append((there, rest, way))
@@ -105,7 +105,7 @@ class Objection:
     ]
     actions: tuple[int, ...]
     rule: Rule | None = None
-    outcome: Outcome = ()
+    outcome: EffectSequence = ()
     state: State | None = None
 
 
@@ -148,7 +148,7 @@ def falsified(spec: Spec, state: State, chosen: ActionSet, ordering: Ordering) -
                     yield Objection("falsified", (number,), rule, way, there)
 
 
-def fault_after(spec: Spec, state: State, chosen: ActionSet, way: Outcome) -> Objection | None:
+def fault_after(spec: Spec, state: State, chosen: ActionSet, way: EffectSequence) -> Objection | None:
     """What is wrong when `chosen` is executed in `state` and effects have struck in this way, if anything is."""
     end = way[-1].after
     broken = first_broken(required_rules(spec, state), end)

@@ -2,7 +2,7 @@
 
 from tumato_symbolic.limits import Context, Limits
 from tumato_symbolic.synthesis.diagnosis import Cured, JointAction, Restorability, restorability
-from tumato_symbolic.synthesis.outcome import Failure, Outcome, Realizable, Statistics, Undecided, Unrealizable
+from tumato_symbolic.synthesis.result import Failure, Realizable, Statistics, SynthesisResult, Undecided, Unrealizable
 from tumato_symbolic.synthesis.synthesize import PolicyFormat, synthesize
 
 __all__ = [
@@ -11,11 +11,11 @@ __all__ = [
     "Failure",
     "JointAction",
     "Limits",
-    "Outcome",
     "PolicyFormat",
     "Realizable",
     "Restorability",
     "Statistics",
+    "SynthesisResult",
     "Undecided",
     "Unrealizable",
     "restorability",

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from tumato_symbolic.game import Problem, Restoration
 from tumato_symbolic.semantics import Effort
 from tumato_symbolic.symbolic import Bdd
-from tumato_symbolic.synthesis.outcome import RestoredIn
+from tumato_symbolic.synthesis.result import RestoredIn
 
 
 def restored_in(problem: Problem, restoration: Restoration) -> RestoredIn:

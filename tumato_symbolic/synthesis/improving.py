@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from typing import TypeVar
 
-from tumato_symbolic.game import Evaluation, Judge, attractor, closed_loop, in_time
+from tumato_symbolic.game import Evaluation, Evaluator, attractor, closed_loop, in_time
 from tumato_symbolic.policy import Deviation
 from tumato_symbolic.semantics import ActionSet, Quality, Restorations, State
 from tumato_symbolic.symbolic import Bdd, Encoding
@@ -20,13 +20,13 @@ TRIES = 2_000
 class Improving:
     """A repaired policy: `policy` in safe states, `forced` what the repair decided in unsafe ones."""
 
-    def __init__(self, judge: Judge, policy: Bdd, forced: Bdd) -> None:
-        self._problem = judge.problem
-        self._judge = judge
+    def __init__(self, evaluator: Evaluator, policy: Bdd, forced: Bdd) -> None:
+        self._problem = evaluator.problem
+        self._evaluator = evaluator
         self._policy = policy
         self._forced = forced
         self._tries = 0
-        self._found = judge.where(forced).evaluate(policy)
+        self._found = evaluator.where(forced).evaluate(policy)
 
     def run(self) -> Evaluation:
         """The policy in which no single better set would serve, with the deviations."""
@@ -53,7 +53,7 @@ class Improving:
 
     def _accepted(self, forced: Bdd) -> bool:
         self._tries += 1
-        found = self._judge.where(forced).evaluate(self._policy)
+        found = self._evaluator.where(forced).evaluate(self._policy)
         if found.failing != self._problem.false:
             return False
         self._forced, self._found = forced, found

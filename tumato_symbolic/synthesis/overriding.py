@@ -2,20 +2,29 @@
 
 from __future__ import annotations
 
-from tumato_symbolic.game import ClosedLoop, Evaluation, Judge, Layers, Problem, closed_loop, mixed, shortest_decisions
+from tumato_symbolic.game import (
+    ClosedLoop,
+    Evaluation,
+    Evaluator,
+    Layers,
+    Problem,
+    closed_loop,
+    mixed,
+    shortest_decisions,
+)
 from tumato_symbolic.symbolic import Bdd, preferred
 
 TRIES_TO_GIVE_BACK = 200
 """How many evaluations are spent on undoing changes that turned out not to be needed."""
 
 
-def override(judge: Judge, found: Evaluation, distances: tuple[Layers, ...]) -> Evaluation:
+def override(evaluator: Evaluator, found: Evaluation, distances: tuple[Layers, ...]) -> Evaluation:
     """A policy under which fewer states fail, or the given one: failing states get their shortest run.
 
     Every state on such a run follows it, whatever its own goals are. All states are judged again after the change for
     one target, which is kept when fewer of them fail. What still fails then needs a closer look (`Repair`).
     """
-    problem, count = judge.problem, judge.problem.encoding.count_states
+    problem, count = evaluator.problem, evaluator.problem.encoding.count_states
     improved = True
     while improved and found.failing != problem.false:
         improved = False
@@ -23,7 +32,7 @@ def override(judge: Judge, found: Evaluation, distances: tuple[Layers, ...]) -> 
             candidate = _towards(problem, found.closed_loop.policy, found.failing, distances, number)
             if candidate == found.closed_loop.policy:
                 continue
-            judged = judge.evaluate(candidate)
+            judged = evaluator.evaluate(candidate)
             if count(judged.failing) < count(found.failing):
                 found, improved = judged, True
             if found.failing == problem.false:
@@ -54,12 +63,12 @@ def _towards(problem: Problem, policy: Bdd, failing: Bdd, distances: tuple[Layer
     return changed | (policy & ~steps.states_of(changed))
 
 
-def revert_unneeded(judge: Judge, before: Bdd, after: Bdd) -> Bdd:
+def revert_unneeded(evaluator: Evaluator, before: Bdd, after: Bdd) -> Bdd:
     """`after` with as many decisions of `before` as fit without a failing state; what does not go is halved.
 
     Both policies are defined in every safe state, and none fails under `after`.
     """
-    problem = judge.problem
+    problem = evaluator.problem
     pending = [problem.steps.states_of(after & ~before)]
     suspects = list(range(len(problem.targets)))
     earlier, now = _smaller(problem, before, after)
@@ -68,7 +77,7 @@ def revert_unneeded(judge: Judge, before: Bdd, after: Bdd) -> Bdd:
         states = pending.pop()
         candidate = mixed(now, earlier, states)
         tries += 1
-        if judge.serves_all(candidate, suspects):
+        if evaluator.serves_all(candidate, suspects):
             now = candidate
         else:
             pending += reversed(_halves(problem, states))

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from tumato_symbolic.game import Evaluation, Judge, Layers
+from tumato_symbolic.game import Evaluation, Evaluator, Layers
 from tumato_symbolic.semantics import ActionSet, State, successor
 from tumato_symbolic.symbolic import Bdd, preferred
 from tumato_symbolic.synthesis.solver import Choices, Pick
@@ -56,7 +56,7 @@ class FailingRun:
 
 
 @dataclass(frozen=True, slots=True)
-class Impossible:
+class RepairConflict:
     """Valid states that no policy serves together, though it does so without any one of them.
 
     The proof: all options of every state that the cuts mention, and cuts that no choice among these options respects.
@@ -70,9 +70,9 @@ class Impossible:
 class Repair:
     """Repairs a policy that is defined in every safe state. `distances` are the layers of all allowed runs."""
 
-    def __init__(self, judge: Judge, policy: Bdd, distances: tuple[Layers, ...]) -> None:
-        self._judge = judge
-        self._problem = problem = judge.problem
+    def __init__(self, evaluator: Evaluator, policy: Bdd, distances: tuple[Layers, ...]) -> None:
+        self._evaluator = evaluator
+        self._problem = problem = evaluator.problem
         self._policy = policy
         self._distances = distances
         self._choices = Choices(problem.encoding.manager)
@@ -87,7 +87,7 @@ class Repair:
         self._cut_off_in = [0] * len(distances)
         self._distance: dict[tuple[int, State], int | None] = {}
 
-    def run(self) -> Bdd | Impossible:
+    def run(self) -> Bdd | RepairConflict:
         """The repaired policy, or the conflict that proves that there is none. Raises `RoundsExhaustedError`."""
         result = self._serve(self._problem.steps.valid, None)
         if isinstance(result, frozenset):
@@ -110,15 +110,15 @@ class Repair:
         raise RoundsExhaustedError
 
     def _evaluate(self, candidate: Bdd) -> Evaluation:
-        return self._judge.evaluate(candidate)
+        return self._evaluator.evaluate(candidate)
 
-    def _impossible(self, starts: list[int]) -> Impossible:
+    def _impossible(self, starts: list[int]) -> RepairConflict:
         """The proof that these starts cannot be served together, without the cuts that it does not need."""
         owned = [number for number, (start, _) in enumerate(self._cuts) if start in starts]
         cuts = [self._cuts[number][1] for number in self._choices.refutation(owned)]
         mentioned = {state for cut in cuts for state in cut.states} | {self._states[number] for number in starts}
         options = {state: self._options[self._numbers[state]] for state in sorted(mentioned)}
-        return Impossible(tuple(sorted(self._states[number] for number in starts)), options, tuple(cuts))
+        return RepairConflict(tuple(sorted(self._states[number] for number in starts)), options, tuple(cuts))
 
     def _minimal(self, core: frozenset[int]) -> list[int]:
         """An inclusion-minimal part of a core: each state in turn is left out, and what remains is tried."""

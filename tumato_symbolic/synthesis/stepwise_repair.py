@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from tumato_symbolic.game import Alone, Evaluation, Judge, Layers
+from tumato_symbolic.game import Alone, Evaluation, Evaluator, Layers
 from tumato_symbolic.semantics import ActionSet, State, duration, next_states, restored
 from tumato_symbolic.symbolic import Bdd
 from tumato_symbolic.synthesis.repair import FailingRun, Option, Repair, RoundsExhaustedError
@@ -23,11 +23,11 @@ MOST_SETS = 20_000
 class StepwiseRepair(Repair):
     """Repairs decisions in safe and in unsafe states; `alone` has the steps that runs may take."""
 
-    def __init__(self, judge: Judge, policy: Bdd, distances: tuple[Layers, ...], alone: Alone) -> None:
-        super().__init__(judge, policy, distances)
+    def __init__(self, evaluator: Evaluator, policy: Bdd, distances: tuple[Layers, ...], alone: Alone) -> None:
+        super().__init__(evaluator, policy, distances)
         self._alone = alone
         self._evaluation: Evaluation | None = None
-        self._required = judge.problem.steps.valid
+        self._required = evaluator.problem.steps.valid
 
     @property
     def forced(self) -> Bdd:
@@ -47,7 +47,7 @@ class StepwiseRepair(Repair):
         return super()._serve(required, guards)
 
     def _evaluate(self, candidate: Bdd) -> Evaluation:
-        self._evaluation = self._judge.where(self.forced, self._required).evaluate(candidate)
+        self._evaluation = self._evaluator.where(self.forced, self._required).evaluate(candidate)
         return self._evaluation
 
     def _explain(self, start: State) -> set[State]:

@@ -10,7 +10,7 @@ from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.game import (
     Alone,
     Evaluation,
-    Judge,
+    Evaluator,
     Layers,
     Problem,
     build_problem,
@@ -34,19 +34,19 @@ from tumato_symbolic.synthesis.certificate import policy_diagram
 from tumato_symbolic.synthesis.counting import restored_in
 from tumato_symbolic.synthesis.diagnosis import restorability
 from tumato_symbolic.synthesis.lint import lint
-from tumato_symbolic.synthesis.outcome import (
-    STATES_LISTED,
-    Failure,
-    FailureKind,
-    Outcome,
-    Realizable,
-    Statistics,
-    Undecided,
-    Unrealizable,
-)
 from tumato_symbolic.synthesis.overriding import override, revert_unneeded
 from tumato_symbolic.synthesis.races import races
 from tumato_symbolic.synthesis.restoring import restoring_policy
+from tumato_symbolic.synthesis.result import (
+    STATES_LISTED,
+    Failure,
+    FailureKind,
+    Realizable,
+    Statistics,
+    SynthesisResult,
+    Undecided,
+    Unrealizable,
+)
 
 if TYPE_CHECKING:
     from tumato_symbolic.policy.unrealizable import NoAllowedSet, NoPlan, NoRestoration
@@ -69,7 +69,7 @@ def synthesize(
     context: Context | None = None,
     certify: bool = True,
     diagnose: bool = True,
-) -> Outcome:
+) -> SynthesisResult:
     """Synthesize a policy for `spec`, or find out why there is none.
 
     `ordering` overrides the specification's effect ordering (default: what it says, else `any`). `context` limits the
@@ -99,7 +99,7 @@ def stopped(known: object, limit: str) -> Unrealizable | Undecided:
     return Undecided(limit, None)
 
 
-def _solve(problem: Problem, policy_format: PolicyFormat, certify: bool) -> Outcome:
+def _solve(problem: Problem, policy_format: PolicyFormat, certify: bool) -> SynthesisResult:
     """The pipeline behind the encoding."""
     context, statistics = problem.context, _statistics(problem)
     if not statistics.valid:
@@ -116,8 +116,8 @@ def _solve(problem: Problem, policy_format: PolicyFormat, certify: bool) -> Outc
     policy = own_region_policy(problem)
     statistics = replace(statistics, own_region=_count_decided(problem, policy))
     context.learn(Undecided("", statistics, warnings))
-    undecided, judge = problem.steps.safe & ~problem.steps.states_of(policy), Judge(problem)
-    evaluation = judge.evaluate(policy) if undecided == problem.false else None
+    undecided, evaluator = problem.steps.safe & ~problem.steps.states_of(policy), Evaluator(problem)
+    evaluation = evaluator.evaluate(policy) if undecided == problem.false else None
     if stuck != problem.false or evaluation is None or evaluation.failing != problem.false:
         context.tell("measuring distances")
         way = way_of(problem)
@@ -127,7 +127,7 @@ def _solve(problem: Problem, policy_format: PolicyFormat, certify: bool) -> Outc
             lost, stuck = problem.steps.unsafe & ~way.restorable, stuck & problem.steps.safe
         helpless = problem.steps.valid & ~stuck & ~lost & ~winning(problem, apart, pairs)
         if (stuck | lost | helpless) != problem.false:
-            from tumato_symbolic.synthesis.disproof import certified
+            from tumato_symbolic.synthesis.unrealizability import certified
 
             failures = (
                 _failure(problem, "no-allowed-set", stuck),
@@ -135,12 +135,12 @@ def _solve(problem: Problem, policy_format: PolicyFormat, certify: bool) -> Outc
                 _failure(problem, "no-plan", helpless),
             )
             found = tuple(failure for failure in failures if failure is not None)
-            answer = _answer_no(problem, found, statistics, warnings)
+            answer = _unrealizable(problem, found, statistics, warnings)
             reason = _reason(problem, apart, stuck, lost, helpless) if certify else None
             if reason is None:
                 return answer
             return replace(answer, certificate=certified(problem, reason))
-        resolved = _resolve(judge, policy, apart, Undecided("", statistics, warnings), way=way, certify=certify)
+        resolved = _resolve(evaluator, policy, apart, Undecided("", statistics, warnings), way=way, certify=certify)
         if isinstance(resolved, Undecided | Unrealizable):
             return resolved
         evaluation, statistics = resolved.evaluation, resolved.statistics
@@ -156,7 +156,7 @@ def _reason(
     Where safety may take several steps to restore: of safe states that have no allowed set or no plan, and of states
     that cannot be restored.
     """
-    from tumato_symbolic.synthesis.disproof import no_allowed_set, no_plan, no_restoration
+    from tumato_symbolic.synthesis.unrealizability import no_allowed_set, no_plan, no_restoration
 
     first = problem.encoding.first_state
     if lost != problem.false:
@@ -168,7 +168,7 @@ def _reason(
     return no_plan(problem, first(helpless), apart) if helpless != problem.false else None
 
 
-def _answer_no(
+def _unrealizable(
     problem: Problem, failures: tuple[Failure, ...], statistics: Statistics, warnings: tuple[Diagnostic, ...]
 ) -> Unrealizable:
     """The answer no, before there is a certificate for it."""
@@ -187,14 +187,19 @@ class _Resolved:
 
 
 def _resolve(
-    judge: Judge, policy: Bdd, apart: tuple[Layers, ...], so_far: Undecided, *, way: Alone | None, certify: bool
+    evaluator: Evaluator, policy: Bdd, apart: tuple[Layers, ...], so_far: Undecided, *, way: Alone | None, certify: bool
 ) -> _Resolved | Unrealizable | Undecided:
     """Decide what the own regions leave open, changing earlier decisions only where that is needed.
 
     `apart` are the distances from the targets; `way` has the steps that runs may take, where safety may take several
     steps to restore.
     """
-    problem, steps, statistics, tell = judge.problem, judge.problem.steps, so_far.statistics, judge.problem.context.tell
+    problem, steps, statistics, tell = (
+        evaluator.problem,
+        evaluator.problem.steps,
+        so_far.statistics,
+        evaluator.problem.context.tell,
+    )
     assert statistics is not None, "states are counted first"
     tell("routing through solved states")
     undecided = steps.safe & ~steps.states_of(policy)
@@ -202,46 +207,46 @@ def _resolve(
     statistics = replace(statistics, routed=_count_decided(problem, policy) - statistics.own_region)
     undecided = steps.safe & ~steps.states_of(policy)
     policy = policy | shortest_decisions(problem, apart, undecided, steps.allowed)
-    found = judge.evaluate(policy)
+    found = evaluator.evaluate(policy)
     if found.failing == problem.false:
         return _Resolved(found, statistics)
     tell("overriding decisions of other goals")
-    found = override(judge, found, apart)
+    found = override(evaluator, found, apart)
     changed = found.closed_loop.policy
     forced = problem.false
     if found.failing != problem.false:
-        from tumato_symbolic.synthesis.repair import ROUNDS, Impossible, Repair, RoundsExhaustedError
+        from tumato_symbolic.synthesis.repair import ROUNDS, Repair, RepairConflict, RoundsExhaustedError
         from tumato_symbolic.synthesis.stepwise_repair import StepwiseRepair
 
         tell("repairing decisions where goals interact")
         try:
             if way is None:
-                repaired = Repair(judge, changed, apart).run()
+                repaired = Repair(evaluator, changed, apart).run()
             else:
-                repair = StepwiseRepair(judge, changed, apart, way)
+                repair = StepwiseRepair(evaluator, changed, apart, way)
                 repaired, forced = repair.run(), repair.forced
         except RoundsExhaustedError:
             limit = f"{ROUNDS:,} rounds of repair did not settle how the goals interact"
             return Undecided(limit, statistics, so_far.warnings)
-        if isinstance(repaired, Impossible):
-            from tumato_symbolic.synthesis.disproof import certified, conflict
+        if isinstance(repaired, RepairConflict):
+            from tumato_symbolic.synthesis.unrealizability import certified, conflict
 
             states = repaired.states
             failure = Failure("conflict", len(states), states[0], states)
-            answer = _answer_no(problem, (failure,), statistics, so_far.warnings)
+            answer = _unrealizable(problem, (failure,), statistics, so_far.warnings)
             if not certify or way is not None:
                 return answer
             return replace(answer, certificate=certified(problem, conflict(problem, apart, repaired)))
         changed = repaired
     tell("giving back decisions that need not change")
-    changed = revert_unneeded(judge.where(forced), policy, changed)
+    changed = revert_unneeded(evaluator.where(forced), policy, changed)
     statistics = replace(statistics, changed=_count_decided(problem, policy & ~changed))
     if forced == problem.false:
-        return _Resolved(judge.evaluate(changed), statistics)
+        return _Resolved(evaluator.evaluate(changed), statistics)
     from tumato_symbolic.synthesis.improving import Improving
 
     tell("improving decisions in unsafe states")
-    return _Resolved(Improving(judge, changed, forced).run(), statistics)
+    return _Resolved(Improving(evaluator, changed, forced).run(), statistics)
 
 
 def _finish(

@@ -17,8 +17,8 @@ from tumato_symbolic.verify.result import (
 )
 
 if TYPE_CHECKING:
-    from tumato_symbolic.verify.no_policy.unrealizable import verify_unrealizable
     from tumato_symbolic.verify.prove import verify
+    from tumato_symbolic.verify.unrealizability.verdict import verify_unrealizable
 
 __all__ = [
     "PROPERTIES",
@@ -41,7 +41,7 @@ def __getattr__(name: str) -> Any:  # noqa: ANN401 - the two lazy names: they ma
 
         return verify
     if name == "verify_unrealizable":
-        from tumato_symbolic.verify.no_policy.unrealizable import verify_unrealizable
+        from tumato_symbolic.verify.unrealizability.verdict import verify_unrealizable
 
         return verify_unrealizable
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

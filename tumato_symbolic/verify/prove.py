@@ -15,7 +15,7 @@ from tumato_symbolic.semantics import all_states, count_states, is_valid
 from tumato_symbolic.spec import Ordering, Restoration, Spec
 from tumato_symbolic.verify.closure import with_departure
 from tumato_symbolic.verify.decisions import LARGEST_TABLE, Decisions
-from tumato_symbolic.verify.provers import Prover, make_prover
+from tumato_symbolic.verify.portfolio import Prover, make_prover
 from tumato_symbolic.verify.result import (
     PROPERTIES,
     CertificateUse,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
-from tumato_symbolic.semantics import ActionSet, Objection, Outcome, Quality, Run, State
+from tumato_symbolic.semantics import ActionSet, EffectSequence, Objection, Quality, Run, State
 from tumato_symbolic.spec import Ordering, Restoration, Spec
 
 Verdict: TypeAlias = Literal["proved", "refuted", "undecided"]
@@ -32,7 +32,7 @@ class Departure:
 
     state: State
     decision: ActionSet
-    outcome: Outcome
+    outcome: EffectSequence
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,7 +122,8 @@ class UnrealizabilityVerdict:
 
     `reason` tells which check failed, or why there is no verdict; `state` and `chosen` are the witness, where there is
     one: an allowed set that the certificate should have spoken of. `stale`: the certificate was made for another
-    specification, and was judged against this one all the same. `by_solver`: Z3 was needed; `by_walk`: the walk was.
+    specification, and was judged against this one all the same. `by_solver`: Z3 was needed; `by_diagrams`: the walk
+    was.
     """
 
     verdict: Verdict
@@ -132,7 +133,7 @@ class UnrealizabilityVerdict:
     stale: bool
     obligations: int = 0
     by_solver: bool = False
-    by_walk: bool = False
+    by_diagrams: bool = False
     reason: str | None = None
     state: State | None = None
     chosen: ActionSet | None = None

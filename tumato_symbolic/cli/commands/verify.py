@@ -12,7 +12,7 @@ from tumato_symbolic.cli.options import CommandOptions, OutputFormat, Target, ar
 from tumato_symbolic.limits import Context
 
 if TYPE_CHECKING:
-    from tumato_symbolic.cli.judging import Judged
+    from tumato_symbolic.cli.verifying import Judged
     from tumato_symbolic.report.folder import Folder
     from tumato_symbolic.spec import Ordering, Restoration
     from tumato_symbolic.verify import ProverName
@@ -131,8 +131,8 @@ class Options(CommandOptions):
 
 def run(options: Options, context: Context) -> int:
     """Exit with 0 only when everything that was asked is proved, and the certificate passes `--strict`."""
-    from tumato_symbolic.cli.judging import Criteria, judge, wanted_jobs
     from tumato_symbolic.cli.output import show_profile
+    from tumato_symbolic.cli.verifying import Criteria, verify_claim, wanted_jobs
     from tumato_symbolic.policy.claim import load_claim
 
     criteria = Criteria(
@@ -148,13 +148,13 @@ def run(options: Options, context: Context) -> int:
     if options.specs:
         context.tell(f"reading {options.policy}")
         claim = load_claim(options.policy)
-        code = _report(judge(claim, options.policy, options.specs[0], criteria, context, jobs=jobs), options)
+        code = _report(verify_claim(claim, options.policy, options.specs[0], criteria, context, jobs=jobs), options)
     else:
-        from tumato_symbolic.cli.folder import judge_folder
+        from tumato_symbolic.cli.folder import verify_folder
         from tumato_symbolic.cli.matching import Specifications
 
         specs = Specifications(options.policy, options.spec_folders)
-        found = judge_folder(options.policy, specs, criteria, context, jobs=jobs, require_all=options.require_all)
+        found = verify_folder(options.policy, specs, criteria, context, jobs=jobs, require_all=options.require_all)
         code = _report_folder(found, options)
     if options.profile:
         show_profile(context)
@@ -163,7 +163,7 @@ def run(options: Options, context: Context) -> int:
 
 def stopped(known: Judged | Folder, why: str, options: Options) -> int:
     """Report what was proved when a limit was met."""
-    from tumato_symbolic.cli.judging import ended
+    from tumato_symbolic.cli.verifying import ended
     from tumato_symbolic.report.folder import Folder
 
     if isinstance(known, Folder):
@@ -175,8 +175,8 @@ def stopped(known: Judged | Folder, why: str, options: Options) -> int:
 
 def _report(done: Judged, options: Options) -> int:
     from tumato_symbolic.cli.inputs import show_warnings
-    from tumato_symbolic.cli.judging import exit_code
     from tumato_symbolic.cli.output import show
+    from tumato_symbolic.cli.verifying import exit_code
     from tumato_symbolic.report.verified import Verified
 
     show_warnings(done.warnings, done.source, options)

@@ -54,7 +54,7 @@ def run(options: Options, context: Context) -> int:
     from tumato_symbolic.explain.decision import Decisions, judged, why
     from tumato_symbolic.policy import Policy, UndecidedState, bind, parse_assignments
     from tumato_symbolic.report import decided
-    from tumato_symbolic.report.reasons import Place
+    from tumato_symbolic.report.objections import Place
 
     context.tell("reading the specification")
     source, spec, _ = read_spec(options.specs[0], options.restoration)

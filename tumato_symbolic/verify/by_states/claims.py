@@ -9,13 +9,13 @@ from tumato_symbolic.semantics import ActionSet, Residual
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.verify.by_states.packed import Code, Packing
 from tumato_symbolic.verify.by_states.runs import Runs
-from tumato_symbolic.verify.given import GivenRanks
+from tumato_symbolic.verify.claimed_ranks import ClaimedRanks
 
 
 class Claims:
     """The numbers that a certificate gives to states."""
 
-    def __init__(self, spec: Spec, packing: Packing, runs: Runs, certificate: Certificate, given: GivenRanks) -> None:
+    def __init__(self, spec: Spec, packing: Packing, runs: Runs, certificate: Certificate, given: ClaimedRanks) -> None:
         self._spec, self._packing, self._runs = spec, packing, runs
         self._ranks, self._given = certificate.ranks, given
 

@@ -17,8 +17,8 @@ from tumato_symbolic.verify.by_states.restoring_claims import RestoringClaims
 from tumato_symbolic.verify.by_states.runs import Runs
 from tumato_symbolic.verify.by_states.several_steps import SeveralSteps
 from tumato_symbolic.verify.by_states.steps import MOST_WAYS, Steps, TooManyError, ways
+from tumato_symbolic.verify.claimed_ranks import ClaimedRanks
 from tumato_symbolic.verify.decisions import LARGEST_TABLE, Decisions
-from tumato_symbolic.verify.given import GivenRanks
 from tumato_symbolic.verify.result import CertificateUse, PropertyName, PropertyResult, Refutation
 from tumato_symbolic.verify.ways_back import RestoringWitnesses
 
@@ -143,8 +143,8 @@ class StateProver:
         return Runs(self._spec, self._packing, self._steps, self._decided or {}, self._spend)
 
     @cached_property
-    def _given(self) -> GivenRanks:
-        return GivenRanks(
+    def _given(self) -> ClaimedRanks:
+        return ClaimedRanks(
             self._spec,
             self._policy,
             lambda: self.policy_is_safe or len(self._allowed) == len(self._decided or ()),

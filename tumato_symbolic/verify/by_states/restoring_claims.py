@@ -8,13 +8,13 @@ from tumato_symbolic.policy.records import Deviation, Restoring
 from tumato_symbolic.semantics import AT_ONCE, ActionSet, Effort
 from tumato_symbolic.verify.by_states.packed import Code, Packing
 from tumato_symbolic.verify.by_states.several_steps import SeveralSteps
-from tumato_symbolic.verify.given import GivenRanks
+from tumato_symbolic.verify.claimed_ranks import ClaimedRanks
 
 
 class RestoringClaims:
     """The efforts that a certificate gives to unsafe states, and its deviations."""
 
-    def __init__(self, packing: Packing, several_steps: SeveralSteps, given: GivenRanks) -> None:
+    def __init__(self, packing: Packing, several_steps: SeveralSteps, given: ClaimedRanks) -> None:
         self._packing, self._several_steps, self._given = packing, several_steps, given
         self._spec, self._steps, self._runs = several_steps.spec, several_steps.steps, several_steps.runs
         self._worst: dict[Code, Effort] = {}

@@ -10,8 +10,8 @@ import z3
 from tumato_symbolic.policy.records import Deviation
 from tumato_symbolic.semantics import (
     ActionSet,
+    EffectSequence,
     Effort,
-    Outcome,
     Residual,
     State,
     follow,
@@ -24,8 +24,8 @@ from tumato_symbolic.verify.by_z3.choice import Choice
 from tumato_symbolic.verify.by_z3.effort_source import EffortSource
 from tumato_symbolic.verify.by_z3.efforts import LEMMAS_AT_ONCE, Efforts, EveryOutcome
 from tumato_symbolic.verify.by_z3.encoding import Place, is_true, valid_term
-from tumato_symbolic.verify.by_z3.frame import Frame
 from tumato_symbolic.verify.by_z3.outcomes import objections_to
+from tumato_symbolic.verify.by_z3.policy_problem import PolicyProblem
 from tumato_symbolic.verify.by_z3.rank_terms import RankFunction
 from tumato_symbolic.verify.by_z3.solver import UndecidedError
 from tumato_symbolic.verify.by_z3.terms import Term, conjunction, disjunction, either, implies, negation
@@ -38,17 +38,17 @@ MOST_BEFORE = 20_000
 """How many states are looked at whose runs may pass through a state."""
 
 
-def prove_best(frame: Frame, source: EffortSource, ordering: Ordering) -> PropertyResult:
+def prove_best(problem: PolicyProblem, source: EffortSource, ordering: Ordering) -> PropertyResult:
     """No unsafe state has a better set with which its own run meets its goal, and so do all others that do now.
 
     Raises `UndecidedError`.
     """
-    deviations = Deviations(frame, source)
+    deviations = Deviations(problem, source)
     efforts = source.exact()
-    search = _Search(frame, source, efforts, ordering)
+    search = _Search(problem, source, efforts, ordering)
     while (found := search.find()) is not None:
         if not deviations.excuse(*found):
-            return RestoringWitnesses(frame.spec, source.ranks.decisions, ordering).not_minimal(*found)
+            return RestoringWitnesses(problem.spec, source.ranks.decisions, ordering).not_minimal(*found)
         search.exclude(*found)
     return PropertyResult("minimal", "proved", 3 + len(search.ranked), "z3")
 
@@ -56,8 +56,8 @@ def prove_best(frame: Frame, source: EffortSource, ordering: Ordering) -> Proper
 class Deviations:
     """Why better sets are not chosen: a run would miss its goal. Those of the certificate are replayed first."""
 
-    def __init__(self, frame: Frame, source: EffortSource) -> None:
-        self._frame, self._ranks = frame, source.ranks
+    def __init__(self, problem: PolicyProblem, source: EffortSource) -> None:
+        self._problem, self._ranks = problem, source.ranks
         self._decisions = source.ranks.decisions
         self._listed: dict[tuple[State, ActionSet], State] = {}
         for each in () if self._ranks.restoring is None else self._ranks.restoring.deviations:
@@ -79,7 +79,7 @@ class Deviations:
 
     def _is_true(self, deviation: Deviation) -> bool:
         state, better = deviation.state, deviation.better
-        spec = self._frame.spec
+        spec = self._problem.spec
         if state not in self._decisions or is_safe(spec, state) or not nominal_agrees(spec, better):
             return False
         if state == deviation.missed:
@@ -88,7 +88,7 @@ class Deviations:
 
     def _loses(self, state: State, better: ActionSet, other: State) -> bool:
         """Whether the run of `other` meets its goal by the policy, and misses it with `better` in `state`."""
-        spec, decisions = self._frame.spec, self._decisions
+        spec, decisions = self._problem.spec, self._decisions
         first = decisions.get(other)
         if other == state or first is None or not nominal_agrees(spec, first):
             return False
@@ -96,7 +96,7 @@ class Deviations:
 
     def _serves(self, start: State, state: State, better: ActionSet) -> bool:
         changed = Changed(self._decisions, state, better)
-        return follow(self._frame.spec, changed, start, changed[start]).end == "goal"
+        return follow(self._problem.spec, changed, start, changed[start]).end == "goal"
 
     def _before(self, state: State) -> Iterator[State]:
         """The states from which the policy's run leads through `state`, the nearest first."""
@@ -114,11 +114,11 @@ class Deviations:
         if self._decisions.rows is not None:
             yield from self._decisions.origins.get(state, ())
             return
-        frame, deadline = self._frame, self._frame.deadline()
-        with frame.solver.scope(frame.acting, is_state(frame.after, state)):
-            while (answer := frame.solver.ask(deadline=deadline)) == "sat":
-                found = frame.state.read(frame.solver.model)
-                frame.solver.add(negation(is_state(frame.state, found)))
+        problem, deadline = self._problem, self._problem.deadline()
+        with problem.solver.scope(problem.acting, is_state(problem.after, state)):
+            while (answer := problem.solver.ask(deadline=deadline)) == "sat":
+                found = problem.state.read(problem.solver.model)
+                problem.solver.add(negation(is_state(problem.state, found)))
                 yield found
         if answer == "unknown":
             raise UndecidedError(CLAIM)
@@ -132,32 +132,32 @@ class _Search:
     `semantics`. A proposal that fails teaches a lemma that holds in all states, or is excluded for itself.
     """
 
-    def __init__(self, frame: Frame, source: EffortSource, efforts: Efforts, ordering: Ordering) -> None:
-        self._frame, self._source, self._efforts = frame, source, efforts
+    def __init__(self, problem: PolicyProblem, source: EffortSource, efforts: Efforts, ordering: Ordering) -> None:
+        self._problem, self._source, self._efforts = problem, source, efforts
         self._ordering: Ordering = ordering
         self._decisions = source.ranks.decisions
-        self._ways = WaysBack(frame.spec, self._decisions, ordering)
-        self._solver = frame.new_solver()
-        self._choice = Choice(frame.spec, frame.state, self._solver)
+        self._ways = WaysBack(problem.spec, self._decisions, ordering)
+        self._solver = problem.new_solver()
+        self._choice = Choice(problem.spec, problem.state, self._solver)
         self.ranked: dict[Residual, RankFunction] = {}
-        self._solver.add(frame.decided, negation(frame.safe), *self._choice.conditions())
+        self._solver.add(problem.decided, negation(problem.safe), *self._choice.conditions())
         self._state_better()
 
     def _state_better(self) -> None:
-        frame, efforts, codes, choice = self._frame, self._efforts, self._efforts.codes, self._choice
-        self._once, self._several = (z3.Bool(name, frame.context) for name in ("once", "several"))
-        step = z3.FreshConst(z3.BitVecSort(codes.width, frame.context), "rival")
-        finite = conjunction((frame.acting, efforts.is_finite))
+        problem, efforts, codes, choice = self._problem, self._efforts, self._efforts.codes, self._choice
+        self._once, self._several = (z3.Bool(name, problem.context) for name in ("once", "several"))
+        step = z3.FreshConst(z3.BitVecSort(codes.width, problem.context), "rival")
+        finite = conjunction((problem.acting, efforts.is_finite))
         now_once = conjunction((finite, codes.is_one_step(efforts.here)))
 
         def in_one_step(after: Place) -> Term:
-            return frame.tiers.restored(after)
+            return problem.tiers.restored(after)
 
         def in_several(after: Place) -> Term:
             return efforts.below(after, step, finite, efforts.here)
 
         self._outcomes = [
-            (claim, EveryOutcome(frame, choice.executed, choice.after, condition))
+            (claim, EveryOutcome(problem, choice.executed, choice.after, condition))
             for claim, condition in ((self._once, in_one_step), (self._several, in_several))
         ]
         self._solver.add(
@@ -170,25 +170,25 @@ class _Search:
 
     def _nominally(self, step: Term, finite: Term) -> Term:
         """The set may be better by its nominal run: as far as nominal efforts are known to be exact."""
-        frame, efforts, after = self._frame, self._efforts, self._choice.after
+        problem, efforts, after = self._problem, self._efforts, self._choice.after
         if not efforts.fair:
             return False
         if not efforts.nominal_is_exact() or not self._source.policy_is_safe:
             return negation(finite)
         codes, nominal = efforts.codes, efforts.nominal(after)
-        restored = frame.tiers.restored(after)
+        restored = problem.tiers.restored(after)
         known, worst = codes.is_finite(nominal), codes.is_finite(efforts.worst(after))
         least = either(restored, step, either(known, step + nominal, step + codes.code((0, 1))))
-        reached = disjunction((restored, conjunction((valid_term(frame.spec, after), disjunction((known, worst))))))
-        bounded = conjunction((frame.acting, efforts.has_nominal))
+        reached = disjunction((restored, conjunction((valid_term(problem.spec, after), disjunction((known, worst))))))
+        bounded = conjunction((problem.acting, efforts.has_nominal))
         return conjunction((negation(finite), reached, implies(bounded, z3.ULT(least, efforts.nominal_here))))
 
     def find(self) -> tuple[State, ActionSet] | None:
         """An unsafe state with a better set that serves its own run; None where there is none."""
-        deadline = self._frame.deadline()
+        deadline = self._problem.deadline()
         while (answer := self._solver.ask(deadline=deadline)) == "sat":
             model = self._solver.model
-            state, chosen = self._frame.state.read(model), self._choice.read(model)
+            state, chosen = self._problem.state.read(model), self._choice.read(model)
             claims = [is_true(model, claim) for claim, _ in self._outcomes]
             if (
                 self._is_allowed(state, chosen)
@@ -205,10 +205,10 @@ class _Search:
         actions = conjunction(
             term if number in chosen else negation(term) for number, term in enumerate(self._choice.executed)
         )
-        self._solver.add(negation(conjunction((is_state(self._frame.state, state), actions))))
+        self._solver.add(negation(conjunction((is_state(self._problem.state, state), actions))))
 
     def _is_allowed(self, state: State, chosen: ActionSet) -> bool:
-        failed = objections_to(self._frame.spec, state, chosen, self._ordering, self._frame.deadline())
+        failed = objections_to(self._problem.spec, state, chosen, self._ordering, self._problem.deadline())
         for objection in failed:
             self._solver.add(self._choice.lemma(objection))
         return not failed
@@ -231,14 +231,14 @@ class _Search:
             return False
         return True
 
-    def _not_better(self, state: State, chosen: ActionSet, once: bool) -> Iterator[Outcome]:
+    def _not_better(self, state: State, chosen: ActionSet, once: bool) -> Iterator[EffectSequence]:
         """The outcomes by which a set is not better, in one step or in several."""
         bound: Effort | None = (0, 0) if once else self._efforts.worst_of(state)
         return self._efforts.not_below(state, chosen, bound)
 
     def _serves(self, state: State, chosen: ActionSet) -> bool:
         """Whether the run of a better set meets its goal; otherwise learn why it does not."""
-        spec = self._frame.spec
+        spec = self._problem.spec
         if follow(spec, Changed(self._decisions, state, chosen), state, chosen).end == "goal":
             return True
         goal = residual_goal(spec, state, chosen)
@@ -248,8 +248,8 @@ class _Search:
             return False
         ranks = self._source.ranks
         found = self.ranked[goal] = ranks.lower_bound(goal) if known is None else ranks.exact(goal)
-        mine = self._frame.goals.is_residual(goal, self._choice.executed)
-        self._solver.add(implies(mine, found.within_bound(self._frame, self._choice.after)))
+        mine = self._problem.goals.is_residual(goal, self._choice.executed)
+        self._solver.add(implies(mine, found.within_bound(self._problem, self._choice.after)))
         return False
 
 

@@ -9,7 +9,7 @@ from tumato_symbolic.policy.records import Restoring
 from tumato_symbolic.semantics import AT_ONCE, Effort, Restorations, State, duration, is_safe, longer, restored
 from tumato_symbolic.spec import Ordering
 from tumato_symbolic.verify.by_z3.efforts import Efforts
-from tumato_symbolic.verify.by_z3.frame import Frame
+from tumato_symbolic.verify.by_z3.policy_problem import PolicyProblem
 from tumato_symbolic.verify.by_z3.rank_source import RankSource
 from tumato_symbolic.verify.by_z3.solver import UndecidedError
 
@@ -20,8 +20,8 @@ MOST_UNSAFE = 20_000
 class EffortSource:
     """The efforts of one policy, proved; `ranks` tells what became of its certificate."""
 
-    def __init__(self, frame: Frame, ranks: RankSource, ordering: Ordering, policy_is_safe: bool) -> None:
-        self._frame, self.ranks = frame, ranks
+    def __init__(self, problem: PolicyProblem, ranks: RankSource, ordering: Ordering, policy_is_safe: bool) -> None:
+        self._problem, self.ranks = problem, ranks
         self._ordering: Ordering = ordering
         self.policy_is_safe = policy_is_safe
         self._checked: Efforts | None = None
@@ -32,7 +32,7 @@ class EffortSource:
         if restoring is None:
             return None
         if self._checked is None:
-            efforts = Efforts(self._frame, restoring, self._ordering, conflicting=not self.policy_is_safe)
+            efforts = Efforts(self._problem, restoring, self._ordering, conflicting=not self.policy_is_safe)
             false = efforts.first_false()
             if false is not None:
                 self.ranks.false_effort(false)
@@ -75,13 +75,13 @@ class EffortSource:
         decisions = self.ranks.decisions
         if decisions.rows is None:
             return None
-        found = [state for state in decisions.followers if not is_safe(self._frame.spec, state)]
+        found = [state for state in decisions.followers if not is_safe(self._problem.spec, state)]
         return None if len(found) > MOST_UNSAFE else found
 
     @cached_property
     def recomputed(self) -> Efforts:
         """Those that the policy has, wherever it restores safety. Raises `UndecidedError`."""
-        efforts = Efforts(self._frame, self._restoring(), self._ordering, conflicting=not self.policy_is_safe)
+        efforts = Efforts(self._problem, self._restoring(), self._ordering, conflicting=not self.policy_is_safe)
         if efforts.first_false() is not None or efforts.too_large() is not None:
             if self.policy_is_safe:
                 raise RuntimeError("the efforts of a policy are no efforts")
@@ -89,7 +89,7 @@ class EffortSource:
         return efforts
 
     def _restoring(self) -> Restoring:
-        spec, decisions = self._frame.spec, self.ranks.decisions
+        spec, decisions = self._problem.spec, self.ranks.decisions
         unsafe = self._unsafe
         if unsafe is None:
             why = f"there are no exact efforts, and over {MOST_UNSAFE} unsafe states, too many to look at each"
@@ -107,7 +107,7 @@ class EffortSource:
 
     def _nominal(self, state: State) -> Effort | None:
         """What the nominal run takes until `state` is restored, if it ever is."""
-        spec, decisions = self._frame.spec, self.ranks.decisions
+        spec, decisions = self._problem.spec, self.ranks.decisions
         effort, here, met = AT_ONCE, state, set[State]()
         while here not in met and here in decisions.followers:
             met.add(here)

@@ -4,50 +4,50 @@ from __future__ import annotations
 
 from tumato_symbolic.semantics import Residual, State, follow
 from tumato_symbolic.verify.by_z3.encoding import is_true
-from tumato_symbolic.verify.by_z3.frame import Frame
+from tumato_symbolic.verify.by_z3.policy_problem import PolicyProblem
 from tumato_symbolic.verify.by_z3.rank_source import RankSource
 from tumato_symbolic.verify.by_z3.rank_terms import RankProof
 from tumato_symbolic.verify.by_z3.solver import UndecidedError
 from tumato_symbolic.verify.by_z3.terms import conjunction, negation, same
+from tumato_symbolic.verify.claimed_ranks import NOT_ALL
 from tumato_symbolic.verify.decisions import LARGEST_TABLE
-from tumato_symbolic.verify.given import NOT_ALL
 from tumato_symbolic.verify.result import PropertyResult, Refutation
 
 
-def prove_goals(frame: Frame, source: RankSource) -> PropertyResult:
+def prove_goals(problem: PolicyProblem, source: RankSource) -> PropertyResult:
     """From every state where the policy acts, its nominal run reaches the residual goal in 1 to `L` steps.
 
     Decisions that are not allowed owe no run. Raises `UndecidedError`.
     """
-    goals = [goal for goal in _residuals(frame) if goal.bodies or frame.spec.restores_stepwise]
-    return _by_certificate(frame, source, goals) or _by_following(frame, source, goals)
+    goals = [goal for goal in _residuals(problem) if goal.bodies or problem.spec.restores_stepwise]
+    return _by_certificate(problem, source, goals) or _by_following(problem, source, goals)
 
 
-def _residuals(frame: Frame) -> list[Residual]:
+def _residuals(problem: PolicyProblem) -> list[Residual]:
     """The residual goals of all acting states, in an order that does not depend on which Z3 finds first."""
     executed = {
-        action: frame.name(conjunction((frame.executed[action], spoken)), "x")
-        for action, spoken in frame.goals.spoken_of().items()
+        action: problem.name(conjunction((problem.executed[action], spoken)), "x")
+        for action, spoken in problem.goals.spoken_of().items()
     }
     found: list[Residual] = []
-    deadline = frame.deadline()
-    with frame.solver.scope(frame.acting):
-        while (answer := frame.solver.ask(deadline=deadline)) == "sat":
-            model = frame.solver.model
+    deadline = problem.deadline()
+    with problem.solver.scope(problem.acting):
+        while (answer := problem.solver.ask(deadline=deadline)) == "sat":
+            model = problem.solver.model
             goal = Residual(
-                frozenset(body for body, term in frame.goals.active.items() if is_true(model, term)),
+                frozenset(body for body, term in problem.goals.active.items() if is_true(model, term)),
                 frozenset(action for action, term in executed.items() if is_true(model, term)),
             )
             found.append(goal)
-            terms = [same(term, body in goal.bodies) for body, term in frame.goals.active.items()]
+            terms = [same(term, body in goal.bodies) for body, term in problem.goals.active.items()]
             terms += [same(term, action in goal.executed) for action, term in executed.items()]
-            frame.solver.add(negation(conjunction(terms)))
+            problem.solver.add(negation(conjunction(terms)))
     if answer == "unknown":
         raise UndecidedError("there are no other residual goals")
     return sorted(found, key=lambda goal: (sorted(goal.bodies), sorted(goal.executed)))
 
 
-def _by_certificate(frame: Frame, source: RankSource, goals: list[Residual]) -> PropertyResult | None:
+def _by_certificate(problem: PolicyProblem, source: RankSource, goals: list[Residual]) -> PropertyResult | None:
     """The proof with the ranks that came with the policy, or a failing run; None where they do not serve.
 
     After a failing run the other ranks are looked at all the same: they may be wrong as well.
@@ -62,11 +62,11 @@ def _by_certificate(frame: Frame, source: RankSource, goals: list[Residual]) -> 
                 source.lacks(goal)
                 whole = False
                 continue
-            proof = RankProof(frame, given)
+            proof = RankProof(problem, given)
             state = proof.first_beyond(source.owes_a_run)
             if state is None:
                 continue
-            failed, whole = failed or _failing(frame, source, state), False
+            failed, whole = failed or _failing(problem, source, state), False
             if proof.first_too_large(source.owes_a_run) is not None:
                 source.reject(f"its ranks of {source.described(goal)} exceed the bound")
                 return failed
@@ -81,19 +81,19 @@ def _by_certificate(frame: Frame, source: RankSource, goals: list[Residual]) -> 
     return _proved(goals)
 
 
-def _by_following(frame: Frame, source: RankSource, goals: list[Residual]) -> PropertyResult:
+def _by_following(problem: PolicyProblem, source: RankSource, goals: list[Residual]) -> PropertyResult:
     """Follow all runs: one fails, or their lengths are ranks, which are then proved."""
     if source.decisions.rows is None:
         why = f"there is no certificate that holds, and over {LARGEST_TABLE} states, too many to follow all runs"
         raise UndecidedError("every run reaches its goal", why)
     failing = next(filter(source.owes_a_run, source.ranks.missed()), None)
     if failing is not None:
-        failed = _failing(frame, source, failing)
+        failed = _failing(problem, source, failing)
         if failed is None:
             raise RuntimeError(f"the run from {failing} reaches its goal, against its rank")
         return failed
     for goal in goals:
-        proof = RankProof(frame, source.recomputed(goal))
+        proof = RankProof(problem, source.recomputed(goal))
         if not proof.decreases() or proof.first_beyond(source.owes_a_run) is not None:
             raise RuntimeError(f"the lengths of runs are no ranks of {goal}")
     return _proved(goals)
@@ -104,10 +104,10 @@ def _proved(goals: list[Residual]) -> PropertyResult:
     return PropertyResult("goals", "proved", 1 + 2 * len(goals), "z3")
 
 
-def _failing(frame: Frame, source: RankSource, state: State) -> PropertyResult | None:
+def _failing(problem: PolicyProblem, source: RankSource, state: State) -> PropertyResult | None:
     """The refutation by the run from `state`; None where it reaches its goal."""
     chosen = source.decisions[state]
-    run = follow(frame.spec, source.decisions, state, chosen)
+    run = follow(problem.spec, source.decisions, state, chosen)
     if run.end == "goal":
         return None
     return PropertyResult("goals", "refuted", refutation=Refutation("goal-missed", state, chosen, run=run))

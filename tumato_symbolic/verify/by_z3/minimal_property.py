@@ -17,8 +17,8 @@ from tumato_symbolic.semantics import (
 )
 from tumato_symbolic.spec import Ordering
 from tumato_symbolic.verify.by_z3.choice import Choice
-from tumato_symbolic.verify.by_z3.frame import Frame, unknown_bits
 from tumato_symbolic.verify.by_z3.outcomes import objections_to
+from tumato_symbolic.verify.by_z3.policy_problem import PolicyProblem, unknown_bits
 from tumato_symbolic.verify.by_z3.rank_source import RankSource
 from tumato_symbolic.verify.by_z3.rank_terms import RankFunction
 from tumato_symbolic.verify.by_z3.solver import UndecidedError
@@ -30,12 +30,12 @@ Cheaper: TypeAlias = tuple[State, ActionSet, Run]
 CLAIM = "no cheaper allowed set serves as well"
 
 
-def prove_minimal(frame: Frame, source: RankSource, ordering: Ordering) -> PropertyResult:
+def prove_minimal(problem: PolicyProblem, source: RankSource, ordering: Ordering) -> PropertyResult:
     """No valid unsafe state has a cheaper allowed set whose run, continued by the policy, reaches its residual goal.
 
     Raises `UndecidedError`.
     """
-    search = _Search(frame, source, ordering)
+    search = _Search(problem, source, ordering)
     found = search.find()
     if found is None:
         return PropertyResult("minimal", "proved", 1 + len(search.ranked), "z3")
@@ -52,21 +52,21 @@ class _Search:
     this order must lead to a safe state; with this residual goal, the rank of the next state must be below the bound.
     """
 
-    def __init__(self, frame: Frame, source: RankSource, ordering: Ordering) -> None:
-        self._frame = frame
+    def __init__(self, problem: PolicyProblem, source: RankSource, ordering: Ordering) -> None:
+        self._problem = problem
         self._source = source
         self._ordering = ordering
-        self._solver = frame.new_solver()
-        self._choice = Choice(frame.spec, frame.state, self._solver)
+        self._solver = problem.new_solver()
+        self._choice = Choice(problem.spec, problem.state, self._solver)
         self.ranked: dict[Residual, RankFunction] = {}
-        self._solver.add(frame.decided, negation(frame.safe), *self._choice.conditions())
-        self._solver.add(self._choice.cheaper_than(frame.executed))
+        self._solver.add(problem.decided, negation(problem.safe), *self._choice.conditions())
+        self._solver.add(self._choice.cheaper_than(problem.executed))
 
     def find(self, *literals: Term) -> Cheaper | None:
         """An unsafe state that meets `literals` with a better set, confirmed, and its run; None where there is none."""
-        deadline = self._frame.deadline()
+        deadline = self._problem.deadline()
         while (answer := self._solver.ask(*literals, deadline=deadline)) == "sat":
-            state, chosen = self._frame.state.read(self._solver.model), self._choice.read(self._solver.model)
+            state, chosen = self._problem.state.read(self._solver.model), self._choice.read(self._solver.model)
             run = self._confirm(state, chosen)
             if run is not None:
                 return state, chosen, run
@@ -76,8 +76,8 @@ class _Search:
 
     def _confirm(self, state: State, chosen: ActionSet) -> Run | None:
         """The run of a proposal, if it is better than the policy; otherwise learn why it is not."""
-        spec = self._frame.spec
-        failed = objections_to(spec, state, chosen, self._ordering, self._frame.deadline())
+        spec = self._problem.spec
+        failed = objections_to(spec, state, chosen, self._ordering, self._problem.deadline())
         if failed:
             for objection in failed:
                 self._solver.add(self._choice.lemma(objection))
@@ -96,19 +96,19 @@ class _Search:
         if known is not None and not known.given:
             raise RuntimeError(f"the ranks of {goal} hold, and a run takes longer")
         ranks = self.ranked[goal] = self._source.lower_bound(goal) if known is None else self._source.exact(goal)
-        mine = self._frame.goals.is_residual(goal, self._choice.executed)
-        self._solver.add(implies(mine, ranks.within_bound(self._frame, self._choice.after)))
+        mine = self._problem.goals.is_residual(goal, self._choice.executed)
+        self._solver.add(implies(mine, ranks.within_bound(self._problem, self._choice.after)))
 
     def improve(self, found: Cheaper) -> Cheaper:
         """The first state, as declared, that has a better set, and its best one: cheapest, then smallest, then first.
 
         When time runs out on the way, the best so far.
         """
-        spec, executed = self._frame.spec, self._choice.executed
+        spec, executed = self._problem.spec, self._choice.executed
         fixed: list[Term] = []
         try:
-            for place, bit in enumerate(unknown_bits(self._frame.state)):
-                literal = self._frame.literals(found[0])[place]
+            for place, bit in enumerate(unknown_bits(self._problem.state)):
+                literal = self._problem.literals(found[0])[place]
                 if literal is bit and (better := self.find(*fixed, negation(bit))) is not None:
                     found, literal = better, negation(bit)
                 fixed.append(literal)

@@ -11,9 +11,9 @@ import z3
 
 from tumato_symbolic.semantics import (
     ActionSet,
-    Effectuation,
+    EffectSequence,
+    EffectStep,
     Objection,
-    Outcome,
     State,
     apply,
     fault_after,
@@ -224,12 +224,12 @@ def objections_to(
     return [unsafe.objection(solver.model, state, chosen)] if answer == "sat" else []
 
 
-def replay(state: State, steps: Sequence[tuple[int, tuple[tuple[int, int], ...]]]) -> Outcome:
+def replay(state: State, steps: Sequence[tuple[int, tuple[tuple[int, int], ...]]]) -> EffectSequence:
     """The states met when effects strike in this order."""
     way = []
     for number, effect in steps:
         state = apply(effect, state)
-        way.append(Effectuation(number, effect, state))
+        way.append(EffectStep(number, effect, state))
     return tuple(way)
 
 

@@ -15,9 +15,9 @@ from tumato_symbolic.semantics import is_valid
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.by_z3.best_property import prove_best
 from tumato_symbolic.verify.by_z3.effort_source import EffortSource
-from tumato_symbolic.verify.by_z3.frame import Frame
 from tumato_symbolic.verify.by_z3.goals_property import prove_goals
 from tumato_symbolic.verify.by_z3.minimal_property import prove_minimal
+from tumato_symbolic.verify.by_z3.policy_problem import PolicyProblem
 from tumato_symbolic.verify.by_z3.rank_source import RankSource
 from tumato_symbolic.verify.by_z3.restoring_property import prove_restoring
 from tumato_symbolic.verify.by_z3.solver import UndecidedError
@@ -36,7 +36,7 @@ class Z3Prover:
         self._spec = spec
         self._policy = policy
         self._ordering = ordering
-        self._frame = Frame(spec, as_diagram(policy), budget)
+        self._problem = PolicyProblem(spec, as_diagram(policy), budget)
         self.policy_is_safe = False
         self._total = False
 
@@ -47,33 +47,33 @@ class Z3Prover:
 
     @cached_property
     def _ranks(self) -> RankSource:
-        return RankSource(self._frame, self._policy, self._ordering, self.policy_is_safe)
+        return RankSource(self._problem, self._policy, self._ordering, self.policy_is_safe)
 
     @cached_property
     def _efforts(self) -> EffortSource:
-        return EffortSource(self._frame, self._ranks, self._ordering, self.policy_is_safe)
+        return EffortSource(self._problem, self._ranks, self._ordering, self.policy_is_safe)
 
     def has_valid_state(self) -> bool:
         """Whether some state satisfies all assumptions, as far as Z3 can tell."""
-        return self._frame.solver.ask(self._frame.valid, deadline=self._frame.deadline()) != "unsat"
+        return self._problem.solver.ask(self._problem.valid, deadline=self._problem.deadline()) != "unsat"
 
     def prove(self, name: PropertyName, within: float = math.inf) -> PropertyResult:
         """The verdict on one property; undecided where an obligation, or all in `within` seconds, take too long."""
-        self._frame.latest = time.monotonic() + within
+        self._problem.latest = time.monotonic() + within
         try:
             match name:
                 case "total":
-                    result = prove_total(self._frame)
+                    result = prove_total(self._problem)
                 case "safe":
-                    result = prove_safe(self._frame, self._ordering)
+                    result = prove_safe(self._problem, self._ordering)
                 case "restoring":
-                    result = prove_restoring(self._frame, self._efforts, self._ordering)
+                    result = prove_restoring(self._problem, self._efforts, self._ordering)
                 case "goals":
-                    result = prove_goals(self._frame, self._ranks)
+                    result = prove_goals(self._problem, self._ranks)
                 case _ if self._spec.restores_stepwise:
-                    result = prove_best(self._frame, self._efforts, self._ordering)
+                    result = prove_best(self._problem, self._efforts, self._ordering)
                 case _:
-                    result = prove_minimal(self._frame, self._ranks, self._ordering)
+                    result = prove_minimal(self._problem, self._ranks, self._ordering)
         except UndecidedError as undecided:
             return PropertyResult(name, "undecided", reason=str(undecided))
         self._total |= name == "total" and result.verdict == "proved"
@@ -94,7 +94,7 @@ class Z3Prover:
         decisions = self._policy.decisions
         if isinstance(decisions, Table):
             return sum(is_valid(self._spec, state) for state in decisions.rows)
-        others = conjunction((self._frame.defined, negation(self._frame.valid)))
-        if self._frame.solver.ask(others, deadline=self._frame.deadline()) != "unsat":
+        others = conjunction((self._problem.defined, negation(self._problem.valid)))
+        if self._problem.solver.ask(others, deadline=self._problem.deadline()) != "unsat":
             return None
         return count_true(decisions.diagram, decisions.defined, self._policy.vocabulary.sizes)

@@ -5,24 +5,24 @@ from __future__ import annotations
 from tumato_symbolic.policy import Policy
 from tumato_symbolic.semantics import Residual, State
 from tumato_symbolic.spec import Ordering
-from tumato_symbolic.verify.by_z3.frame import Frame
 from tumato_symbolic.verify.by_z3.outcomes import objections_to
+from tumato_symbolic.verify.by_z3.policy_problem import PolicyProblem
 from tumato_symbolic.verify.by_z3.rank_terms import RankFunction, RankProof
 from tumato_symbolic.verify.by_z3.solver import UndecidedError
+from tumato_symbolic.verify.claimed_ranks import UNNEEDED, ClaimedRanks
 from tumato_symbolic.verify.decisions import Decisions, Ranks
-from tumato_symbolic.verify.given import UNNEEDED, GivenRanks
 
 
-class RankSource(GivenRanks):
+class RankSource(ClaimedRanks):
     """The ranks of one policy; `use` tells what became of its certificate."""
 
-    def __init__(self, frame: Frame, policy: Policy, ordering: Ordering, policy_is_safe: bool) -> None:
-        super().__init__(frame.spec, policy, lambda: policy_is_safe)
-        self._frame = frame
+    def __init__(self, problem: PolicyProblem, policy: Policy, ordering: Ordering, policy_is_safe: bool) -> None:
+        super().__init__(problem.spec, policy, lambda: policy_is_safe)
+        self._problem = problem
         self._ordering = ordering
         self._certificate = policy.certificate
-        self.decisions = Decisions(frame.spec, policy)
-        self.ranks = Ranks(frame.spec, self.decisions)
+        self.decisions = Decisions(problem.spec, policy)
+        self.ranks = Ranks(problem.spec, self.decisions)
         self._recomputed: dict[Residual, RankFunction] = {}
 
     def given(self, goal: Residual) -> RankFunction | None:
@@ -36,7 +36,7 @@ class RankSource(GivenRanks):
     def owes_a_run(self, state: State) -> bool:
         """Whether the decision for `state` owes a run: those that are not allowed are refuted without one."""
         return self._policy_is_safe() or not objections_to(
-            self._frame.spec, state, self.decisions[state], self._ordering, self._frame.deadline()
+            self._problem.spec, state, self.decisions[state], self._ordering, self._problem.deadline()
         )
 
     def check_given(self) -> bool:
@@ -48,7 +48,7 @@ class RankSource(GivenRanks):
             return False
         for goal in self.roots:
             ranks = self.given(goal)
-            if ranks is not None and not RankProof(self._frame, ranks).decreases():
+            if ranks is not None and not RankProof(self._problem, ranks).decreases():
                 self.reject(f"the ranks of {self.described(goal)} do not go down to it")
                 return False
         return True
@@ -64,7 +64,7 @@ class RankSource(GivenRanks):
         """Ranks proved to be nowhere larger than the run is long. Raises `UndecidedError`."""
         given = self.given(goal)
         if given is not None:
-            if RankProof(self._frame, given).is_lower_bound():
+            if RankProof(self._problem, given).is_lower_bound():
                 self.serve()
                 return given
         elif self.roots:
@@ -79,6 +79,6 @@ class RankSource(GivenRanks):
             why = f"there are no exact ranks of {self.described(goal)}, and too many states to follow all runs"
             raise UndecidedError("no cheaper allowed set serves as well", why)
         ranks = self.recomputed(goal)
-        if not RankProof(self._frame, ranks).is_lower_bound():
+        if not RankProof(self._problem, ranks).is_lower_bound():
             raise RuntimeError(f"the lengths of runs are no ranks of {goal}")
         return ranks

@@ -13,8 +13,8 @@ import z3
 from tumato_symbolic.diagrams import Diagram, Reference
 from tumato_symbolic.semantics import Residual, State
 from tumato_symbolic.verify.by_z3.encoding import Place, diagram_terms
-from tumato_symbolic.verify.by_z3.frame import Frame
 from tumato_symbolic.verify.by_z3.goal_terms import reached_term
+from tumato_symbolic.verify.by_z3.policy_problem import PolicyProblem
 from tumato_symbolic.verify.by_z3.solver import Answer, UndecidedError
 from tumato_symbolic.verify.by_z3.step_counts import StepCounts
 from tumato_symbolic.verify.by_z3.terms import Number, Term, conjunction, either, negation
@@ -58,25 +58,25 @@ class RankFunction:
         """All ranks that may occur."""
         return sorted({0, *(leaf for leaf in self.diagram.leaves if leaf is not None)})
 
-    def counts(self, frame: Frame) -> StepCounts:
+    def counts(self, problem: PolicyProblem) -> StepCounts:
         """How ranks are coded."""
-        return StepCounts(self.ranks[-1], frame.context)
+        return StepCounts(self.ranks[-1], problem.context)
 
-    def count(self, frame: Frame, place: Place) -> Number:
+    def count(self, problem: PolicyProblem, place: Place) -> Number:
         """The rank of `place`; None is never."""
-        code = self.counts(frame).code
+        code = self.counts(problem).code
         (rank,) = diagram_terms(self.diagram, [self.root], place, code)
-        return rank if self.given else either(reached_term(frame.spec, self.goal, place), code(0), rank)
+        return rank if self.given else either(reached_term(problem.spec, self.goal, place), code(0), rank)
 
-    def where(self, frame: Frame, place: Place, wanted: Callable[[Rank], bool]) -> Term:
+    def where(self, problem: PolicyProblem, place: Place, wanted: Callable[[Rank], bool]) -> Term:
         """The rank of `place` is a wanted one."""
         (term,) = diagram_terms(self.diagram, [self.root], place, wanted)
-        return term if self.given else either(reached_term(frame.spec, self.goal, place), wanted(0), term)
+        return term if self.given else either(reached_term(problem.spec, self.goal, place), wanted(0), term)
 
-    def within_bound(self, frame: Frame, place: Place) -> Term:
+    def within_bound(self, problem: PolicyProblem, place: Place) -> Term:
         """A step to `place` serves the goal: the rank there is at most `L - 1`; a number, where there is no bound."""
-        bound = frame.spec.max_plan_length
-        return self.where(frame, place, below(math.inf if bound is None else bound))
+        bound = problem.spec.max_plan_length
+        return self.where(problem, place, below(math.inf if bound is None else bound))
 
 
 class RankProof:
@@ -85,22 +85,22 @@ class RankProof:
     Each is asked at once; where that takes too long, for every rank and decision apart.
     """
 
-    def __init__(self, frame: Frame, ranks: RankFunction) -> None:
-        self._frame = frame
+    def __init__(self, problem: PolicyProblem, ranks: RankFunction) -> None:
+        self._problem = problem
         self._ranks = ranks
         self._covered: Term = True
         self._covered_after: Term = True
         if ranks.given:
-            self._covered = frame.valid if ranks.of_unsafe else frame.safe
-            self._covered_after = frame.valid_after if ranks.of_unsafe else frame.safe_after
-        self._coded = ranks.counts(frame)
-        self._reached = frame.name(reached_term(frame.spec, ranks.goal, frame.state), "reached")
+            self._covered = problem.valid if ranks.of_unsafe else problem.safe
+            self._covered_after = problem.valid_after if ranks.of_unsafe else problem.safe_after
+        self._coded = ranks.counts(problem)
+        self._reached = problem.name(reached_term(problem.spec, ranks.goal, problem.state), "reached")
 
     def decreases(self) -> bool:
         """`N` is an upper bound: 0 means that the goal holds, `j > 0` that the next state has a smaller rank."""
         here, after, names = self._counts()
         known = self._coded.is_number(here)
-        steps = conjunction((self._frame.acting, self._covered_after))
+        steps = conjunction((self._problem.acting, self._covered_after))
         goes_down = conjunction((steps, z3.ULT(after, here)))
         wrong = either(here == 0, negation(self._reached), negation(goes_down))
         return self._holds("ranks decrease", [*names, self._covered, known, wrong], self._decreases_by_parts(steps))
@@ -114,12 +114,12 @@ class RankProof:
         """`N` is 0 where the goal holds, and nowhere over one more than in the next state; None is infinite."""
         here, after, names = self._counts()
         follows = conjunction((self._covered_after, negation(self._coded.exceeds_by_two(here, after))))
-        wrong = either(self._reached, here != 0, conjunction((self._frame.acting, negation(follows))))
+        wrong = either(self._reached, here != 0, conjunction((self._problem.acting, negation(follows))))
         return self._holds("ranks are nowhere too large", [*names, self._covered, wrong], self._bounds_by_parts())
 
     def _bounds_by_parts(self) -> Iterator[Term]:
         yield conjunction((self._reached, negation(self._here(exactly(0)))))
-        moves = conjunction((negation(self._reached), self._frame.acting))
+        moves = conjunction((negation(self._reached), self._problem.acting))
         yield conjunction((moves, negation(self._covered_after)))
         for rank in self._ranks.ranks:
             yield conjunction((moves, self._after(exactly(rank)), negation(self._here(below(rank + 2)))))
@@ -129,61 +129,64 @@ class RankProof:
 
         States for which `owes_a_run` is false are passed over.
         """
-        near = conjunction((self._covered_after, self._ranks.within_bound(self._frame, self._frame.after)))
+        near = conjunction((self._covered_after, self._ranks.within_bound(self._problem, self._problem.after)))
         return self._first_owing(negation(near), owes_a_run)
 
     def first_too_large(self, owes_a_run: Callable[[State], bool]) -> State | None:
         """The first one whose rank is a number, and not below the bound."""
-        bound = self._frame.spec.max_plan_length
+        bound = self._problem.spec.max_plan_length
         if bound is None:
             return None
         large = self._after(lambda rank: rank is not None and rank >= bound)
         return self._first_owing(conjunction((self._covered_after, large)), owes_a_run)
 
     def _first_owing(self, fault: Term, owes_a_run: Callable[[State], bool]) -> State | None:
-        frame = self._frame
-        mine = frame.goals.is_residual(self._ranks.goal, frame.executed)
-        deadline = frame.deadline()
-        with frame.solver.scope(frame.acting, mine, fault):
-            while (model := frame.first_model("ranks are below the bound", deadline=deadline)) is not None:
-                state = frame.state.read(model)
+        problem = self._problem
+        mine = problem.goals.is_residual(self._ranks.goal, problem.executed)
+        deadline = problem.deadline()
+        with problem.solver.scope(problem.acting, mine, fault):
+            while (model := problem.first_model("ranks are below the bound", deadline=deadline)) is not None:
+                state = problem.state.read(model)
                 if owes_a_run(state):
                     return state
-                frame.solver.add(negation(conjunction(frame.literals(state))))
+                problem.solver.add(negation(conjunction(problem.literals(state))))
         return None
 
     def _here(self, wanted: Callable[[Rank], bool]) -> Term:
-        return self._ranks.where(self._frame, self._frame.state, wanted)
+        return self._ranks.where(self._problem, self._problem.state, wanted)
 
     def _after(self, wanted: Callable[[Rank], bool]) -> Term:
-        return self._ranks.where(self._frame, self._frame.after, wanted)
+        return self._ranks.where(self._problem, self._problem.after, wanted)
 
     def _counts(self) -> tuple[Number, Number, list[Term]]:
         """The ranks of `s` and of its successor, and what defines them."""
-        width, frame = self._coded.width, self._frame
-        here, after = (z3.BitVec(name, width, frame.context) for name in ("rank", "rank_after"))
-        definitions = [here == self._ranks.count(frame, frame.state), after == self._ranks.count(frame, frame.after)]
+        width, problem = self._coded.width, self._problem
+        here, after = (z3.BitVec(name, width, problem.context) for name in ("rank", "rank_after"))
+        definitions = [
+            here == self._ranks.count(problem, problem.state),
+            after == self._ranks.count(problem, problem.after),
+        ]
         return here, after, definitions
 
     def _holds(self, claim: str, violation: list[Term], parts: Iterator[Term]) -> bool:
         """Whether `violation` is impossible; `parts`, one for every rank, are violations that amount to the same."""
-        frame, deadline = self._frame, self._frame.deadline()
-        answer = frame.solver.ask(*violation, deadline=min(time.monotonic() + AT_ONCE, deadline))
+        problem, deadline = self._problem, self._problem.deadline()
+        answer = problem.solver.ask(*violation, deadline=min(time.monotonic() + AT_ONCE, deadline))
         if answer == "unknown":
-            cases = frame.decision_literals(deadline)
+            cases = problem.decision_literals(deadline)
             if len(cases) * len(self._ranks.ranks) * ONE_PART < deadline - time.monotonic():
                 answer = self._ask_by_parts(cases, parts, deadline)
             else:
-                answer = frame.solver.ask(*violation, deadline=deadline)
+                answer = problem.solver.ask(*violation, deadline=deadline)
         if answer == "unknown":
             raise UndecidedError(claim)
         return answer == "unsat"
 
     def _ask_by_parts(self, cases: list[list[Term]], parts: Iterator[Term], deadline: float) -> Answer:
         for part in parts:
-            with self._frame.solver.scope(self._covered, part):
+            with self._problem.solver.scope(self._covered, part):
                 for case in cases:
-                    answer = self._frame.solver.ask(*case, deadline=deadline)
+                    answer = self._problem.solver.ask(*case, deadline=deadline)
                     if answer != "unsat":
                         return answer
         return "unsat"

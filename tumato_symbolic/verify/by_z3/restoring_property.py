@@ -5,7 +5,7 @@ from __future__ import annotations
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Ordering
 from tumato_symbolic.verify.by_z3.effort_source import EffortSource
-from tumato_symbolic.verify.by_z3.frame import Frame
+from tumato_symbolic.verify.by_z3.policy_problem import PolicyProblem
 from tumato_symbolic.verify.result import PropertyResult, Refutation
 from tumato_symbolic.verify.ways_back import RestoringWitnesses, TooFarError, WaysBack
 
@@ -13,7 +13,7 @@ OBLIGATIONS = 3
 """Efforts are enough for one step and for nominal outcomes, for every other outcome, and no state is without."""
 
 
-def prove_restoring(frame: Frame, source: EffortSource, ordering: Ordering) -> PropertyResult:
+def prove_restoring(problem: PolicyProblem, source: EffortSource, ordering: Ordering) -> PropertyResult:
     """Every unsafe state where the policy acts is restored: in the worst case; under `fair`, along its nominal run.
 
     Raises `UndecidedError`.
@@ -25,7 +25,7 @@ def prove_restoring(frame: Frame, source: EffortSource, ordering: Ordering) -> P
             source.ranks.serve()
             return _proved()
         source.ranks.lacks_effort(without)
-        refuted = _refuted(frame, source, ordering, without)
+        refuted = _refuted(problem, source, ordering, without)
         if refuted is not None:
             return refuted
     elif source.ranks.roots:
@@ -33,18 +33,18 @@ def prove_restoring(frame: Frame, source: EffortSource, ordering: Ordering) -> P
     without = source.recomputed.first_without()
     if without is None:
         return _proved()
-    return RestoringWitnesses(frame.spec, source.ranks.decisions, ordering).not_restored(without)
+    return RestoringWitnesses(problem.spec, source.ranks.decisions, ordering).not_restored(without)
 
 
 def _proved() -> PropertyResult:
     return PropertyResult("restoring", "proved", OBLIGATIONS, "z3")
 
 
-def _refuted(frame: Frame, source: EffortSource, ordering: Ordering, state: State) -> PropertyResult | None:
+def _refuted(problem: PolicyProblem, source: EffortSource, ordering: Ordering, state: State) -> PropertyResult | None:
     """The refutation by a state for which the certificate has no effort; None where there is one, or it is too far."""
     decisions = source.ranks.decisions
     try:
-        run = WaysBack(frame.spec, decisions, ordering).lost(state)
+        run = WaysBack(problem.spec, decisions, ordering).lost(state)
     except TooFarError:
         return None
     if run is None:

@@ -12,9 +12,9 @@ from tumato_symbolic.policy.convert import as_diagram
 from tumato_symbolic.policy.guarantees_file import GuaranteesCertificate
 from tumato_symbolic.semantics import Guarantee, Residual, Shortcoming, Shortcomings, State, residual_goal, shows
 from tumato_symbolic.spec import Ordering, Spec
-from tumato_symbolic.verify.by_walk.goals import WalkGoals
-from tumato_symbolic.verify.by_walk.model import Model
-from tumato_symbolic.verify.by_walk.walk import BudgetError, given_up
+from tumato_symbolic.verify.by_diagrams.goals import WalkGoals
+from tumato_symbolic.verify.by_diagrams.model import Model
+from tumato_symbolic.verify.by_diagrams.walk import BudgetError, given_up
 from tumato_symbolic.verify.decisions import Decisions
 from tumato_symbolic.verify.guarantees.certifying import certificate_of
 from tumato_symbolic.verify.guarantees.prospects import WalkProspects

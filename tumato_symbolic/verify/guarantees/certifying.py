@@ -9,7 +9,7 @@ from tumato_symbolic.policy.guarantees_file import CertifiedGoal, CertifiedLevel
 from tumato_symbolic.policy.records import Vocabulary
 from tumato_symbolic.semantics import Residual, action_names
 from tumato_symbolic.spec import Ordering, Spec, canonical_text, digest
-from tumato_symbolic.verify.by_walk.walk import Function, Walk
+from tumato_symbolic.verify.by_diagrams.walk import Function, Walk
 from tumato_symbolic.verify.guarantees.prospects import NO_RANK
 from tumato_symbolic.verify.guarantees.result import Level
 

@@ -7,9 +7,9 @@ from functools import cached_property
 from math import inf
 
 from tumato_symbolic.semantics import NOTHING, Guarantee, Residual, State
-from tumato_symbolic.verify.by_walk.goals import WalkGoals
-from tumato_symbolic.verify.by_walk.model import Model
-from tumato_symbolic.verify.by_walk.walk import FALSE, TRUE, Function
+from tumato_symbolic.verify.by_diagrams.goals import WalkGoals
+from tumato_symbolic.verify.by_diagrams.model import Model
+from tumato_symbolic.verify.by_diagrams.walk import FALSE, TRUE, Function
 
 NO_RANK = -1
 

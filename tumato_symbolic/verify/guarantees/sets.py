@@ -9,7 +9,7 @@ from tumato_symbolic.diagrams import EVERYTHING, LEAVES, NOTHING, Coverer, Refer
 from tumato_symbolic.limits import Context
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Spec
-from tumato_symbolic.verify.by_walk.walk import Function, Walk
+from tumato_symbolic.verify.by_diagrams.walk import Function, Walk
 from tumato_symbolic.verify.guarantees.result import StateCube
 
 MOST_CUBES = 200

@@ -1,0 +1,138 @@
+"""A claim, a policy or that there is none, against its specification: what `verify` does with one file."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeAlias, cast
+
+from tumato_symbolic.cli.console import write
+from tumato_symbolic.cli.exits import NO, UNDECIDED, YES
+from tumato_symbolic.cli.inputs import errors_in, read_spec
+from tumato_symbolic.cli.options import STANDARD_OUTPUT
+from tumato_symbolic.limits import Context
+from tumato_symbolic.policy import Policy
+from tumato_symbolic.report.verified import Verified
+from tumato_symbolic.verify import verify
+from tumato_symbolic.verify.guarantees.result import Guarantees
+from tumato_symbolic.verify.result import stopped
+from tumato_symbolic.verify.workers import cores
+
+if TYPE_CHECKING:
+    from tumato_symbolic.policy.guarantees_file import GuaranteesCertificate
+    from tumato_symbolic.policy.unrealizable import Unrealizability
+    from tumato_symbolic.report.unrealizable import VerifiedUnrealizable
+    from tumato_symbolic.spec import Ordering, Restoration
+    from tumato_symbolic.verify import ProverName, UnrealizabilityVerdict, Verification
+
+    Judged: TypeAlias = Verified | VerifiedUnrealizable
+
+
+@dataclass(frozen=True, slots=True)
+class Criteria:
+    """What a claim is held to: an ordering and a restoration (None: the specification's), properties, and who proves.
+
+    `strict`: its certificate has to hold as well. `guarantees`: what a policy guarantees beyond
+    nominal runs is asked as well, with a certificate where there is a file for it.
+    """
+
+    ordering: Ordering | None
+    restoration: Restoration | None
+    properties: tuple[str, ...]
+    prover: ProverName
+    strict: bool
+    guarantees: bool = False
+    guarantees_file: str | None = None
+
+
+def wanted_jobs(asked: int | None) -> int:
+    """How many processes may work at a time: as many as the user says, else one on every processor."""
+    return asked or cores()
+
+
+def verify_claim(
+    claim: Policy | Unrealizability, path: str, spec_path: str, criteria: Criteria, context: Context, *, jobs: int
+) -> Judged:
+    """The claim read from `path` against the specification at `spec_path`.
+
+    Raises `UserError` where the specification cannot be used, or the claim does not fit it.
+    """
+    context.tell("reading the specification")
+    source, spec, warnings = read_spec(spec_path, criteria.restoration)
+    started = time.perf_counter()
+
+    def verified(found: object) -> Verified:
+        took = time.perf_counter() - started
+        done = Verified(source, spec, path, cast("Verification", found), warnings, took, criteria.strict)
+        return replace(done, guarantees=_not_yet(done.verification)) if criteria.guarantees else done
+
+    with errors_in(source):
+        if isinstance(claim, Policy):
+            verification = verify(
+                claim,
+                spec,
+                ordering=criteria.ordering,
+                restoration=criteria.restoration,
+                properties=(*criteria.properties, "restoring") if criteria.strict else criteria.properties,
+                prover=criteria.prover,
+                jobs=jobs,
+                context=context.within(learned=lambda found: context.learn(verified(found))),
+            )
+            done = verified(verification)
+            if not criteria.guarantees or verification.verdict != "proved":
+                return done
+            context.learn(done)
+            from tumato_symbolic.verify.guarantees.analyse import guarantees
+
+            certify = criteria.guarantees_file is not None
+            found = guarantees(claim, spec, verification.ordering, certify=certify, context=context)
+            if found.certificate is not None and criteria.guarantees_file is not None:
+                write_certificate(found.certificate, criteria.guarantees_file)
+            return replace(done, guarantees=found, took=time.perf_counter() - started)
+        from tumato_symbolic.report.unrealizable import VerifiedUnrealizable
+        from tumato_symbolic.verify import verify_unrealizable  # loads Z3, which --prover walk does without
+
+        def disproved(found: object) -> VerifiedUnrealizable:
+            took = time.perf_counter() - started
+            verdict = cast("UnrealizabilityVerdict", found)
+            return VerifiedUnrealizable(source, spec, path, verdict, warnings, took, criteria.strict)
+
+        part = context.within(learned=lambda found: context.learn(disproved(found)))
+        return disproved(verify_unrealizable(claim, spec, ordering=criteria.ordering, context=part))
+
+
+def write_certificate(certificate: GuaranteesCertificate, target: str) -> None:
+    """Write it to a file; `-` is the standard output."""
+    from tumato_symbolic.policy.guarantees_file import dumps, save
+
+    if target == STANDARD_OUTPUT:
+        write(dumps(certificate).rstrip("\n"))
+    else:
+        save(certificate, Path(target))
+
+
+def _not_yet(verification: Verification) -> Guarantees:
+    """What is said of guarantees before they are looked at."""
+    if verification.verdict == "proved":
+        return Guarantees("undecided")
+    return Guarantees("unproved", reason=f"the policy is {verification.verdict}")
+
+
+def ended(known: Judged, why: str) -> Judged:
+    """What was known of a claim when a limit was met."""
+    if isinstance(known, Verified):
+        known = replace(known, verification=stopped(known.verification, why))
+        if known.guarantees == Guarantees("undecided"):
+            known = replace(known, guarantees=Guarantees("undecided", reason=why))
+        return known
+    return replace(known, found=replace(known.found, reason=why))
+
+
+def exit_code(done: Judged) -> int:
+    """What a script may conclude: 0 only where all is known and proved, and the certificate passes `--strict`."""
+    if done.not_accepted:
+        return NO
+    if isinstance(done, Verified) and done.guarantees is not None and done.guarantees.status == "undecided":
+        return UNDECIDED
+    return {"proved": YES, "refuted": NO, "undecided": UNDECIDED}[done.verdict]

@@ -1,0 +1,136 @@
+"""How well a policy solves a problem."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from tumato_symbolic.game.fixpoints import ClosedLoop, Layers, attractor, closed_loop, preimage
+from tumato_symbolic.game.problem import Problem
+from tumato_symbolic.game.restoration import Restoration, Restorer
+from tumato_symbolic.symbolic import Bdd
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """What a policy achieves.
+
+    `ranks[k]` are the exact layers of target `k` under the policy; `failing` the valid states that have no good
+    decision: safe ones whose run misses what they owe, and unsafe ones where no allowed set serves. `restoration` is
+    what is decided in unsafe states, where safety may take several steps to restore.
+    """
+
+    closed_loop: ClosedLoop
+    ranks: tuple[Layers, ...]
+    failing: Bdd
+    restoration: Restoration | None = None
+
+
+def in_time(problem: Problem, ranks: Sequence[Layers]) -> list[Layers]:
+    """The layers that a first successor may be in, where the plan bound leaves room for the rest of the run."""
+    return [layers[: problem.spec.max_plan_length] for layers in ranks]
+
+
+def winning(problem: Problem, ranks: Sequence[Layers], relation: Bdd) -> Bdd:
+    """The states where some pair of `relation` leads, in time, to a state with a rank for the target that it owes."""
+    manager = problem.encoding.manager
+    return manager.union(
+        problem.steps.predecessor(relation & target.owed, manager.union(layers))
+        for target, layers in zip(problem.targets, in_time(problem, ranks), strict=True)
+        if (relation & target.owed) != problem.false
+    )
+
+
+class Evaluator:
+    """Judges policies that are defined in every safe state; unsafe states may take any allowed set.
+
+    Where safety may take several steps to restore, `forced` has the only pairs that its states may take, and states
+    outside `required` need not reach their goals.
+    """
+
+    def __init__(self, problem: Problem, forced: Bdd | None = None, required: Bdd | None = None) -> None:
+        self.problem = problem
+        self._forced = problem.false if forced is None else forced
+        self._required = problem.steps.valid if required is None else required
+        self._restoration: ClosedLoop | None = None
+
+    def where(self, forced: Bdd, required: Bdd | None = None) -> Evaluator:
+        """The same evaluator with other pairs that are forced, and other states that are required."""
+        other = Evaluator(self.problem, forced, required)
+        other.restorer = self.restorer
+        return other
+
+    @cached_property
+    def restorer(self) -> Restorer:
+        """What restores safety where that may take several steps."""
+        return Restorer(self.problem)
+
+    @cached_property
+    def _restoring(self) -> list[Callable[[Bdd], Bdd]]:
+        """For every target, which pairs in unsafe states owe it and lead into a set."""
+        pairs = self.problem.steps.allowed & self.problem.steps.unsafe
+        return [preimage(self.problem, pairs & target.owed) for target in self.problem.targets]
+
+    def evaluate(self, policy: Bdd) -> Evaluation:
+        """All that a policy achieves."""
+        problem, union = self.problem, self.problem.encoding.manager.union
+        found, steps = closed_loop(problem, policy), problem.steps
+        ranks = tuple(attractor(problem, t.states, found.predecessor, steps.safe, None) for t in problem.targets)
+        near = [union(layers) for layers in in_time(problem, ranks)]
+        safe = union(found.predecessor(*pair) for pair in zip(found.owing, near, strict=True))
+        if problem.spec.restores_stepwise:
+            restoration = self.restorer.restore(ranks, self._forced, self._required)
+            return Evaluation(found, ranks, (steps.safe & ~safe) | restoration.failing, restoration)
+        return Evaluation(found, ranks, steps.valid & ~(safe | union(map(self._restored, range(len(near)), near))))
+
+    def serves_all(self, found: ClosedLoop, suspects: list[int]) -> bool:
+        """Whether no state fails under a policy.
+
+        Targets are tried in the order of `suspects`, a permutation of their numbers; one that fails moves to the front.
+        """
+        problem, steps = self.problem, self.problem.steps
+        ranks: dict[int, Layers] = {}
+        for place, number in enumerate(suspects):
+            target, owing = problem.targets[number], found.owing[number]
+            layers = attractor(problem, target.states, found.predecessor, steps.safe, problem.last_layer)
+            if found.predecessor(owing, problem.encoding.manager.union(layers)) != owing:
+                suspects.insert(0, suspects.pop(place))
+                return False
+            ranks[number] = layers
+        if problem.spec.restores_stepwise:
+            ordered = [ranks[number] for number in range(len(problem.targets))]
+            return self._still_restores(found) or self._restores(ordered)
+        restored = problem.encoding.manager.union(
+            self._restored(number, problem.encoding.manager.union(layers)) for number, layers in ranks.items()
+        )
+        return (steps.unsafe & ~restored) == problem.false
+
+    def _restores(self, ranks: Sequence[Layers]) -> bool:
+        """Whether unsafe states can be restored, given ranks of the safe ones."""
+        restoration = self.restorer.restore(ranks, self._forced, self._required)
+        if restoration.failing != self.problem.false:
+            return False
+        self._restoration = closed_loop(self.problem, restoration.policy)
+        return True
+
+    def _still_restores(self, found: ClosedLoop) -> bool:
+        """Whether the decisions in unsafe states that did before do with a policy in safe states."""
+        problem, before = self.problem, self._restoration
+        if before is None:
+            return False
+
+        def predecessor(states: Bdd, target: Bdd) -> Bdd:
+            return found.predecessor(states, target) | before.predecessor(states, target)
+
+        for target, owing in zip(problem.targets, before.owing, strict=True):
+            if owing == problem.false:
+                continue
+            layers = attractor(problem, target.states, predecessor, problem.steps.valid, problem.last_layer)
+            if before.predecessor(owing, problem.encoding.manager.union(layers)) != owing:
+                return False
+        return True
+
+    def _restored(self, number: int, near: Bdd) -> Bdd:
+        """The unsafe states where some allowed set owes a target and leads into a set."""
+        return self.problem.steps.states_of(self._restoring[number](near))

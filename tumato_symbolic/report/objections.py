@@ -1,0 +1,129 @@
+"""Why a set of actions is not allowed, in sentences: the explicit meaning, told with the user's own rules and lines."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from tumato_symbolic.report.layout import enumeration
+from tumato_symbolic.semantics import (
+    ActionSet,
+    EffectSequence,
+    EffectStep,
+    Objection,
+    State,
+    action_names,
+    active_goals,
+    holds,
+    is_safe,
+    named,
+)
+from tumato_symbolic.spec import Assignment, Ordering, Rule, Spec
+
+if TYPE_CHECKING:
+    from tumato_symbolic.explain.near_misses import NearMiss
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A specification with the name of its file, for `file:line`."""
+
+    spec: Spec
+    file: str
+
+    def rule(self, rule: Rule) -> str:
+        """A rule as the user wrote it, on one line, and where."""
+        return f"`{' '.join(rule.text.split())}` ({self.file}:{rule.span.line})"
+
+    def state(self, state: State) -> str:
+        """A state as `decide` reads it."""
+        return " ".join(f"{name}={value}" for name, value in named(self.spec, state).items())
+
+    def actions(self, chosen: ActionSet) -> str:
+        """A set of actions; the empty one is `nothing`."""
+        names = action_names(self.spec, chosen)
+        return f"{{{', '.join(names)}}}" if names else "nothing"
+
+    def assignment(self, assignment: Assignment) -> str:
+        """What an effect writes, or `no change`."""
+        variables = self.spec.variables
+        written = [f"{variables[place].name}={variables[place].values[value]}" for place, value in assignment]
+        return " ".join(written) or "no change"
+
+    def goals(self, state: State) -> str:
+        """The goals that are active in a state."""
+        bodies = [self.rule(self.spec.bodies[body]) for body in sorted(active_goals(self.spec, state))]
+        if self.spec.restores_stepwise and not is_safe(self.spec, state):
+            return f"{enumeration(bodies)}, in a safe state" if bodies else "none but safety"
+        return enumeration(bodies) or "none: any allowed step will do"
+
+
+def story(place: Place, outcome: EffectSequence) -> str:
+    """How effects struck one after the other."""
+    return ", then ".join(_effectuation(place, step) for step in outcome)
+
+
+def outcome_json(spec: Spec, outcome: EffectSequence) -> list[dict[str, object]]:
+    """The same for a program."""
+    return [{"action": spec.actions[step.action].name, "after": named(spec, step.after)} for step in outcome]
+
+
+def _effectuation(place: Place, step: EffectStep) -> str:
+    action = place.spec.actions[step.action]
+    written = place.assignment(step.effect)
+    if step.effect == action.nominal:
+        return f"{action.name} takes its nominal effect ({written})"
+    source = next(entry for entry in action.alternatives if step.effect in entry.outcomes)
+    return f"{action.name} takes an alternative effect ({written}; {place.file}:{source.span.line})"
+
+
+def objection_text(place: Place, objection: Objection) -> str:
+    """One objection to a set, as a clause without a full stop; a story has a second, indented line."""
+    names = [place.spec.actions[number].name for number in objection.actions]
+    rule = place.rule(objection.rule) if objection.rule else ""
+    match objection.kind:
+        case "precondition":
+            return f"{names[0]} has the precondition {rule}, which does not hold"
+        case "resource":
+            first, second = (place.spec.actions[number].resources for number in objection.actions)
+            shared = [place.spec.resources[number] for number in sorted(first & second)]
+            return f"{names[0]} and {names[1]} both control {enumeration(shared)}"
+        case "nominal-conflict":
+            return f"the nominal effects of {names[0]} and {names[1]} contradict each other"
+        case "reaction-rule":
+            return f"the reaction rule {rule} forbids it"
+        case "unsafe" if objection.outcome:
+            return f"when {story(place, objection.outcome)},\n  {rule} is broken"
+        case "unsafe":
+            return f"{rule} stays broken"
+        case "falsified":
+            return f"when {story(place, objection.outcome)},\n  the precondition {rule} of {names[0]} no longer holds"
+        case "nominal-unsafe":
+            return f"after all nominal effects, {rule} is broken"
+
+
+def broken_here(place: Place, state: State) -> str:
+    """What an unsafe state breaks, as a remark in brackets; empty in a safe state."""
+    if is_safe(place.spec, state):
+        return ""
+    broken = [place.rule(rule) for rule in place.spec.state_rules if not holds(rule.formula, state)]
+    return f"unsafe: it breaks {enumeration(broken)}"
+
+
+def why_no_set(place: Place, state: State, ordering: Ordering, limit: int = 3) -> list[str]:
+    """The sets that come nearest to being allowed in a state where none is, each with what speaks against it.
+
+    Nearest: see `near_misses`.
+    """
+    from tumato_symbolic.explain.near_misses import near_misses
+
+    nearest = near_misses(place.spec, state, ordering, limit).misses
+    lines = [f"{place.actions(near.chosen)}: {_together(place, near)}" for near in nearest]
+    if len(nearest) == 1:
+        lines.append("anything else: no action has preconditions that hold here")
+    return lines
+
+
+def _together(place: Place, near: NearMiss) -> str:
+    first, more = objection_text(place, near.objections[0]), len(near.objections) - 1
+    return f"{first} (and {more} more)" if more else first

@@ -1,0 +1,86 @@
+"""What would make a specification realizable, for a person: repairs, the largest realizable part, what is left out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tumato_symbolic.explain.explanation import Change, Explanation, RealizablePart, Repair, Stage
+from tumato_symbolic.report.element_roles import KINDS, declared, where
+from tumato_symbolic.report.layout import count
+from tumato_symbolic.report.objections import Place
+
+_LONGEST_ASSUMPTION = 1_500
+
+
+def repair_pieces(place: Place, found: Explanation) -> Iterator[str]:
+    """Repairs, each as it is found."""
+    if found.hopeless is not None:
+        why = "states still fail" if found.hopeless == "failing" else "the goals still conflict"
+        yield (
+            f"\nNo repair by dropping: with every rule, precondition, alternative, resource and bound dropped, {why}.\n"
+            "The robot needs another action or effect, or other goals."
+        )
+    elif found.repairs:
+        yield "\nPossible changes (each was tried and gives a policy; whether it is safe is for you to judge):"
+        for number, repair in enumerate(found.repairs, 1):
+            lines = (f"     {line}" for change in repair.changes for line in _change(place, change))
+            yield "\n".join([f"  {number}. {_summary(repair)}", *lines])
+    elif "repairs" in found.finished:
+        yield "\nNo repair was looked for, or none was found within the limits."
+
+
+_NAMES: dict[Stage, str] = {
+    "states": "failing states",
+    "part": "the largest realizable part",
+    "reasons": "reasons",
+    "near": "nearest sets",
+    "repairs": "repairs",
+}
+
+
+def left_out_lines(found: Explanation) -> Iterator[str]:
+    """What the explanation does not say, and why."""
+    yield "Left out:"
+    for each in found.left_out:
+        yield f"  {_NAMES[each.stage]}: {each.found}; {each.why}"
+    if any("time limit" in each.why for each in found.left_out):
+        yield "`--timeout SECONDS` gives it more time."
+
+
+def _summary(repair: Repair) -> str:
+    if repair.drops:
+        return "drop this" if len(repair.changes) == 1 else "drop these"
+    return "or change this" if len(repair.changes) == 1 else "or change these"
+
+
+def _change(place: Place, change: Change) -> Iterator[str]:
+    element = change.element
+    of = ""
+    if element.kind in ("precondition", "alternative", "resource"):
+        of = f" of {place.spec.actions[element.number].name}"
+    old = declared(place.spec, element)
+    yield f"{where(place, element)}: - {old}  ({KINDS[element.kind]}{of})"
+    if change.text is not None:
+        yield f"{' ' * len(where(place, element))}  + {declared(place.spec, element, change.text)}"
+
+
+def part_lines(part: RealizablePart | None, written: str | None) -> Iterator[str]:
+    """The largest realizable part. `written` is the file with the assumption."""
+    if part is None:
+        yield "No part of the states is realizable: no assumption would help."
+        return
+    kind = "The largest" if part.unique else "A largest" if part.largest else "A"
+    total = count(part.states + part.given_up, "valid state")
+    yield f"{kind} realizable part: {part.states:,} of {total}, under this assumption:"
+    text = part.text
+    if len(text) > _LONGEST_ASSUMPTION and written is None:
+        text = f"{text[:_LONGEST_ASSUMPTION]} … ({len(text):,} characters; --write FILE writes all of it)"
+    yield f"  assume: {text}"
+    if not part.unique:
+        yield "  (goals conflict: this is one choice among several)"
+    if written is None:
+        yield "`--write FILE` writes the specification with it."
+    elif written == "-":
+        yield "The specification with this assumption is on the standard output."
+    else:
+        yield f"{written} is written: the specification with this assumption."

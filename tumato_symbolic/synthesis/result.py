@@ -1,0 +1,110 @@
+"""What synthesis answers: always one of three records, never None."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+from tumato_symbolic.diagnostics import Diagnostic
+from tumato_symbolic.policy import Policy
+from tumato_symbolic.semantics import State
+from tumato_symbolic.spec import Ordering
+
+if TYPE_CHECKING:
+    from tumato_symbolic.policy.unrealizable import Unrealizability
+    from tumato_symbolic.synthesis.diagnosis import Restorability
+
+FailureKind: TypeAlias = Literal["no-allowed-set", "no-restoration", "no-plan", "conflict"]
+
+
+@dataclass(frozen=True, slots=True)
+class Statistics:
+    """Exact counts of states, and how the answer was found.
+
+    `longest_run` is None where there is no policy. `own_region` and `routed` count the safe states that were
+    decided by staying where their goals are active and by passing through solved states, `changed` those whose decision
+    then had to deviate because goals interact. `restoring_durations` counts the distinct minimal durations, `restored`
+    is there where safety may take several steps to restore, and does.
+    """
+
+    total: int
+    valid: int
+    safe: int
+    unsafe: int
+    longest_run: int | None
+    backend: str
+    ordering: Ordering
+    own_region: int = 0
+    routed: int = 0
+    changed: int = 0
+    restoring_durations: int = 0
+    restored: RestoredIn | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class RestoredIn:
+    """How a policy restores safety, where that may take several steps: exact counts of unsafe states.
+
+    `bounded` has them by the number of steps in the worst case, `fair` those that are restored along nominal effects
+    only, by the number of these. `longest` is the largest duration, in the worst case or along nominal effects;
+    `levels` has the number of unsafe states of each level, from 0 on.
+    """
+
+    bounded: tuple[tuple[int, int], ...]
+    fair: tuple[tuple[int, int], ...]
+    longest: int
+    levels: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """States that fail for one reason (`docs/semantics.md`, section 7).
+
+    `count` is exact. `states` holds them in the order of declaration, up to `STATES_LISTED`; of a conflict it is the
+    inclusion-minimal set that no policy serves together. `example` is the first of them.
+    """
+
+    kind: FailureKind
+    count: int
+    example: State
+    states: tuple[State, ...] = field(repr=False)
+
+
+STATES_LISTED = 10_000
+
+
+@dataclass(frozen=True, slots=True)
+class Realizable:
+    """There is a policy, and this is it, with its certificate."""
+
+    policy: Policy
+    statistics: Statistics
+    warnings: tuple[Diagnostic, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Unrealizable:
+    """There is no policy: these states fail, or these goals conflict; `certificate` proves it.
+
+    It is None where `limit` was met before it was made. `restorability` tells what would restore the states that
+    cannot be restored in one step, where there are any and that was asked for.
+    """
+
+    failures: tuple[Failure, ...]
+    statistics: Statistics
+    certificate: Unrealizability | None
+    warnings: tuple[Diagnostic, ...] = ()
+    limit: str | None = None
+    restorability: Restorability | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Undecided:
+    """A limit was met before there was an answer. `statistics` is what was known by then, if anything."""
+
+    limit: str
+    statistics: Statistics | None
+    warnings: tuple[Diagnostic, ...] = ()
+
+
+SynthesisResult: TypeAlias = Realizable | Unrealizable | Undecided

@@ -1,0 +1,62 @@
+"""Residual goals as functions for the walk (`docs/semantics.md`, sections 4 and 5)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+
+from tumato_symbolic.semantics import Residual
+from tumato_symbolic.spec import active_bodies, executing_atoms
+from tumato_symbolic.verify.by_diagrams.model import Model
+from tumato_symbolic.verify.by_diagrams.walk import FALSE, Function
+
+
+class WalkGoals:
+    """The goals of a model."""
+
+    def __init__(self, model: Model) -> None:
+        self._model = model
+        self._spec = model.spec
+        self._walk = model.walk
+
+    @cached_property
+    def active(self) -> dict[int, Function]:
+        """Where every goal body is active; those not listed never are."""
+        return active_bodies(self._spec.goals, self._model.formula, self._model.connectives)
+
+    def residuals(self, region: Function, executed: Sequence[Function]) -> list[tuple[Residual, Function]]:
+        """`region` by the residual goal that its states have when `executed` is the first set."""
+        found = []
+        for bodies, part in self._split(region, self.active):
+            spoken = frozenset[int]().union(*(executing_atoms(self._spec.bodies[body].formula) for body in bodies))
+            cases = self._split(part, {action: executed[action] for action in sorted(spoken)})
+            found += [(Residual(bodies, those), case) for those, case in cases]
+        return found
+
+    def _split(self, region: Function, predicates: Mapping[int, Function]) -> list[tuple[frozenset[int], Function]]:
+        """The parts of `region`, none empty, by which of the predicates hold."""
+        walk, parts = self._walk, [(frozenset[int](), region)] if region != FALSE else []
+        for number, predicate in predicates.items():
+            inside = [(held | {number}, walk.all_of((part, predicate))) for held, part in parts]
+            outside = [(held, walk.without(part, predicate)) for held, part in parts]
+            parts = [(held, part) for held, part in inside + outside if part != FALSE]
+        return parts
+
+    def reached(self, goal: Residual) -> Function:
+        """Where a residual goal is met: where safety may take several steps to restore, in safe states only."""
+        executed = [int(action in goal.executed) for action in range(len(self._spec.actions))]
+        bodies = [self._spec.bodies[body].formula for body in sorted(goal.bodies)]
+        holds = self._walk.all_of(self._model.formula(body, executed) for body in bodies)
+        return self._walk.all_of((holds, self._model.safe)) if self._spec.restores_stepwise else holds
+
+    def within(self, goal: Residual) -> Function:
+        """From where the run of the policy satisfies `goal` in at most `L - 1` steps, none included: layer by layer."""
+        walk, bound = self._walk, self._spec.max_plan_length
+        found = reached = self.reached(goal)
+        left = bound - 1 if bound is not None else -1
+        while left:
+            more = walk.any_of((reached, walk.all_of((self._model.acting, self._model.next(found)))))
+            if more == found:
+                break
+            found, left = more, left - 1
+        return found

@@ -1,0 +1,136 @@
+"""From where runs reach a residual goal soon enough: by given ranks as far as they hold, otherwise layer by layer."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable
+from functools import cached_property
+
+from tumato_symbolic.policy import Policy
+from tumato_symbolic.semantics import Residual
+from tumato_symbolic.verify.by_diagrams.goals import WalkGoals
+from tumato_symbolic.verify.by_diagrams.model import Model
+from tumato_symbolic.verify.by_diagrams.walk import FALSE, Function
+from tumato_symbolic.verify.claimed_ranks import UNNEEDED, ClaimedRanks
+
+
+def at_most_one_more(one: int, other: int) -> int:
+    """`one ≤ other + 1`."""
+    return int(one <= other + 1)
+
+
+class WalkRanks(ClaimedRanks):
+    """What a step must lead to: states that the policy leads to a residual goal in at most `L - 1` steps.
+
+    Given ranks speak of safe states, and of all valid ones where efforts came with them; those computed here of all.
+    """
+
+    def __init__(self, model: Model, goals: WalkGoals, policy: Policy, policy_is_safe: Callable[[], bool]) -> None:
+        super().__init__(model.spec, policy, policy_is_safe)
+        self._model = model
+        self._goals = goals
+        self._certificate = policy.certificate
+        self._near: dict[Residual, Function] = {}
+        self._lower_bounds: dict[Residual, bool] = {}
+
+    def near(self, goal: Residual) -> Function:
+        """Exactly these states, computed backwards from the goal."""
+        if goal not in self._near:
+            self._near[goal] = self._goals.within(goal)
+        return self._near[goal]
+
+    def given_near(self, goal: Residual) -> Function:
+        """These states, by the ranks that came with the policy."""
+        bound = self._model.spec.max_plan_length
+        largest = self._never if bound is None else min(bound, self._never)
+        walk = self._model.walk
+        near = walk.combine(operator.lt, self._given(goal), walk.constant(largest))
+        return walk.all_of((near, self._spoken_of)) if self._model.spec.restores_stepwise else near
+
+    def given_far(self, goal: Residual) -> Function:
+        """The states with a given rank that is a number, and too large."""
+        walk = self._model.walk
+        ranked = walk.combine(operator.lt, self._given(goal), walk.constant(self._never))
+        if self._model.spec.restores_stepwise:
+            ranked = walk.all_of((ranked, self._spoken_of))
+        return walk.without(ranked, self.given_near(goal))
+
+    def prepare(self) -> None:
+        """Compute what given ranks have in common, whatever their goals."""
+        if self.roots:
+            self._taken, self._spoken_of_after  # noqa: B018 - cached
+
+    def check_given(self, decreases: Callable[[Residual], bool]) -> bool:
+        """Whether there is a certificate all of whose ranks decrease; a false one is set aside."""
+        if not self.stands or (self.use != UNNEEDED and not self._model.spec.restores_stepwise):
+            return False
+        for goal in self.roots:
+            if not decreases(goal):
+                self.reject(f"the ranks of {self.described(goal)} do not go down to it")
+                return False
+        return True
+
+    def near_at_least(self, goal: Residual) -> Function:
+        """These states and perhaps more, by given ranks that are nowhere too large, else exactly these."""
+        if goal not in self.roots:
+            if self.roots:
+                self.lacks(goal)
+            return self.near(goal)
+        if self._model.spec.restores_stepwise and not self.speaks_of_unsafe:
+            return self.near(goal)
+        if goal not in self._lower_bounds:
+            self._lower_bounds[goal] = self._is_lower_bound(goal)
+        if not self._lower_bounds[goal]:
+            self.inexact(goal)
+            return self.near(goal)
+        self.serve()
+        return self.given_near(goal)
+
+    # Given ranks `N`: a number for every state, `never` where there is none
+
+    @cached_property
+    def _never(self) -> int:
+        """More than one above every rank."""
+        leaves = self._certificate.ranks.leaves if self._certificate is not None else ()
+        return max((leaf for leaf in leaves if leaf is not None), default=0) + 2
+
+    @cached_property
+    def _taken(self) -> list[Function]:
+        """The functions of the certificate, by reference."""
+        if self._certificate is None:
+            return []
+        return self._model.walk.taken(self._certificate.ranks, lambda rank: self._never if rank is None else rank)
+
+    def _given(self, goal: Residual) -> Function:
+        return self._taken[self.roots[goal]]
+
+    def decreases(self, goal: Residual) -> bool:
+        """`N = 0` only where the goal is met, and from `N = j > 0` a step to a state with a smaller rank."""
+        model, walk = self._model, self._model.walk
+        here = self._given(goal)
+        after = model.next(here)
+        known = walk.combine(operator.lt, here, walk.constant(self._never))
+        at_goal = walk.combine(operator.eq, here, walk.constant(0))
+        goes_down = walk.all_of((model.acting, self._spoken_of_after, walk.combine(operator.lt, after, here)))
+        right = walk.select(at_goal, (goes_down, self._goals.reached(goal)))
+        return walk.without(walk.all_of((self._spoken_of, known)), right) == FALSE
+
+    def _is_lower_bound(self, goal: Residual) -> bool:
+        """`N = 0` where the goal is met, and nowhere more than one above the next state's, which is spoken of."""
+        model, walk = self._model, self._model.walk
+        here = self._given(goal)
+        after = model.next(here)
+        follows = walk.all_of((self._spoken_of_after, walk.combine(at_most_one_more, here, after)))
+        at_goal = walk.combine(operator.eq, here, walk.constant(0))
+        wrong = walk.select(self._goals.reached(goal), (walk.without(model.acting, follows), walk.negation(at_goal)))
+        return walk.all_of((self._spoken_of, wrong)) == FALSE
+
+    @property
+    def _spoken_of(self) -> Function:
+        """Where a number claims something: in `S`; where efforts came with the ranks, in `V`."""
+        return self._model.valid if self.speaks_of_unsafe else self._model.safe
+
+    @property
+    def _spoken_of_after(self) -> Function:
+        """`δ(s, π(s))` is such a state, where the policy acts."""
+        return self._model.next(self._spoken_of)

@@ -1,0 +1,164 @@
+"""*No policy serves these states together*: complete options, distances, and cuts that no choice respects.
+
+Why this is a proof: `docs/certificate.md`, the section on the answer no.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TypeAlias
+
+import z3
+
+from tumato_symbolic.policy.unrealizable import Conflict, Cut
+from tumato_symbolic.semantics import Residual, is_valid, reached, residual_goal
+from tumato_symbolic.spec import Spec
+from tumato_symbolic.verify.by_z3.goal_terms import reached_term
+from tumato_symbolic.verify.by_z3.solver import Solver, UndecidedError
+from tumato_symbolic.verify.by_z3.terms import Context, Term, at_most_one, conjunction, disjunction, negation
+from tumato_symbolic.verify.unrealizability.allowed_step import AllowedStep, FalseClaimError, is_state
+from tumato_symbolic.verify.unrealizability.distances import Distances
+from tumato_symbolic.verify.unrealizability.named_goals import goal_text, named_goal, set_text, state_text
+
+Pick: TypeAlias = tuple[int, int]
+"""An option (by number) of a choice (by number)."""
+
+
+def check_conflict(reason: Conflict, step: AllowedStep) -> int:
+    """How many claims were checked without Z3. Raises `FalseClaimError` and `UndecidedError`."""
+    goals = _Goals(reason, step.spec, step.context)
+    for choice in reason.choices:
+        if not is_valid(step.spec, choice.state):
+            text = state_text(step.spec, choice.state)
+            raise FalseClaimError(f"the state {text} is not valid, so no policy has to decide there")
+    _check_distances(goals, step)
+    _check_options(reason, goals, step)
+    clauses = [clause(reason, goals.distances, cut, number, step.spec) for number, cut in enumerate(reason.cuts)]
+    _refute(reason, clauses, step)
+    return len(reason.choices) + len(reason.cuts)
+
+
+class _Goals:
+    """The goals of a certificate by class: goals with one root are one."""
+
+    def __init__(self, reason: Conflict, spec: Spec, context: Context) -> None:
+        self.members: dict[int, list[Residual]] = {}
+        for goal in reason.goals:
+            self.members.setdefault(goal.root, []).append(named_goal(spec, goal.bodies, goal.executed))
+        self.distances = Distances(reason.distances, spec.max_plan_length, context)
+
+
+def _check_distances(goals: _Goals, step: AllowedStep) -> None:
+    """`D(t) = 0` in every safe state that meets the goal, and no allowed step makes `D` smaller by more than one."""
+    spec = step.spec
+    for root, members in goals.members.items():
+        here, after = goals.distances.count(root, step.state), goals.distances.count(root, step.after)
+        for goal in members:
+            state = step.some_state(
+                "distances are 0 at the goal", step.safe, reached_term(spec, goal, step.state), here != 0
+            )
+            if state is not None:
+                if not reached(spec, goal, state) or goals.distances.of(root, state) == 0:
+                    raise RuntimeError(f"the distance of {state} is 0 or it does not meet {goal}, against the solver")
+                text = f"the state {state_text(spec, state)} meets {goal_text(spec, goal)}"
+                raise FalseClaimError(f"{text}, and its distance is not 0")
+        drops = goals.distances.drops(here, after)
+        found = step.some_step("distances are lower bounds", step.safe, drops)
+        if found is not None:
+            before, chosen, next_state = found
+            if goals.distances.of(root, before) <= goals.distances.of(root, next_state) + 1:
+                raise RuntimeError(f"the distance does not drop from {before} to {next_state}, against the solver")
+            told = f"{set_text(spec, chosen)} leads from {state_text(spec, before)} to {state_text(spec, next_state)}"
+            raise FalseClaimError(
+                f"{told}, from where {goal_text(spec, members[0])} is nearer by more than one step", before, chosen
+            )
+
+
+def _check_options(reason: Conflict, goals: _Goals, step: AllowedStep) -> None:
+    """Every allowed set of a choice's state leads where one of its options says, and owes that goal."""
+    owes = {
+        root: step.name(disjunction(step.goals.is_residual(goal, step.executed) for goal in members))
+        for root, members in goals.members.items()
+    }
+    for choice in reason.choices:
+        listed = [(after, reason.goals[goal].root) for after, goal in choice.options]
+        others = [negation(conjunction((is_state(step.after, after), owes[root]))) for after, root in listed]
+        found = step.some_step("the options of a state are complete", is_state(step.state, choice.state), *others)
+        if found is not None:
+            state, chosen, after = found
+            owed = residual_goal(step.spec, state, chosen)
+            if any(after == other and owed in goals.members[root] for other, root in listed):
+                raise RuntimeError(f"{sorted(chosen)} is an option of {state}, against the solver")
+            told = f"in {state_text(step.spec, state)}, {set_text(step.spec, chosen)} is allowed"
+            leads = f"leads to {state_text(step.spec, after)} and owes {goal_text(step.spec, owed)}"
+            raise FalseClaimError(f"{told}, {leads}, which is no option there", state, chosen)
+
+
+def clause(reason: Conflict, distances: Distances, cut: Cut, number: int, spec: Spec) -> list[Pick]:
+    """One of these picks is made by every policy that serves the first state of the cut.
+
+    Raises `FalseClaimError` where the cut is none.
+    """
+    if cut.states[0] not in reason.starts:
+        raise FalseClaimError(f"cut {number} begins in a state that is not among the starts")
+    root = reason.goals[cut.goal].root
+    start = reason.choices[cut.states[0]]
+    owing_else = [
+        (cut.states[0], option) for option, (_, goal) in enumerate(start.options) if reason.goals[goal].root != root
+    ]
+    picks = (
+        _leaving(reason, distances, cut, root)
+        if cut.kind == "loop"
+        else _turning_off(reason, distances, cut, number, spec)
+    )
+    return [*owing_else, *picks]
+
+
+def _leaving(reason: Conflict, distances: Distances, cut: Cut, root: int) -> Iterator[Pick]:
+    """The options that hit the goal, or leave the states of the cut for one from where it is near enough."""
+    inside = {reason.choices[place].state for place in cut.states}
+    for place in dict.fromkeys(cut.states):
+        for option, (after, _) in enumerate(reason.choices[place].options):
+            if distances.of(root, after) == 0 or (after not in inside and distances.near(root, after, 1)):
+                yield place, option
+
+
+def _turning_off(reason: Conflict, distances: Distances, cut: Cut, number: int, spec: Spec) -> list[Pick]:
+    """The options that leave the path for a state from where the goal is near enough.
+
+    The path itself must not meet the goal, and its end must be too far away from it.
+    """
+    root = reason.goals[cut.goal].root
+    if cut.end is None:
+        raise FalseClaimError(f"cut {number} has no end")
+    states = [reason.choices[place].state for place in cut.states]
+    hit = next((state for state in states[1:] if distances.of(root, state) == 0), None)
+    if hit is not None:
+        raise FalseClaimError(f"cut {number} passes {state_text(spec, hit)}, where the goal may be met")
+    if distances.near(root, cut.end, len(states)):
+        raise FalseClaimError(f"cut {number} ends in {state_text(spec, cut.end)}, from where the goal may be reached")
+    return [
+        (place, option)
+        for steps, (place, following) in enumerate(zip(cut.states, [*states[1:], cut.end], strict=True), 1)
+        for option, (after, _) in enumerate(reason.choices[place].options)
+        if after != following and distances.near(root, after, steps)
+    ]
+
+
+def _refute(reason: Conflict, clauses: list[list[Pick]], step: AllowedStep) -> None:
+    """No choice of one option everywhere respects all cuts."""
+    solver = Solver()
+    picked: list[list[Term]] = [
+        [z3.Bool(f"p.{place}.{option}", solver.context) for option in range(len(choice.options))]
+        for place, choice in enumerate(reason.choices)
+    ]
+    for terms in picked:
+        solver.add(disjunction(terms), at_most_one(terms))
+    for picks in clauses:
+        solver.add(disjunction(picked[place][option] for place, option in picks))
+    answer = solver.ask(deadline=step.deadline())
+    if answer == "unknown":
+        raise UndecidedError("no choice of options respects all cuts")
+    if answer == "sat":
+        raise FalseClaimError("there is a choice of options that respects all cuts")
+    step.proved += 1

@@ -1,0 +1,50 @@
+"""*Safety is never surely restored from this state*: a trap, checked by the walk (`docs/certificate.md`)."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from tumato_symbolic.diagrams import DiagramBuilder
+from tumato_symbolic.policy import DecisionDiagram
+from tumato_symbolic.policy.unrealizable import NoRestoration
+from tumato_symbolic.semantics import is_safe, is_valid, level
+from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.verify.by_diagrams.model import Model
+from tumato_symbolic.verify.by_diagrams.walk import FALSE, BudgetError, given_up
+from tumato_symbolic.verify.by_z3.solver import UndecidedError
+from tumato_symbolic.verify.unrealizability.allowed_step import FalseClaimError
+from tumato_symbolic.verify.unrealizability.named_goals import state_text
+
+_CLAIM: Final = "nothing surely leads out of the trap"
+
+
+def check_no_restoration(reason: NoRestoration, spec: Spec, ordering: Ordering, deadline: float) -> None:
+    """Raises `FalseClaimError`, and `UndecidedError` where the walk gives up."""
+    state = reason.state
+    if spec.restoration == "one_step":
+        raise FalseClaimError("safety is to be restored in one step, and that it never is in several is no reason")
+    if not is_valid(spec, state) or is_safe(spec, state):
+        raise FalseClaimError(f"the state {state_text(spec, state)} is not unsafe, so nothing has to be restored")
+    if not reason.diagram.evaluate(reason.root, state):
+        raise FalseClaimError(f"the state {state_text(spec, state)} is not in the trap")
+    try:
+        _check_trap(reason, spec, ordering, deadline)
+    except (BudgetError, RecursionError) as error:
+        raise UndecidedError(_CLAIM, given_up(error)) from None
+
+
+def _check_trap(reason: NoRestoration, spec: Spec, ordering: Ordering, deadline: float) -> None:
+    nothing = DiagramBuilder[bool](reason.diagram.order, (False, True)).finish()
+    model = Model(spec, DecisionDiagram(nothing, (0,) * len(spec.actions), 0), ordering, deadline)
+    walk, place = model.walk, level(spec, reason.state)
+    held = walk.all_of((model.tiers[place], walk.taken(reason.diagram, int)[reason.root]))
+    trap = walk.without(held, model.tiers[place + 1])
+    outside = walk.negation(trap)
+    if spec.restoration == "fair":
+        leaving = walk.substitute(outside, model.successor(model.chosen))
+    else:
+        leaving = model.into(outside)
+    left = walk.all_of((trap, leaving, model.allowed))
+    if left != FALSE:
+        state = state_text(spec, model.first_state(left))
+        raise FalseClaimError(f"something that may be executed in {state} leads out of the trap")

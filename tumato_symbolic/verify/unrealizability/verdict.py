@@ -1,0 +1,103 @@
+"""The verdict on a certificate that a specification has no policy (`docs/certificate.md`)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from tumato_symbolic.limits import Budget, Context, LimitReachedError
+from tumato_symbolic.policy.unrealizable import Conflict, NoAllowedSet, NoPlan, NoRestoration, Unrealizability
+from tumato_symbolic.policy.unrealizable_file import bind
+from tumato_symbolic.semantics import State, is_safe
+from tumato_symbolic.spec import Ordering, Spec, digest
+from tumato_symbolic.spec.support import require_one_step
+from tumato_symbolic.verify.by_z3.solver import UndecidedError
+from tumato_symbolic.verify.result import UnrealizabilityKind, UnrealizabilityVerdict
+from tumato_symbolic.verify.unrealizability.allowed_step import AllowedStep, FalseClaimError
+from tumato_symbolic.verify.unrealizability.conflict import check_conflict
+from tumato_symbolic.verify.unrealizability.no_allowed_set import check_no_allowed_set
+from tumato_symbolic.verify.unrealizability.no_plan import check_no_plan
+from tumato_symbolic.verify.unrealizability.no_restoration import check_no_restoration
+
+OBLIGATION_BUDGET = 30.0
+"""How many seconds Z3 may think about one obligation."""
+
+_WRITES_FIRST = (
+    "it speaks of the effect ordering any, but the specification writes first, under which more sets are allowed"
+)
+
+
+def verify_unrealizable(
+    certificate: Unrealizability,
+    spec: Spec,
+    *,
+    ordering: Ordering | None = None,
+    timeout: float | None = OBLIGATION_BUDGET,
+    context: Context | None = None,
+) -> UnrealizabilityVerdict:
+    """Prove by `certificate` that `spec` has no policy, or refute the certificate with the check that it fails.
+
+    Nothing in the certificate is believed. `ordering` overrules the effect ordering that it records. `timeout` limits
+    the time, in seconds, of each obligation (None: no limit); what is not proved in time is undecided. `context`
+    limits the whole, and is told what is done.
+
+    *Refuted* says that the certificate is no proof, not that there is a policy. Raises `UserError` when the names of
+    the certificate do not fit the specification.
+    """
+    context = context or Context()
+    reason = bind(certificate, spec).reason
+    if not isinstance(reason, NoRestoration) and not all(is_safe(spec, state) for state in _spoken_of(reason)):
+        require_one_step(spec, "verify")
+    judged: Ordering = ordering or certificate.ordering
+    found = UnrealizabilityVerdict(
+        "proved",
+        _kind(certificate),
+        judged,
+        "command line" if ordering is not None else "certificate",
+        certificate.digest != digest(spec),
+    )
+    if ordering is None and (judged, spec.effect_ordering) == ("any", "first"):
+        return replace(found, verdict="refuted", reason=_WRITES_FIRST)
+    context.learn(replace(found, verdict="undecided"))
+    try:
+        context.tell("checking why there is no policy")
+        step = AllowedStep(spec.in_one_step, judged, Budget(timeout, context))
+        match reason:
+            case NoAllowedSet():
+                checked = check_no_allowed_set(reason, step, judged)
+            case NoRestoration():
+                check_no_restoration(reason, spec, judged, Budget(timeout, context).until())
+                return replace(found, obligations=2, by_diagrams=True)
+            case NoPlan():
+                checked = check_no_plan(reason, step)
+            case _:
+                checked = check_conflict(reason, step)
+    except FalseClaimError as false:
+        return replace(found, verdict="refuted", reason=false.reason, state=false.state, chosen=false.chosen)
+    except UndecidedError as undecided:
+        why = context.described() if context.is_over else str(undecided)
+        return replace(found, verdict="undecided", reason=why)
+    except LimitReachedError as limit:
+        return replace(found, verdict="undecided", reason=str(limit))
+    proved = checked + step.proved + step.walked
+    return replace(found, obligations=proved, by_solver=step.proved > 0, by_diagrams=step.walked > 0)
+
+
+def _spoken_of(reason: NoAllowedSet | NoPlan | Conflict) -> Iterator[State]:
+    """The states that a reason is about: where they are safe, so is all that runs from there meet."""
+    if isinstance(reason, Conflict):
+        yield from (choice.state for choice in reason.choices)
+    else:
+        yield reason.state
+
+
+def _kind(certificate: Unrealizability) -> UnrealizabilityKind:
+    match certificate.reason:
+        case NoAllowedSet():
+            return "no-allowed-set"
+        case NoRestoration():
+            return "no-restoration"
+        case NoPlan():
+            return "no-plan"
+        case _:
+            return "conflict"
