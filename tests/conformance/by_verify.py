@@ -20,8 +20,8 @@ from tumato_symbolic.policy.unrealizable import Unrealizability
 from tumato_symbolic.semantics import ActionSet, Effort, State, all_states, takes_effect
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify import ProverName, verify, verify_unrealizable
+from tumato_symbolic.verify.by_diagrams.closed_loop import ClosedLoop
 from tumato_symbolic.verify.by_diagrams.efforts import WalkEfforts
-from tumato_symbolic.verify.by_diagrams.model import Model
 from tumato_symbolic.verify.by_states.efforts import Efforts
 from tumato_symbolic.verify.by_states.packed import Packing
 from tumato_symbolic.verify.by_states.steps import Steps
@@ -151,13 +151,13 @@ class Walk(Prover):
         }
 
     def level(self, world: World, state: State) -> int:
-        """How many of `Model.tiers`, but for the valid states, have it."""
+        """How many of `ClosedLoop.tiers`, but for the valid states, have it."""
         model = self._model(world.spec, world.ordering)
         return sum(model.holds(tier, state, frozenset()) for tier in model.tiers[1:])
 
     def efforts(self, world: World, rows: Rows) -> dict[State, Effort]:
         """`WalkEfforts.exact_worst`."""
-        model = Model(world.spec, as_diagram(policy_from_rows(world.spec, dict(rows))), world.ordering)
+        model = ClosedLoop(world.spec, as_diagram(policy_from_rows(world.spec, dict(rows))), world.ordering)
         efforts = WalkEfforts(model, world.ordering)
         largest = sum(action.duration for action in world.spec.actions) * len(rows)
         number_of = {efforts.number((d, k)): (d, k) for d in range(largest + 1) for k in range(len(rows) + 1)}
@@ -170,15 +170,15 @@ class Walk(Prover):
         }
 
     def finds(self, world: World, state: State, chosen: ActionSet) -> bool:
-        """`Model.allowed`, by which better sets are looked for; false where two actions are of one group."""
+        """`ClosedLoop.allowed`, by which better sets are looked for; false where two actions are of one group."""
         model = self._model(world.spec, world.ordering)
         if any(len(chosen & set(group)) > 1 for group in model.groups):
             return False
         return model.holds(model.allowed, state, chosen)
 
     @lru_cache(maxsize=REMEMBERED)  # noqa: B019 - there is one of them
-    def _model(self, spec: Spec, ordering: Ordering) -> Model:
-        return Model(spec, as_diagram(policy_from_rows(spec, {})), ordering)
+    def _model(self, spec: Spec, ordering: Ordering) -> ClosedLoop:
+        return ClosedLoop(spec, as_diagram(policy_from_rows(spec, {})), ordering)
 
 
 class Z3(Prover):

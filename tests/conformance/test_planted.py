@@ -35,9 +35,9 @@ from tumato_symbolic.symbolic import goals as symbolic_goals
 from tumato_symbolic.symbolic import steps as symbolic_steps
 from tumato_symbolic.symbolic.encoding import Encoding, Group
 from tumato_symbolic.symbolic.manager import Bdd as Set
+from tumato_symbolic.verify.by_diagrams.closed_loop import ClosedLoop
 from tumato_symbolic.verify.by_diagrams.efforts import WalkEfforts
 from tumato_symbolic.verify.by_diagrams.goals import WalkGoals
-from tumato_symbolic.verify.by_diagrams.model import Model
 from tumato_symbolic.verify.by_states import prover as states_prover
 from tumato_symbolic.verify.by_states import steps as states_steps
 from tumato_symbolic.verify.by_states.efforts import Efforts
@@ -185,7 +185,7 @@ BUGS = (
         lambda engine: none.test_the_answer_no_is_believed_where_it_is_so(engine, "conflict")),
     Bug("8.2", "every set takes equally long", States, states_prover, "duration",
         lambda _: lambda spec, chosen: 1, paper.test_stopping_the_conveyor_is_the_minimum),
-    Bug("9.2", "rules that hold may be broken", Walk, Model, "requirements",
+    Bug("9.2", "rules that hold may be broken", Walk, ClosedLoop, "requirements",
         lambda _: property(lambda model: [(model.valid, model.valid)]),
         restoring.test_no_rule_is_broken_that_was_not_broken_before),
     Bug("9.3", "the best outcome counts", Explicit, Restorations, "_worst_after", _best_of_all,

@@ -26,7 +26,7 @@ STRANGERS = tuple(
 )
 COUNTS = "tests/verify/test_counts.py"
 BY_STATES = (
-    "tests/verify/test_model.py",
+    "tests/verify/test_closed_loop.py",
     COUNTS,
     "tests/verify/test_by_states.py",
     "tests/verify/test_forged_steps.py",
@@ -42,7 +42,7 @@ BY_STATES = (
     "not walk and not z3 and not once and not parts",
 )
 WALK = (
-    "tests/verify/test_model.py",
+    "tests/verify/test_closed_loop.py",
     COUNTS,
     "tests/verify/test_portfolio.py",
     "tests/verify/test_forged_steps.py",
@@ -61,7 +61,7 @@ WALK_PROVER = (
 )
 PROCESSES = (
     "tests/verify/test_workers.py",
-    "tests/verify/test_model.py",
+    "tests/verify/test_closed_loop.py",
     "tests/verify/test_jobs.py",
     "-k",
     "not depend",

@@ -1,6 +1,7 @@
 """Synthesis where safety may take several steps to restore, against the explicit meaning and known answers."""
 
 from collections import Counter
+from collections.abc import Mapping
 from dataclasses import replace
 
 import pytest
@@ -31,7 +32,7 @@ BEGIN STATE RULES rule: P is home END STATE RULES
 """
 
 
-def decided(spec: Spec) -> tuple[dict[State, frozenset[int]], dict[State, Effort]]:
+def decided(spec: Spec) -> tuple[dict[State, frozenset[int]], Mapping[State, Effort]]:
     """The policy of a specification and its worst efforts, judged by the explicit meaning."""
     outcome = synthesize(spec)
     assert isinstance(outcome, Realizable)

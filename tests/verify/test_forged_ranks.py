@@ -14,8 +14,8 @@ from tests.verify.policies import certified, exact_ranks
 from tumato_symbolic.semantics import NOTHING, Residual, State
 from tumato_symbolic.spec import Not, Spec
 from tumato_symbolic.verify import verify
+from tumato_symbolic.verify.by_diagrams.functions import BudgetError
 from tumato_symbolic.verify.by_diagrams.ranks import WalkRanks
-from tumato_symbolic.verify.by_diagrams.walk import BudgetError
 from tumato_symbolic.verify.by_z3 import rank_terms
 from tumato_symbolic.verify.by_z3.rank_terms import RankProof
 from tumato_symbolic.verify.by_z3.solver import UndecidedError

@@ -14,7 +14,7 @@ from tests.semantics.build import Build
 from tumato_symbolic.policy import as_diagram, policy_from_rows
 from tumato_symbolic.spec import And, Iff, Is, Not, Or, Ordering, Spec
 from tumato_symbolic.verify import verify
-from tumato_symbolic.verify.by_diagrams.model import Model
+from tumato_symbolic.verify.by_diagrams.closed_loop import ClosedLoop
 
 Name = Literal["z3", "walk", "explicit"]
 PROVERS: tuple[Name, ...] = ("z3", "walk", "explicit")
@@ -101,7 +101,7 @@ def test_what_the_walk_takes_for_allowed(ordering: Ordering) -> None:
     """`Ok(s, A)` as a function of the walk, for every valid state and set without two actions of one group."""
     generated = [random_spec(seed, ALL_PROFILES[profile]) for profile in ALL_PROFILES for seed in range(3000, 3002)]
     for spec in [*SPECS, *(each for each in generated if len(each.actions) <= 5)]:
-        model = Model(spec, as_diagram(policy_from_rows(spec, {})), ordering)
+        model = ClosedLoop(spec, as_diagram(policy_from_rows(spec, {})), ordering)
         for state in [state for state in literal.states(spec) if literal.valid(spec, state)][:12]:
             fine = literal.allowed(spec, state, ordering)
             for chosen in literal.sets(spec):

@@ -30,8 +30,8 @@ from tumato_symbolic.semantics import (
 )
 from tumato_symbolic.semantics import guarantees as by_meaning
 from tumato_symbolic.spec import Ordering, Restoration, Spec
+from tumato_symbolic.verify.by_diagrams.closed_loop import ClosedLoop
 from tumato_symbolic.verify.by_diagrams.goals import WalkGoals
-from tumato_symbolic.verify.by_diagrams.model import Model
 from tumato_symbolic.verify.guarantees.analyse import guarantees
 from tumato_symbolic.verify.guarantees.prospects import WalkProspects
 from tumato_symbolic.verify.guarantees.result import Level
@@ -50,7 +50,7 @@ def _allowed_policies(spec: Spec, ordering: Ordering, random: Random) -> Iterato
 
 
 def _by_walk(spec: Spec, rows: Rows, ordering: Ordering) -> dict[State, Guarantee | None]:
-    model = Model(spec, as_diagram(policy_from_rows(spec, rows)), ordering)
+    model = ClosedLoop(spec, as_diagram(policy_from_rows(spec, rows)), ordering)
     goals, found = WalkGoals(model), {}
     for goal, owing in goals.residuals(model.decided, model.policy):
         for guarantee, states in WalkProspects(model, goals, goal).levels(owing):

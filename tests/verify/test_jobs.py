@@ -96,7 +96,7 @@ def test_the_limit_on_memory_does_not_depend_on_the_jobs(
     verdicts = set()
     for most in range(200, 4000, 100):
         monkeypatch.setattr(
-            import_module("tumato_symbolic.verify.by_diagrams.model"), "Walk", partial(Walk, most_steps=most)
+            import_module("tumato_symbolic.verify.by_diagrams.steps"), "Walk", partial(Walk, most_steps=most)
         )
         alone = _ask(policy, spec, "any", name, 1)
         assert _ask(policy, spec, "any", name, 2) == alone

@@ -19,7 +19,7 @@ from tumato_symbolic.spec import And, Or, Ordering, Spec
 from tumato_symbolic.synthesis import unrealizability
 from tumato_symbolic.synthesis.certificate import goal_names
 from tumato_symbolic.verify import verify_unrealizable
-from tumato_symbolic.verify.by_diagrams.walk import BudgetError
+from tumato_symbolic.verify.by_diagrams.functions import BudgetError
 from tumato_symbolic.verify.unrealizability import no_plan
 
 ORDERINGS = pytest.mark.parametrize("ordering", ["any", "first"])

@@ -15,7 +15,7 @@ from tumato_symbolic.policy.unrealizable import Conflict, Cube, NoAllowedSet, No
 from tumato_symbolic.semantics import allowed
 from tumato_symbolic.spec import And, Not, Or, Spec
 from tumato_symbolic.verify import UnrealizabilityVerdict, verify_unrealizable
-from tumato_symbolic.verify.by_diagrams.walk import BudgetError
+from tumato_symbolic.verify.by_diagrams.functions import BudgetError
 from tumato_symbolic.verify.unrealizability import no_plan
 
 # conflict: states and cuts; for each class of goals, 0 at the goal and no drop; options of each state; no choice

@@ -15,8 +15,9 @@ from tumato_symbolic.policy import policy_from_rows
 from tumato_symbolic.semantics import ActionSet, State, all_states, better_sets, duration, judge
 from tumato_symbolic.spec import Not, Or, Ordering, Spec
 from tumato_symbolic.verify import PropertyResult, Refutation, Verification, verify
+from tumato_symbolic.verify.by_diagrams.functions import FALSE, TRUE, BudgetError
 from tumato_symbolic.verify.by_diagrams.prover import WalkProver
-from tumato_symbolic.verify.by_diagrams.walk import FALSE, TRUE, BudgetError, Walk
+from tumato_symbolic.verify.by_diagrams.walk import Walk
 
 Rows = dict[State, ActionSet]
 SIZES = (2, 3, 1, 4)
@@ -37,7 +38,7 @@ def _function(walk: Walk, random: Random, most: int) -> tuple[int, dict[State, i
 
 def _table(walk: Walk, function: int) -> dict[State, int]:
     constants = {point: [walk.constant(value) for value in point] for point in POINTS}
-    values = {point: walk.substitute(function, dict(enumerate(constants[point]))) for point in POINTS}
+    values = {point: walk.compose(function, dict(enumerate(constants[point]))) for point in POINTS}
     assert all(len(walk.values_of(value)) == 1 for value in values.values())
     return {point: walk.values_of(value)[0] for point, value in values.items()}
 
@@ -54,14 +55,14 @@ def test_operations_do_what_they_say(order: tuple[int, ...]) -> None:
         assert _table(walk, walk.select(number, [case for case, _ in cases])) == {
             point: cases[numbers[point]][1][point] for point in POINTS
         }
-        added = walk.combine(operator.add, number, cases[0][0])
+        added = walk.apply(operator.add, number, cases[0][0])
         assert _table(walk, added) == {point: numbers[point] + cases[0][1][point] for point in POINTS}
         assert walk.values_of(added) == sorted({numbers[point] + cases[0][1][point] for point in POINTS})
-        moved = walk.substitute(cases[0][0], {0: one[0], 1: number, 3: walk.constant(2)})
+        moved = walk.compose(cases[0][0], {0: one[0], 1: number, 3: walk.constant(2)})
         assert _table(walk, moved) == {
             point: cases[0][1][one[1][point], numbers[point], point[2], 2] for point in POINTS
         }
-        written = walk.assign(one[0], {1: 2, 3: 0}, cases[0][0], number)
+        written = walk.cofactor_where(one[0], {1: 2, 3: 0}, cases[0][0], number)
         assert _table(walk, written) == {
             point: cases[0][1][point[0], 2, point[2], 0] if one[1][point] else numbers[point] for point in POINTS
         }
@@ -90,7 +91,7 @@ def test_the_budget_ends_the_walk() -> None:
     walk = Walk(range(12), [2] * 12, most_steps=20)
     for _ in range(2):
         with pytest.raises(BudgetError, match="too large"):
-            walk.all_of(walk.combine(operator.eq, walk.variable(n), walk.variable(11 - n)) for n in range(6))
+            walk.all_of(walk.apply(operator.eq, walk.variable(n), walk.variable(11 - n)) for n in range(6))
 
 
 def _walked(spec: Spec, rows: Rows, ordering: Ordering, random: Random) -> Verification:
@@ -131,7 +132,7 @@ def test_the_walk_judges_as_the_explicit_meaning_does(
     cases: int, profile: str, ordering: Ordering, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Every verdict is the judge's; the witness is the first state that fails, and the best set."""
-    monkeypatch.setattr(import_module("tumato_symbolic.verify.by_diagrams.model"), "MOST_CASES", cases)
+    monkeypatch.setattr(import_module("tumato_symbolic.verify.by_diagrams.closed_loop"), "MOST_CASES", cases)
     met = set()
     for seed in range(300, 308):
         spec, random = random_spec(seed, ALL_PROFILES[profile]), Random(seed)

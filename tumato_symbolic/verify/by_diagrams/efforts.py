@@ -11,8 +11,8 @@ from functools import cached_property
 from tumato_symbolic.policy import Restoring
 from tumato_symbolic.semantics import Effort
 from tumato_symbolic.spec import Ordering
-from tumato_symbolic.verify.by_diagrams.model import Model
-from tumato_symbolic.verify.by_diagrams.walk import FALSE, BudgetError, Function
+from tumato_symbolic.verify.by_diagrams.closed_loop import ClosedLoop
+from tumato_symbolic.verify.by_diagrams.functions import FALSE, BudgetError, Function
 
 _STEPS = 48
 """Bits for a number of steps."""
@@ -25,7 +25,7 @@ class WalkEfforts:
     such a set.
     """
 
-    def __init__(self, model: Model, ordering: Ordering) -> None:
+    def __init__(self, model: ClosedLoop, ordering: Ordering) -> None:
         self._model, self._ordering, self._walk = model, ordering, model.walk
         longest = sum(action.duration for action in model.spec.actions) + 1
         self._never = 1 << (2 * _STEPS + longest.bit_length())
@@ -57,7 +57,7 @@ class WalkEfforts:
         """What one step of `π(s)`, or of `A`, takes."""
         model = self._model
         takes = model.duration(model.policy if of_policy else model.chosen)
-        return self._walk.combine(_as_effort, takes, takes)
+        return self._walk.apply(_as_effort, takes, takes)
 
     # The worst of all outcomes
 
@@ -70,14 +70,14 @@ class WalkEfforts:
             while then != before:
                 before = then
                 for action, chosen in enumerate(model.chosen):
-                    then = walk.combine(max, then, walk.select(chosen, (FALSE, self._largest_after(action, then))))
+                    then = walk.apply(max, then, walk.select(chosen, (FALSE, self._largest_after(action, then))))
         actions = [(action, model.chosen[action]) for action, each in enumerate(model.spec.actions) if each.effects]
         struck = [walk.select(chosen, (FALSE, self._largest_after(action, then))) for action, chosen in actions]
         takes_effect = walk.any_of(chosen for _, chosen in actions)
-        found = walk.select(takes_effect, (number, walk.combine_all(max, [FALSE, *struck])))
+        found = walk.select(takes_effect, (number, walk.apply_all(max, [FALSE, *struck])))
         if self._ordering == "any":  # then all nominal effects in turn are an outcome
             return found
-        return walk.combine(max, found, walk.substitute(number, model.successor(model.chosen)))
+        return walk.apply(max, found, walk.compose(number, model.successor(model.chosen)))
 
     def _largest_after(self, action: int, number: Function) -> Function:
         """The largest value of `number` after an effect of `action`, which is then no longer to come."""
@@ -86,13 +86,13 @@ class WalkEfforts:
             {variable: walk.constant(value) for variable, value in effect} | idle
             for effect in self._model.spec.actions[action].effects
         )
-        return walk.combine_all(max, [FALSE, *(walk.substitute(number, effect) for effect in effects)])
+        return walk.apply_all(max, [FALSE, *(walk.compose(number, effect) for effect in effects)])
 
     def _worst_by_policy(self, number: Function) -> Function:
         """The same in `Next(s, π(s))`."""
         walk, model = self._walk, self._model
         if self._ordering == "first":
-            model_next = walk.combine(max, model.as_decided(self.worst_next(number)), model.next(number))
+            model_next = walk.apply(max, model.as_decided(self.worst_next(number)), model.next(number))
             return walk.select(model.acting, (FALSE, model_next))
         return model.as_decided(self.worst_next(number))
 
@@ -101,7 +101,7 @@ class WalkEfforts:
         walk, found = self._walk, self.never
         for part, more in self.by_level(self.unsafe):
             largest = self._worst_by_policy(walk.select(more, (self.known(worst), FALSE)))
-            longer = walk.combine(self._plus, largest, self.step(of_policy=True))
+            longer = walk.apply(self._plus, largest, self.step(of_policy=True))
             found = walk.select(part, (found, longer))
         return found
 
@@ -122,7 +122,7 @@ class WalkEfforts:
         """The effort along the nominal run to `more`, if `nominal` is right of what comes after the first step."""
         walk, model = self._walk, self._model
         left = walk.select(model.next(more), (model.next(self.known(nominal)), FALSE))
-        longer = walk.combine(self._plus, left, self.step(of_policy=True))
+        longer = walk.apply(self._plus, left, self.step(of_policy=True))
         return walk.select(self.unsafe, (self.never, longer))
 
     @cached_property
@@ -162,10 +162,8 @@ class WalkEfforts:
             nominal = None
             if model.spec.restoration == "fair":
                 after = walk.select(more, (self.known(self.nominal_by_level[more]), FALSE))
-                nominal = walk.combine(self._plus, walk.substitute(after, successor), takes)
-            found = walk.select(
-                part, (found, self._quality(largest, walk.combine(self._plus, largest, takes), nominal))
-            )
+                nominal = walk.apply(self._plus, walk.compose(after, successor), takes)
+            found = walk.select(part, (found, self._quality(largest, walk.apply(self._plus, largest, takes), nominal)))
         return found
 
     @cached_property
@@ -176,14 +174,14 @@ class WalkEfforts:
     def _quality(self, largest: Function, worst: Function, nominal: Function | None) -> Function:
         """One step before more, what is restored in any case before what is restored along nominal runs."""
         walk = self._walk
-        at_once = walk.combine(operator.eq, largest, FALSE)
-        several = walk.combine(operator.add, worst, self.never)
+        at_once = walk.apply(operator.eq, largest, FALSE)
+        several = walk.apply(operator.add, worst, self.never)
         otherwise = self.no_quality
         if nominal is not None:
-            runs = walk.combine(operator.lt, nominal, self.never)
-            fair = walk.combine(operator.add, nominal, walk.constant(2 * self._never))
+            runs = walk.apply(operator.lt, nominal, self.never)
+            fair = walk.apply(operator.add, nominal, walk.constant(2 * self._never))
             otherwise = walk.select(runs, (self.no_quality, fair))
-        bounded = walk.combine(operator.lt, worst, self.never)
+        bounded = walk.apply(operator.lt, worst, self.never)
         return walk.select(at_once, (walk.select(bounded, (otherwise, several)), worst))
 
     # What a certificate says
@@ -191,7 +189,7 @@ class WalkEfforts:
     def given(self, restoring: Restoring) -> tuple[Function, Function]:
         """The worst and nominal efforts of a certificate, for all unsafe states; `never` where there is none."""
         walk, model = self._walk, self._model
-        taken = walk.taken(restoring.efforts, self.number)
+        taken = walk.import_diagram(restoring.efforts, self.number)
         unsafe = walk.without(model.valid, model.safe)
         worst = walk.select(unsafe, (self.never, taken[restoring.worst]))
         nominal = walk.select(walk.all_of((unsafe, self.is_never(worst))), (self.never, taken[restoring.nominal]))
@@ -199,20 +197,20 @@ class WalkEfforts:
 
     def is_never(self, number: Function) -> Function:
         """Where there is no effort."""
-        return self._walk.combine(operator.eq, number, self.never)
+        return self._walk.apply(operator.eq, number, self.never)
 
     def false_efforts(self, worst: Function, nominal: Function) -> Function:
         """The states where a given effort does not follow from those after the decision."""
         walk, model = self._walk, self._model
-        enough = walk.combine(operator.ge, worst, self.after_policy(worst))
+        enough = walk.apply(operator.ge, worst, self.after_policy(worst))
         claimed = walk.negation(self.is_never(worst))
         wrong = walk.without(claimed, walk.all_of((self.unsafe, enough)))
         claimed = walk.negation(self.is_never(nominal))
         goes_on = walk.select(self.is_never(self.known(worst)), (FALSE, self.known(nominal)))
         for part, more in self.by_level(claimed):
             left = walk.select(model.next(more), (model.next(goes_on), FALSE))
-            longer = walk.combine(self._plus, left, self.step(of_policy=True))
-            right = walk.all_of((self.unsafe, walk.combine(operator.ge, nominal, longer)))
+            longer = walk.apply(self._plus, left, self.step(of_policy=True))
+            right = walk.all_of((self.unsafe, walk.apply(operator.ge, nominal, longer)))
             wrong = walk.any_of((wrong, walk.without(part, right)))
         return wrong
 

@@ -7,14 +7,14 @@ from functools import cached_property
 
 from tumato_symbolic.semantics import Residual
 from tumato_symbolic.spec import active_bodies, executing_atoms
-from tumato_symbolic.verify.by_diagrams.model import Model
-from tumato_symbolic.verify.by_diagrams.walk import FALSE, Function
+from tumato_symbolic.verify.by_diagrams.closed_loop import ClosedLoop
+from tumato_symbolic.verify.by_diagrams.functions import FALSE, Function
 
 
 class WalkGoals:
     """The goals of a model."""
 
-    def __init__(self, model: Model) -> None:
+    def __init__(self, model: ClosedLoop) -> None:
         self._model = model
         self._spec = model.spec
         self._walk = model.walk

@@ -10,7 +10,8 @@ from functools import partial
 from typing import Any, TypeVar
 
 from tumato_symbolic.limits import Budget
-from tumato_symbolic.verify.by_diagrams.walk import TOO_LARGE, BudgetError, FullError, Walk, given_up
+from tumato_symbolic.verify.by_diagrams.functions import TOO_LARGE, BudgetError, FullError, given_up
+from tumato_symbolic.verify.by_diagrams.walk import Walk
 from tumato_symbolic.verify.result import PropertyName
 from tumato_symbolic.verify.workers import Lost, in_workers
 

@@ -13,12 +13,12 @@ from tumato_symbolic.policy import Policy
 from tumato_symbolic.policy.convert import as_diagram
 from tumato_symbolic.semantics import Residual
 from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.verify.by_diagrams.closed_loop import ClosedLoop
+from tumato_symbolic.verify.by_diagrams.functions import FALSE, BudgetError, Function, given_up
 from tumato_symbolic.verify.by_diagrams.goals import WalkGoals
-from tumato_symbolic.verify.by_diagrams.model import Model
 from tumato_symbolic.verify.by_diagrams.parallel import ParallelProofs, Task
 from tumato_symbolic.verify.by_diagrams.ranks import WalkRanks
 from tumato_symbolic.verify.by_diagrams.stepwise import Stepwise
-from tumato_symbolic.verify.by_diagrams.walk import FALSE, BudgetError, Function, given_up
 from tumato_symbolic.verify.by_diagrams.witnesses import Witnesses
 from tumato_symbolic.verify.claimed_ranks import NOT_ALL
 from tumato_symbolic.verify.decisions import Decisions
@@ -156,8 +156,8 @@ class WalkProver:
             walk.most += spared
 
     @cached_property
-    def _model(self) -> Model:
-        return Model(self._spec, as_diagram(self._policy), self._ordering, self._budget.until())
+    def _model(self) -> ClosedLoop:
+        return ClosedLoop(self._spec, as_diagram(self._policy), self._ordering, self._budget.until())
 
     @cached_property
     def _violations(self) -> list[Function]:
@@ -278,7 +278,7 @@ class WalkProver:
         model, walk = self._model, self._model.walk
         unsafe = walk.without(model.decided, model.safe)
         takes = walk.select(unsafe, (FALSE, model.duration(model.policy)))  # nothing is shorter than 0
-        cheaper = walk.combine(operator.lt, model.duration(model.chosen), takes)
+        cheaper = walk.apply(operator.lt, model.duration(model.chosen), takes)
         if cheaper != FALSE:
             cheaper = walk.all_of((cheaper, model.allowed))
         owed = self._residual_goals.residuals(cheaper, model.chosen)
@@ -286,9 +286,9 @@ class WalkProver:
         better = FALSE
         for goal, where in owed:
             near = self._ranks.near_at_least(goal)
-            serves = walk.all_of((where, walk.substitute(near, step)))
+            serves = walk.all_of((where, walk.compose(near, step)))
             if serves != FALSE and near != self._ranks.near(goal):
-                at_least, serves = serves, walk.all_of((where, walk.substitute(self._ranks.near(goal), step)))
+                at_least, serves = serves, walk.all_of((where, walk.compose(self._ranks.near(goal), step)))
                 if serves != at_least:
                     self._ranks.inexact(goal)
             better = walk.any_of((better, serves))

@@ -8,9 +8,9 @@ from functools import cached_property
 
 from tumato_symbolic.policy import Policy
 from tumato_symbolic.semantics import Residual
+from tumato_symbolic.verify.by_diagrams.closed_loop import ClosedLoop
+from tumato_symbolic.verify.by_diagrams.functions import FALSE, Function
 from tumato_symbolic.verify.by_diagrams.goals import WalkGoals
-from tumato_symbolic.verify.by_diagrams.model import Model
-from tumato_symbolic.verify.by_diagrams.walk import FALSE, Function
 from tumato_symbolic.verify.claimed_ranks import UNNEEDED, ClaimedRanks
 
 
@@ -25,7 +25,7 @@ class WalkRanks(ClaimedRanks):
     Given ranks speak of safe states, and of all valid ones where efforts came with them; those computed here of all.
     """
 
-    def __init__(self, model: Model, goals: WalkGoals, policy: Policy, policy_is_safe: Callable[[], bool]) -> None:
+    def __init__(self, model: ClosedLoop, goals: WalkGoals, policy: Policy, policy_is_safe: Callable[[], bool]) -> None:
         super().__init__(model.spec, policy, policy_is_safe)
         self._model = model
         self._goals = goals
@@ -44,13 +44,13 @@ class WalkRanks(ClaimedRanks):
         bound = self._model.spec.max_plan_length
         largest = self._never if bound is None else min(bound, self._never)
         walk = self._model.walk
-        near = walk.combine(operator.lt, self._given(goal), walk.constant(largest))
+        near = walk.apply(operator.lt, self._given(goal), walk.constant(largest))
         return walk.all_of((near, self._spoken_of)) if self._model.spec.restores_stepwise else near
 
     def given_far(self, goal: Residual) -> Function:
         """The states with a given rank that is a number, and too large."""
         walk = self._model.walk
-        ranked = walk.combine(operator.lt, self._given(goal), walk.constant(self._never))
+        ranked = walk.apply(operator.lt, self._given(goal), walk.constant(self._never))
         if self._model.spec.restores_stepwise:
             ranked = walk.all_of((ranked, self._spoken_of))
         return walk.without(ranked, self.given_near(goal))
@@ -99,7 +99,9 @@ class WalkRanks(ClaimedRanks):
         """The functions of the certificate, by reference."""
         if self._certificate is None:
             return []
-        return self._model.walk.taken(self._certificate.ranks, lambda rank: self._never if rank is None else rank)
+        return self._model.walk.import_diagram(
+            self._certificate.ranks, lambda rank: self._never if rank is None else rank
+        )
 
     def _given(self, goal: Residual) -> Function:
         return self._taken[self.roots[goal]]
@@ -109,9 +111,9 @@ class WalkRanks(ClaimedRanks):
         model, walk = self._model, self._model.walk
         here = self._given(goal)
         after = model.next(here)
-        known = walk.combine(operator.lt, here, walk.constant(self._never))
-        at_goal = walk.combine(operator.eq, here, walk.constant(0))
-        goes_down = walk.all_of((model.acting, self._spoken_of_after, walk.combine(operator.lt, after, here)))
+        known = walk.apply(operator.lt, here, walk.constant(self._never))
+        at_goal = walk.apply(operator.eq, here, walk.constant(0))
+        goes_down = walk.all_of((model.acting, self._spoken_of_after, walk.apply(operator.lt, after, here)))
         right = walk.select(at_goal, (goes_down, self._goals.reached(goal)))
         return walk.without(walk.all_of((self._spoken_of, known)), right) == FALSE
 
@@ -120,8 +122,8 @@ class WalkRanks(ClaimedRanks):
         model, walk = self._model, self._model.walk
         here = self._given(goal)
         after = model.next(here)
-        follows = walk.all_of((self._spoken_of_after, walk.combine(at_most_one_more, here, after)))
-        at_goal = walk.combine(operator.eq, here, walk.constant(0))
+        follows = walk.all_of((self._spoken_of_after, walk.apply(at_most_one_more, here, after)))
+        at_goal = walk.apply(operator.eq, here, walk.constant(0))
         wrong = walk.select(self._goals.reached(goal), (walk.without(model.acting, follows), walk.negation(at_goal)))
         return walk.all_of((self._spoken_of, wrong)) == FALSE
 

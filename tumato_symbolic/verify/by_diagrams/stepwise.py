@@ -8,11 +8,11 @@ from functools import cached_property
 
 from tumato_symbolic.semantics import NOTHING, ActionSet, State
 from tumato_symbolic.spec import Ordering
+from tumato_symbolic.verify.by_diagrams.closed_loop import ClosedLoop
 from tumato_symbolic.verify.by_diagrams.efforts import WalkEfforts
+from tumato_symbolic.verify.by_diagrams.functions import FALSE, BudgetError, Function
 from tumato_symbolic.verify.by_diagrams.goals import WalkGoals
-from tumato_symbolic.verify.by_diagrams.model import Model
 from tumato_symbolic.verify.by_diagrams.ranks import WalkRanks
-from tumato_symbolic.verify.by_diagrams.walk import FALSE, BudgetError, Function
 from tumato_symbolic.verify.decisions import Decisions
 from tumato_symbolic.verify.result import PropertyResult
 from tumato_symbolic.verify.ways_back import Changed, RestoringWitnesses, arrival, spoils
@@ -25,7 +25,7 @@ class Stepwise:
     """How one policy restores safety. Raises `BudgetError` where that is too much for the walk."""
 
     def __init__(
-        self, model: Model, goals: WalkGoals, ranks: WalkRanks, decisions: Decisions, ordering: Ordering
+        self, model: ClosedLoop, goals: WalkGoals, ranks: WalkRanks, decisions: Decisions, ordering: Ordering
     ) -> None:
         self._model, self._walk, self._spec = model, model.walk, model.spec
         self._goals, self._ranks, self._decisions = goals, ranks, decisions
@@ -117,7 +117,7 @@ class Stepwise:
         walk, efforts = self._walk, self._efforts
         nominal = walk.select(efforts.is_never(self._worst), (efforts.never, self._nominal))
         pairs = zip(self._given, (self._worst, nominal), strict=True)
-        same = walk.all_of(walk.combine(operator.eq, given, exact) for given, exact in pairs)
+        same = walk.all_of(walk.apply(operator.eq, given, exact) for given, exact in pairs)
         inexact = walk.without(walk.without(self._model.decided, self._model.safe), same)
         if inexact != FALSE:
             self._ranks.inexact_effort(self._model.first_state(inexact))
@@ -128,12 +128,12 @@ class Stepwise:
         unsafe = walk.without(model.decided, model.safe)
         now = efforts.qualities(self._worst, self._nominal if self._fair else None)
         self._quality = efforts.rival_qualities(unsafe, self._worst)
-        better = walk.all_of((unsafe, walk.combine(operator.lt, self._quality, now)))
+        better = walk.all_of((unsafe, walk.apply(operator.lt, self._quality, now)))
         if better != FALSE:
             better = walk.all_of((better, model.allowed))
         owed, step, found = self._goals.residuals(better, model.chosen), model.successor(model.chosen), FALSE
         for goal, where in owed:
-            serves = walk.all_of((where, walk.substitute(self._ranks.near_at_least(goal), step)))
+            serves = walk.all_of((where, walk.compose(self._ranks.near_at_least(goal), step)))
             found = walk.any_of((found, serves))
         return found, len(owed)
 

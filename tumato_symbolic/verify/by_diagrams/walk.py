@@ -1,102 +1,39 @@
-"""The walk: functions of finitely many variables as ordered diagrams, every function once. Plain Python.
+"""The walk: operations on functions as ordered diagrams (`functions.py`), so that a proof is a comparison.
 
-A function is a number. Two functions are equal exactly when their numbers are, so that a violation is impossible
-exactly when it is `FALSE`. All that is computed comes from four walks over diagrams, each remembering what it has
-done: `select` (cases), `combine` (any operation on two functions), `substitute` (functions for variables; an
-effect is a constant for each variable that it writes) and `assign` (values for variables where a predicate holds).
+A violation is impossible exactly when it is `FALSE`. All that is computed comes from four walks over diagrams, each
+remembering what it has done: `select` (cases), `apply` (any operation on two functions), `compose` (functions for
+variables; an effect is a constant for each variable that it writes) and `cofactor_where` (values for variables where a
+predicate holds).
 """
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
-from math import prod
-from typing import TypeAlias, TypeVar
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import TypeAlias
 
 from tumato_symbolic.diagrams import Diagram, Leaf
+from tumato_symbolic.verify.by_diagrams.functions import FALSE, MOST_STEPS, TRUE, Function, Functions
 
-Function: TypeAlias = int
-"""A function, by its number."""
-Substitution: TypeAlias = tuple[tuple[int, Function], ...]
+Composition: TypeAlias = tuple[tuple[int, Function], ...]
 """Functions for variables, sorted by variable; every other variable stays."""
 
-Key = TypeVar("Key", bound=Hashable)
-Found = TypeVar("Found")
-Part = TypeVar("Part")
 
-FALSE: Function = 0
-TRUE: Function = 1
-
-MOST_STEPS = 3_000_000
-"""How many results are remembered at most, up to 1 GB; a proof that needs more is given up."""
-
-
-TOO_LARGE = "the diagrams of the walk grow too large"
-
-
-class BudgetError(Exception):
-    """The walk was given up: it took too many steps or too much time."""
-
-
-class FullError(BudgetError):
-    """It remembered more than it may."""
-
-
-def given_up(error: BudgetError | RecursionError) -> str:
-    """Why the walk was given up."""
-    return str(error) if isinstance(error, BudgetError) else "there are too many variables for the walk"
-
-
-class Walk:
-    """Diagrams over variables of these `sizes`, which are tested in this `order`. Leaves are integers.
-
-    Every operation raises `BudgetError` when `deadline` (monotonic) has passed or more than `most` results are
-    `remembered`. From time to time `watch` is called, which may raise it as well.
-    """
+class Walk(Functions):
+    """Operations on functions, each of which remembers what it has done."""
 
     def __init__(self, order: Sequence[int], sizes: Sequence[int], most_steps: int = MOST_STEPS) -> None:
-        self.sizes = [sizes[variable] for variable in order]
-        self.level_of = {variable: level for level, variable in enumerate(order)}
-        self.deadline: float | None = None
-        self.watch: Callable[[], None] | None = None
-        self.most = most_steps
-        self.remembered = 0
-        self._bottom = len(order)
-        self._levels: list[int] = []  # of every function, the level that it tests first; `_bottom` for a constant
-        self._below: list[tuple[Function, ...]] = []  # what is left of it for every value of that variable
-        self._values: dict[Function, int] = {}
-        self._known: dict[tuple[int, tuple[Function, ...]], Function] = {}
+        super().__init__(order, sizes, most_steps)
         self._selected: dict[tuple[Function, tuple[Function, ...]], Function] = {}
-        self._combined: dict[Callable[[int, int], int], dict[tuple[Function, Function], Function]] = {}
-        self._substituted: dict[Substitution, dict[Function, Function]] = {}
-        self.constant(0)
-        self.constant(1)
-
-    @property
-    def is_full(self) -> bool:
-        """Whether more results were remembered than may be."""
-        return self.remembered > self.most
+        self._applied: dict[Callable[[int, int], int], dict[tuple[Function, Function], Function]] = {}
+        self._composed: dict[Composition, dict[Function, Function]] = {}
 
     def make_room(self) -> None:
         """Forget results, and no functions, where half as many are remembered as may be."""
         if self.most < 2 * self.remembered and 2 * len(self._levels) < self.most:
             self._selected.clear()
-            self._combined.clear()
-            self._substituted.clear()
+            self._applied.clear()
+            self._composed.clear()
             self.remembered = 0
-
-    def check_time(self) -> None:
-        """Raises `BudgetError` when the deadline has passed, or whoever watches says so."""
-        if self.deadline is not None and time.monotonic() >= self.deadline:
-            raise BudgetError("the walk did not end within the time limit")
-        if self.watch is not None:
-            self.watch()
-
-    def constant(self, value: int) -> Function:
-        """The function that is `value` everywhere; 0 and 1 are `FALSE` and `TRUE`."""
-        found = self._make(self._bottom, (-1, value))
-        self._values[found] = value
-        return found
 
     def variable(self, variable: int) -> Function:
         """The value of a variable."""
@@ -128,29 +65,29 @@ class Walk:
             self._remember(self._selected, key, found)
         return found
 
-    def combine(self, operation: Callable[[int, int], int], one: Function, other: Function) -> Function:
+    def apply(self, operation: Callable[[int, int], int], one: Function, other: Function) -> Function:
         """The function `operation(one, other)`."""
         if one in self._values and other in self._values:
             return self.constant(operation(self._values[one], self._values[other]))
-        known = self._combined.setdefault(operation, {})
+        known = self._applied.setdefault(operation, {})
         found = known.get((one, other))
         if found is None:
             level = min(self._levels[one], self._levels[other])
             pairs = zip(self._split(one, level), self._split(other, level), strict=True)
-            found = self._node(level, tuple([self.combine(operation, *pair) for pair in pairs]))
+            found = self._node(level, tuple([self.apply(operation, *pair) for pair in pairs]))
             self._remember(known, (one, other), found)
         return found
 
-    def substitute(self, function: Function, given: Mapping[int, Function]) -> Function:
+    def compose(self, function: Function, given: Mapping[int, Function]) -> Function:
         """`function` with other functions for some of its variables, all at once."""
-        return self._substitute(function, *self._substitution(given))
+        return self._compose(function, *self._composition(given))
 
-    def _substitution(self, given: Mapping[int, Function]) -> tuple[dict[int, Function], int, dict[Function, Function]]:
-        """What is given by level, the deepest level, and what is known of this substitution."""
+    def _composition(self, given: Mapping[int, Function]) -> tuple[dict[int, Function], int, dict[Function, Function]]:
+        """What is given by level, the deepest level, and what is known of this composition."""
         by_level = {self.level_of[variable]: replacement for variable, replacement in given.items()}
-        return by_level, max(by_level, default=-1), self._substituted.setdefault(tuple(sorted(given.items())), {})
+        return by_level, max(by_level, default=-1), self._composed.setdefault(tuple(sorted(given.items())), {})
 
-    def _substitute(
+    def _compose(
         self, function: Function, given: Mapping[int, Function], deepest: int, known: dict[Function, Function]
     ) -> Function:
         level = self._levels[function]
@@ -160,9 +97,9 @@ class Walk:
         if found is None:
             number = given.get(level, -1)
             if number in self._values:
-                found = self._substitute(self._below[function][self._values[number]], given, deepest, known)
+                found = self._compose(self._below[function][self._values[number]], given, deepest, known)
             else:
-                below = tuple([self._substitute(part, given, deepest, known) for part in self._below[function]])
+                below = tuple([self._compose(part, given, deepest, known) for part in self._below[function]])
                 if number < 0 and all(self._levels[part] > level for part in below):
                     found = self._node(level, below)
                 else:
@@ -170,17 +107,19 @@ class Walk:
             self._remember(known, function, found)
         return found
 
-    def assign(self, where: Function, values: Mapping[int, int], function: Function, otherwise: Function) -> Function:
+    def cofactor_where(
+        self, where: Function, values: Mapping[int, int], function: Function, otherwise: Function
+    ) -> Function:
         """Where a predicate holds, `function` with `values` for some of its variables; elsewhere `otherwise`."""
         given = {self.level_of[variable]: value for variable, value in values.items()}
-        everywhere = self._substitution({variable: self.constant(value) for variable, value in values.items()})
+        everywhere = self._composition({variable: self.constant(value) for variable, value in values.items()})
         known: dict[tuple[Function, Function, Function], Function] = {}
 
         def visit(where: Function, function: Function, otherwise: Function) -> Function:
             if where == FALSE:
                 return otherwise
             if where == TRUE:
-                return self._substitute(function, *everywhere)
+                return self._compose(function, *everywhere)
             while self._levels[function] in given:
                 function = self._below[function][given[self._levels[function]]]
             key = (where, function, otherwise)
@@ -194,11 +133,11 @@ class Walk:
 
         return visit(where, function, otherwise)
 
-    def combine_all(self, operation: Callable[[int, int], int], functions: Sequence[Function]) -> Function:
+    def apply_all(self, operation: Callable[[int, int], int], functions: Sequence[Function]) -> Function:
         """All of these functions, of which there are some, by an operation that is associative: neighbours first."""
         while len(functions) > 1:
             pairs = zip(functions[::2], functions[1::2], strict=False)
-            functions = [*(self.combine(operation, *pair) for pair in pairs), *functions[len(functions) & ~1 :]]
+            functions = [*(self.apply(operation, *pair) for pair in pairs), *functions[len(functions) & ~1 :]]
         return functions[0]
 
     def all_of(self, functions: Iterable[Function]) -> Function:
@@ -223,95 +162,12 @@ class Walk:
         """`one` and not `other`."""
         return self.select(other, (one, FALSE))
 
-    def taken(self, diagram: Diagram[Leaf], value: Callable[[Leaf], int]) -> list[Function]:
+    def import_diagram(self, diagram: Diagram[Leaf], value: Callable[[Leaf], int]) -> list[Function]:
         """The functions of a diagram of the policy, by reference; `value` gives its leaves as integers."""
         found = [self.constant(value(leaf)) for leaf in diagram.leaves]
         for level, below in diagram.nodes:
             found.append(self.by_value(diagram.order[level], [found[each] for each in below]))
         return found
 
-    def values_of(self, function: Function) -> list[int]:
-        """All values that a function takes, in ascending order."""
-        seen, pending, found = {function}, [function], set()
-        while pending:
-            here = pending.pop()
-            if here in self._values:
-                found.add(self._values[here])
-            else:
-                fresh = set(self._below[here]) - seen
-                seen |= fresh
-                pending += fresh
-        return sorted(found)
-
-    def parts(self, function: Function) -> dict[int, Function]:
-        """Where a function has which of its values, in ascending order."""
-        known: dict[Function, dict[int, Function]] = {}
-
-        def visit(here: Function) -> dict[int, Function]:
-            if here in self._values:
-                return {self._values[here]: TRUE}
-            if here not in known:
-                below = [visit(part) for part in self._below[here]]
-                found = {
-                    value: self._node(self._levels[here], tuple([part.get(value, FALSE) for part in below]))
-                    for value in sorted(set[int]().union(*below))
-                }
-                self._remember(known, here, found)
-            return known[here]
-
-        return visit(function)
-
-    def given(self, function: Function, leaf: Callable[[int], Part], node: Callable[[int, list[Part]], Part]) -> Part:
-        """A function handed on: what `leaf` makes of its values, and `node` of a variable and a part for each value."""
-        variables = {level: variable for variable, level in self.level_of.items()}
-        known: dict[Function, Part] = {}
-
-        def visit(here: Function) -> Part:
-            if here not in known:
-                if here in self._values:
-                    known[here] = leaf(self._values[here])
-                else:
-                    known[here] = node(variables[self._levels[here]], [visit(part) for part in self._below[here]])
-            return known[here]
-
-        return visit(function)
-
-    def count(self, predicate: Function) -> int:
-        """For how many values of all variables together a predicate holds."""
-        counts = {FALSE: 0, TRUE: 1}
-        below = [prod(self.sizes[level:]) for level in range(self._bottom + 1)]
-
-        def visit(function: Function) -> int:
-            if function not in counts:
-                level = self._levels[function]
-                counts[function] = sum(
-                    visit(part) * (below[level + 1] // below[self._levels[part]]) for part in self._below[function]
-                )
-            return counts[function]
-
-        return visit(predicate) * (below[0] // below[self._levels[predicate]])
-
     def _literal(self, level: int) -> Function:
         return self._node(level, tuple(self.constant(value) for value in range(self.sizes[level])))
-
-    def _split(self, function: Function, level: int) -> Iterable[Function]:
-        """What is left of a function for every value of the variable at `level`, its first one or one above."""
-        return self._below[function] if self._levels[function] == level else (function,) * self.sizes[level]
-
-    def _node(self, level: int, below: tuple[Function, ...]) -> Function:
-        return below[0] if below.count(below[0]) == len(below) else self._make(level, below)
-
-    def _make(self, level: int, below: tuple[Function, ...]) -> Function:
-        found = self._known.setdefault((level, below), len(self._levels))
-        if found == len(self._levels):
-            self._levels.append(level)
-            self._below.append(below)
-        return found
-
-    def _remember(self, known: dict[Key, Found], key: Key, found: Found) -> None:
-        known[key] = found
-        self.remembered += 1
-        if self.is_full:
-            raise FullError(TOO_LARGE)
-        if self.remembered % 1024 == 0:
-            self.check_time()

@@ -18,8 +18,8 @@ from tumato_symbolic.semantics import (
     objections,
 )
 from tumato_symbolic.spec import Assignment, Ordering
-from tumato_symbolic.verify.by_diagrams.model import Model
-from tumato_symbolic.verify.by_diagrams.walk import FALSE, Function
+from tumato_symbolic.verify.by_diagrams.closed_loop import ClosedLoop
+from tumato_symbolic.verify.by_diagrams.functions import FALSE, Function
 from tumato_symbolic.verify.decisions import Decisions
 from tumato_symbolic.verify.result import PropertyResult, Refutation
 
@@ -33,7 +33,7 @@ class Witnesses:
     Raises `RuntimeError` where the explicit meaning finds nothing wrong: a bug of ours.
     """
 
-    def __init__(self, model: Model, decisions: Decisions, ordering: Ordering) -> None:
+    def __init__(self, model: ClosedLoop, decisions: Decisions, ordering: Ordering) -> None:
         self._model = model
         self._spec = model.spec
         self._decisions = decisions
@@ -104,7 +104,7 @@ class Witnesses:
     def _best(self, better: Function, state: State) -> tuple[ActionSet, Run]:
         """The cheapest better set in a state, then the smallest, then the first, and its run."""
         model, walk, spec = self._model, self._model.walk, self._spec
-        left = walk.substitute(better, {variable: walk.constant(value) for variable, value in enumerate(state)})
+        left = walk.compose(better, {variable: walk.constant(value) for variable, value in enumerate(state)})
         for measure in (model.duration(model.chosen), model.size(model.chosen)):
             left = model.least(left, measure)
         chosen = NOTHING

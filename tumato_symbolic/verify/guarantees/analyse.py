@@ -12,9 +12,9 @@ from tumato_symbolic.policy.convert import as_diagram
 from tumato_symbolic.policy.guarantees_file import GuaranteesCertificate
 from tumato_symbolic.semantics import Guarantee, Residual, Shortcoming, Shortcomings, State, residual_goal, shows
 from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.verify.by_diagrams.closed_loop import ClosedLoop
+from tumato_symbolic.verify.by_diagrams.functions import BudgetError, given_up
 from tumato_symbolic.verify.by_diagrams.goals import WalkGoals
-from tumato_symbolic.verify.by_diagrams.model import Model
-from tumato_symbolic.verify.by_diagrams.walk import BudgetError, given_up
 from tumato_symbolic.verify.decisions import Decisions
 from tumato_symbolic.verify.guarantees.certifying import certificate_of
 from tumato_symbolic.verify.guarantees.prospects import WalkProspects
@@ -57,7 +57,7 @@ class Analysis:
     def __init__(self, spec: Spec, policy: Policy, ordering: Ordering, budget: Budget) -> None:
         self._spec, self._ordering, self._context = spec, ordering, budget.context
         self._decisions = Decisions(spec, policy)
-        self._model = Model(spec, as_diagram(policy), ordering, budget.until())
+        self._model = ClosedLoop(spec, as_diagram(policy), ordering, budget.until())
         self._goals = WalkGoals(self._model)
         variables = sorted(range(len(spec.variables)), key=lambda each: self._model.walk.level_of[each])
         self._sets = StateSets(spec, variables, budget.context)

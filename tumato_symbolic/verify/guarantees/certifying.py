@@ -9,7 +9,8 @@ from tumato_symbolic.policy.guarantees_file import CertifiedGoal, CertifiedLevel
 from tumato_symbolic.policy.records import Vocabulary
 from tumato_symbolic.semantics import Residual, action_names
 from tumato_symbolic.spec import Ordering, Spec, canonical_text, digest
-from tumato_symbolic.verify.by_diagrams.walk import Function, Walk
+from tumato_symbolic.verify.by_diagrams.functions import Function
+from tumato_symbolic.verify.by_diagrams.walk import Walk
 from tumato_symbolic.verify.guarantees.prospects import NO_RANK
 from tumato_symbolic.verify.guarantees.result import Level
 
@@ -29,7 +30,7 @@ def certificate_of(
     builder = DiagramBuilder[int | None](order, [None, *sorted(numbers)])
 
     def taken(function: Function) -> Reference:
-        return walk.given(
+        return walk.fold(
             function,
             lambda number: builder.leaf(None if number == NO_RANK else number),
             lambda variable, below: builder.node(places[variable], tuple(below)),

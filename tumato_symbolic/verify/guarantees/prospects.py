@@ -7,9 +7,9 @@ from functools import cached_property
 from math import inf
 
 from tumato_symbolic.semantics import NOTHING, Guarantee, Residual, State
+from tumato_symbolic.verify.by_diagrams.closed_loop import ClosedLoop
+from tumato_symbolic.verify.by_diagrams.functions import FALSE, TRUE, Function
 from tumato_symbolic.verify.by_diagrams.goals import WalkGoals
-from tumato_symbolic.verify.by_diagrams.model import Model
-from tumato_symbolic.verify.by_diagrams.walk import FALSE, TRUE, Function
 
 NO_RANK = -1
 
@@ -20,7 +20,7 @@ class WalkProspects:
     `D(t) ⊆ W_k` is `Next ⊆ W_k` wherever `δ` leads into `W_{k+1}`, which is a part of `W_k`.
     """
 
-    def __init__(self, model: Model, goals: WalkGoals, goal: Residual) -> None:
+    def __init__(self, model: ClosedLoop, goals: WalkGoals, goal: Residual) -> None:
         self._model, self._walk = model, model.walk
         self._met = goals.reached(goal)
 

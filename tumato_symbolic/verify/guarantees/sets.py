@@ -9,7 +9,8 @@ from tumato_symbolic.diagrams import EVERYTHING, LEAVES, NOTHING, Coverer, Refer
 from tumato_symbolic.limits import Context
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Spec
-from tumato_symbolic.verify.by_diagrams.walk import Function, Walk
+from tumato_symbolic.verify.by_diagrams.functions import Function
+from tumato_symbolic.verify.by_diagrams.walk import Walk
 from tumato_symbolic.verify.guarantees.result import StateCube
 
 MOST_CUBES = 200
@@ -27,7 +28,7 @@ class StateSets:
 
     def of_walk(self, walk: Walk, states: Function) -> Reference:
         """A predicate of the walk over states."""
-        return walk.given(
+        return walk.fold(
             states,
             lambda value: LEAVES[bool(value)],
             lambda variable, below: self._sets.node(self._level[variable], tuple(below)),

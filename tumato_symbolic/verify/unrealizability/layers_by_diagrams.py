@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from tumato_symbolic.diagrams import Diagram, DiagramBuilder, Reference
-from tumato_symbolic.policy import DecisionDiagram
+from tumato_symbolic.diagrams import Diagram, Reference
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Ordering, Spec
-from tumato_symbolic.verify.by_diagrams.model import Model
-from tumato_symbolic.verify.by_diagrams.walk import FALSE
+from tumato_symbolic.verify.by_diagrams.functions import FALSE
+from tumato_symbolic.verify.by_diagrams.steps import Steps
 
 
 def first_left(
@@ -20,10 +19,9 @@ def first_left(
     After layer `n` layers 1 to `n + 1` may follow, and after the last one anything where it meets the plan bound.
     Raises `BudgetError` when `deadline` (monotonic) comes first, or memory is used up.
     """
-    nothing: Diagram[bool] = DiagramBuilder(diagram.order, (False, True)).finish()
-    model = Model(spec, DecisionDiagram(nothing, (0,) * len(spec.actions), 0), ordering, deadline)
-    walk, following = model.walk, model.successor(model.chosen)
-    taken = walk.taken(diagram, int)
+    steps = Steps(spec, ordering, diagram.order, deadline)
+    walk, following = steps.walk, steps.successor(steps.chosen)
+    taken = walk.import_diagram(diagram, int)
     layers = [taken[root] for root in roots]
     bound, held = spec.max_plan_length, layers[0]
     for number, layer in enumerate(layers, 1):
@@ -31,8 +29,8 @@ def first_left(
             break
         walk.check_time()
         held = walk.any_of((held, *layers[number : number + 1]))
-        steps = walk.all_of((model.allowed, model.safe, layer))
-        left = walk.without(steps, walk.substitute(held, following))
+        pairs = walk.all_of((steps.allowed, steps.safe, layer))
+        left = walk.without(pairs, walk.compose(held, following))
         if left != FALSE:
-            return model.first_state(left)
+            return steps.first_state(left)
     return None

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from typing import Final
 
-from tumato_symbolic.diagrams import DiagramBuilder
-from tumato_symbolic.policy import DecisionDiagram
 from tumato_symbolic.policy.unrealizable import NoRestoration
 from tumato_symbolic.semantics import is_safe, is_valid, level
 from tumato_symbolic.spec import Ordering, Spec
-from tumato_symbolic.verify.by_diagrams.model import Model
-from tumato_symbolic.verify.by_diagrams.walk import FALSE, BudgetError, given_up
+from tumato_symbolic.verify.by_diagrams.functions import FALSE, BudgetError, given_up
+from tumato_symbolic.verify.by_diagrams.steps import Steps
 from tumato_symbolic.verify.by_z3.solver import UndecidedError
 from tumato_symbolic.verify.unrealizability.allowed_step import FalseClaimError
 from tumato_symbolic.verify.unrealizability.named_goals import state_text
@@ -34,17 +32,16 @@ def check_no_restoration(reason: NoRestoration, spec: Spec, ordering: Ordering, 
 
 
 def _check_trap(reason: NoRestoration, spec: Spec, ordering: Ordering, deadline: float) -> None:
-    nothing = DiagramBuilder[bool](reason.diagram.order, (False, True)).finish()
-    model = Model(spec, DecisionDiagram(nothing, (0,) * len(spec.actions), 0), ordering, deadline)
-    walk, place = model.walk, level(spec, reason.state)
-    held = walk.all_of((model.tiers[place], walk.taken(reason.diagram, int)[reason.root]))
-    trap = walk.without(held, model.tiers[place + 1])
+    steps = Steps(spec, ordering, reason.diagram.order, deadline)
+    walk, place = steps.walk, level(spec, reason.state)
+    held = walk.all_of((steps.tiers[place], walk.import_diagram(reason.diagram, int)[reason.root]))
+    trap = walk.without(held, steps.tiers[place + 1])
     outside = walk.negation(trap)
     if spec.restoration == "fair":
-        leaving = walk.substitute(outside, model.successor(model.chosen))
+        leaving = walk.compose(outside, steps.successor(steps.chosen))
     else:
-        leaving = model.into(outside)
-    left = walk.all_of((trap, leaving, model.allowed))
+        leaving = steps.into(outside)
+    left = walk.all_of((trap, leaving, steps.allowed))
     if left != FALSE:
-        state = state_text(spec, model.first_state(left))
+        state = state_text(spec, steps.first_state(left))
         raise FalseClaimError(f"something that may be executed in {state} leads out of the trap")

@@ -29,11 +29,12 @@ from tumato_symbolic.semantics import (
     residual_goal,
 )
 from tumato_symbolic.spec import And, Executing, Not, Ordering, Spec
+from tumato_symbolic.verify.by_diagrams.closed_loop import ClosedLoop
+from tumato_symbolic.verify.by_diagrams.functions import FALSE, TRUE, BudgetError, given_up
 from tumato_symbolic.verify.by_diagrams.goals import WalkGoals
-from tumato_symbolic.verify.by_diagrams.model import Model
 from tumato_symbolic.verify.by_diagrams.order import walk_order
 from tumato_symbolic.verify.by_diagrams.parallel import ParallelProofs, Task
-from tumato_symbolic.verify.by_diagrams.walk import FALSE, TRUE, BudgetError, Walk, given_up
+from tumato_symbolic.verify.by_diagrams.walk import Walk
 from tumato_symbolic.verify.by_diagrams.witnesses import Witnesses
 from tumato_symbolic.verify.by_states.packed import Packing
 from tumato_symbolic.verify.by_states.runs import Runs
@@ -64,22 +65,22 @@ GENERATED = [random_spec(seed, ALL_PROFILES[profile]) for profile in ALL_PROFILE
 ALL = [*SPECS, nested(), *GENERATED]
 
 
-def _model(spec: Spec, ordering: Ordering = "any") -> Model:
-    return Model(spec, as_diagram(policy_from_rows(spec, {})), ordering)
+def _model(spec: Spec, ordering: Ordering = "any") -> ClosedLoop:
+    return ClosedLoop(spec, as_diagram(policy_from_rows(spec, {})), ordering)
 
 
-def _value(model: Model, function: int, state: literal.State, executed: literal.Actions) -> int:
+def _value(model: ClosedLoop, function: int, state: literal.State, executed: literal.Actions) -> int:
     """What a function is for a state and a set of which at most one is in each group."""
     places = [0] * len(model.groups)
     for group, actions in enumerate(model.groups):
         for place, action in enumerate(actions, 1):
             places[group] = place if action in executed else places[group]
     values = {number: model.walk.constant(value) for number, value in enumerate((*state, *places))}
-    (found,) = model.walk.values_of(model.walk.substitute(function, values))
+    (found,) = model.walk.values_of(model.walk.compose(function, values))
     return found
 
 
-def _choices(model: Model) -> list[literal.Actions]:
+def _choices(model: ClosedLoop) -> list[literal.Actions]:
     sets = literal.sets(model.spec)
     return [each for each in sets if all(len(each & set(group)) <= 1 for group in model.groups)]
 
@@ -179,10 +180,10 @@ def test_what_is_allowed_and_where_it_leads(ordering: Ordering) -> None:
 
 REMEMBERED: dict[str, Callable[[Walk, int, int], object]] = {
     "select": lambda walk, one, other: walk.select(one, (TRUE, other)),
-    "combine": lambda walk, one, other: walk.combine(operator.add, one, other),
-    "substitute": lambda walk, one, other: walk.substitute(one, {3: other, 5: TRUE}),
-    "substitute a value": lambda walk, one, _: walk.substitute(one, {5: TRUE}),
-    "assign": lambda walk, one, other: walk.assign(one, {4: 1}, other, one),
+    "combine": lambda walk, one, other: walk.apply(operator.add, one, other),
+    "compose": lambda walk, one, other: walk.compose(one, {3: other, 5: TRUE}),
+    "substitute a value": lambda walk, one, _: walk.compose(one, {5: TRUE}),
+    "cofactor_where": lambda walk, one, other: walk.cofactor_where(one, {4: 1}, other, one),
     "parts": lambda walk, one, _: walk.parts(one),
 }
 
@@ -194,7 +195,7 @@ def test_every_operation_counts_what_it_remembers(name: str) -> None:
     def made(most: int) -> tuple[Walk, int, int]:
         walk = Walk(range(6), [2] * 6, most_steps=10**9)
         one = walk.any_of(walk.all_of((walk.variable(n), walk.variable(5 - n))) for n in range(3))
-        other = walk.combine(operator.eq, walk.variable(0), walk.variable(4))
+        other = walk.apply(operator.eq, walk.variable(0), walk.variable(4))
         walk.most = walk.remembered + most
         return walk, one, other
 
@@ -205,7 +206,9 @@ def test_every_operation_counts_what_it_remembers(name: str) -> None:
     assert used >= 4, "one for each node at least"
     REMEMBERED[name](walk, one, other)
     if name != "parts":
-        assert walk.remembered - before <= used + (used if name == "assign" else 0), "what is known is not made again"
+        assert walk.remembered - before <= used + (used if name == "cofactor_where" else 0), (
+            "what is known is not made again"
+        )
     walk, one, other = made(used)
     REMEMBERED[name](walk, one, other)
     assert not walk.is_full
@@ -219,8 +222,8 @@ def test_a_result_counts_as_one() -> None:
     """A constant is no result; a node that was looked up is."""
     walk = Walk(range(3), [2, 2, 2])
     assert walk.remembered == 0
-    walk.combine(operator.add, walk.variable(0), walk.variable(1))
-    assert walk.remembered == len(walk._combined[operator.add]) == 3
+    walk.apply(operator.add, walk.variable(0), walk.variable(1))
+    assert walk.remembered == len(walk._applied[operator.add]) == 3
 
 
 def test_time_and_watchers() -> None:
@@ -229,9 +232,9 @@ def test_time_and_watchers() -> None:
     met = []
     walk.watch = lambda: met.append(walk.remembered)
     one = walk.any_of(walk.all_of((walk.variable(n), walk.variable(11 - n))) for n in range(6))
-    walk.combine(operator.add, one, walk.combine(operator.eq, walk.variable(3), walk.variable(9)))
+    walk.apply(operator.add, one, walk.apply(operator.eq, walk.variable(3), walk.variable(9)))
     for number in range(40):
-        walk.combine(operator.mul, one, walk.combine(operator.add, one, walk.constant(number)))
+        walk.apply(operator.mul, one, walk.apply(operator.add, one, walk.constant(number)))
     assert met == [1024 * number for number in range(1, walk.remembered // 1024 + 1)]
     assert met
     walk.check_time()
@@ -241,9 +244,9 @@ def test_time_and_watchers() -> None:
         walk.check_time()
 
 
-def _witnesses(spec: Spec, rows: dict, ordering: Ordering = "any") -> tuple[Model, Witnesses]:
+def _witnesses(spec: Spec, rows: dict, ordering: Ordering = "any") -> tuple[ClosedLoop, Witnesses]:
     policy = policy_from_rows(spec, rows)
-    model = Model(spec, as_diagram(policy), ordering)
+    model = ClosedLoop(spec, as_diagram(policy), ordering)
     return model, Witnesses(model, Decisions(spec, policy), ordering)
 
 
@@ -352,13 +355,13 @@ def test_substitution_keeps_the_order() -> None:
         for _ in range(12):
             (function, table), (one, ones), (two, twos) = drawn(3), drawn(1), drawn(2)
             for given in ({3: one}, {0: one}, {1: two}, {0: one, 1: two}, {2: walk.constant(1), 1: two}):
-                found = walk.substitute(function, given)
+                found = walk.compose(function, given)
                 for point in points:
                     turned = list(point)
                     for variable, by in given.items():
                         turned[variable] = ones[point] if by == one else twos[point] if by == two else 1
                     values = {number: walk.constant(value) for number, value in enumerate(point)}
-                    assert walk.values_of(walk.substitute(found, values)) == [table[tuple(turned)]]
+                    assert walk.values_of(walk.compose(found, values)) == [table[tuple(turned)]]
 
 
 @pytest.mark.parametrize("actions", [1, 2, 3, 4, 5])
@@ -371,8 +374,8 @@ def test_the_next_state_by_cases_and_by_variables(actions: int, monkeypatch: pyt
     states = literal.states(spec)
     rows = {state: frozenset(n for n in range(actions) if (state[n] + sum(state)) % 2 == 0) for state in states}
     for most in (0, 128):
-        monkeypatch.setattr(import_module("tumato_symbolic.verify.by_diagrams.model"), "MOST_CASES", most)
-        model = Model(spec, as_diagram(policy_from_rows(spec, rows)), "any")
+        monkeypatch.setattr(import_module("tumato_symbolic.verify.by_diagrams.closed_loop"), "MOST_CASES", most)
+        model = ClosedLoop(spec, as_diagram(policy_from_rows(spec, rows)), "any")
         for variable in range(actions):
             after = model.next(model.walk.variable(variable))
             for state in states:

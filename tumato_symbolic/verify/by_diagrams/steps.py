@@ -1,43 +1,35 @@
-"""A specification and a policy as functions that the walk can compare (`docs/semantics.md`, sections 3 to 5).
+"""The states and steps of a specification as functions that the walk can compare (`docs/semantics.md`, section 3).
 
 A function speaks of a state `s`, and of a set of actions `A` by one variable for every *group*, actions of which at
 most one can be in an allowed set: 0 when none is, otherwise the place of the action in its group. So `Ok(s, A)` is one
-function; the policy, an effect and a successor are what is substituted for its variables.
+function; an effect and a successor are what is substituted for its variables.
 """
 
 from __future__ import annotations
 
-import operator
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from functools import cached_property
 
-from tumato_symbolic.policy import DecisionDiagram
-from tumato_symbolic.semantics import ActionSet, State, disagreeing_pairs, exclusive_groups, exclusive_pairs
+from tumato_symbolic.semantics import ActionSet, State, exclusive_groups, exclusive_pairs
 from tumato_symbolic.spec import Connectives, Executing, Formula, Is, Ordering, Spec, fold
+from tumato_symbolic.verify.by_diagrams.functions import FALSE, TRUE, Function
 from tumato_symbolic.verify.by_diagrams.order import walk_order
-from tumato_symbolic.verify.by_diagrams.walk import FALSE, TRUE, Function, Walk
-
-MOST_CASES = 128
-"""Where the policy nominally writes at most so many different things, each is looked at apart."""
+from tumato_symbolic.verify.by_diagrams.walk import Walk
 
 
-class Model:
-    """`valid`, `decided` and `acting` are as in `docs/certificate.md`.
+class Steps:
+    """States and steps of a specification: `chosen[a]` is `a ∈ A`, `tiers[n]` the valid states that satisfy `n` tiers.
 
-    `policy[a]` is `a ∈ π(s)`, `chosen[a]` is `a ∈ A`.
+    `order` names the variables that come first in the diagrams.
     """
 
-    def __init__(
-        self, spec: Spec, decisions: DecisionDiagram, ordering: Ordering, deadline: float | None = None
-    ) -> None:
+    def __init__(self, spec: Spec, ordering: Ordering, order: Sequence[int], deadline: float | None = None) -> None:
         self.spec = spec
         self._ordering = ordering
         self.groups = exclusive_groups(spec)
         sizes = [*(len(variable.values) for variable in spec.variables), *(len(group) + 1 for group in self.groups)]
-        self.walk = walk = Walk(walk_order(spec, decisions.diagram.order, self.groups), sizes)
+        self.walk = walk = Walk(walk_order(spec, order, self.groups), sizes)
         walk.deadline = deadline
-        taken = walk.taken(decisions.diagram, int)
-        self.policy = [taken[root] for root in decisions.roots]
         self._place = {
             action: (group, place)
             for group, actions in enumerate(self.groups)
@@ -47,12 +39,10 @@ class Model:
             self._is(self.group_variable(action), self._place[action][1]) for action in range(len(spec.actions))
         ]
         self.valid = walk.all_of(self.formula(rule.formula) for rule in spec.assumptions)
-        self.tiers = [self.valid]  # the valid states that satisfy no, one, … tiers of state rules, the severest first
+        self.tiers = [self.valid]
         for tier in spec.tiers:
             self.tiers.append(walk.all_of((self.tiers[-1], *(self.formula(rule.formula) for rule in tier))))
         self.safe = self.tiers[-1]
-        self.decided = walk.all_of((self.valid, taken[decisions.defined]))
-        self._next: dict[Function, Function] = {}
 
     def group_variable(self, action: int) -> int:
         """The variable that tells which action of its group is chosen."""
@@ -116,11 +106,6 @@ class Model:
         """No two actions of `A` exclude each other."""
         return self.walk.negation(self.together(self.exclusive, self.chosen))
 
-    @cached_property
-    def acting(self) -> Function:
-        """`s` is decided, and the nominal effects of `π(s)` agree."""
-        return self.walk.without(self.decided, self.together(disagreeing_pairs(self.spec), self.policy))
-
     # Demands 5 and 6
 
     def after(self, action: int, function: Function) -> Function:
@@ -130,7 +115,7 @@ class Model:
             {variable: constant(value) for variable, value in effect} | idle
             for effect in self.spec.actions[action].effects
         )
-        return self.walk.all_of(self.walk.substitute(function, effect) for effect in effects)
+        return self.walk.all_of(self.walk.compose(function, effect) for effect in effects)
 
     @cached_property
     def requirements(self) -> list[tuple[Function, Function]]:
@@ -195,13 +180,6 @@ class Model:
         effects = (walk.select(chosen, (TRUE, self.after(action, then))) for action, chosen in actions)
         return walk.all_of((walk.any_of((*(chosen for _, chosen in actions), target)), *effects))
 
-    def leads_into(self, target: Function) -> Function:
-        """`Next(s, π(s)) ⊆ target`, where the policy acts without conflicts."""
-        if self._ordering == "any":  # then all nominal effects in turn are an outcome
-            return self.walk.all_of((self.acting, self.as_decided(self._outcomes_in(target, self.stays_in(target)))))
-        outcomes = self.as_decided(self._outcomes_in(target, target))
-        return self.walk.all_of((self.acting, outcomes, self.next(target)))
-
     def successor(self, executed: Sequence[Function]) -> dict[int, Function]:
         """`δ`: the next value of every variable that may change, where the nominal effects agree."""
         walk, found = self.walk, dict[int, Function]()
@@ -210,82 +188,6 @@ class Model:
                 stays = found.get(variable, walk.variable(variable))
                 found[variable] = walk.select(executed[number], (stays, walk.constant(value)))
         return found
-
-    @cached_property
-    def _steps(self) -> list[tuple[Function, dict[int, int]]] | None:
-        """The acting states by what the policy nominally writes there; None where that is too many cases."""
-        walk, actions = self.walk, self.spec.actions
-        pairs = sorted({pair for action in actions for pair in action.nominal})
-        masks = [sum(1 << pairs.index(pair) for pair in action.nominal) for action in actions]
-        each = zip(self.policy, masks, strict=True)
-        written = [
-            FALSE,
-            *(
-                walk.select(walk.all_of((self.acting, executed)), (FALSE, walk.constant(mask)))
-                for executed, mask in each
-            ),
-        ]
-        while len(written) > 1:
-            halves = zip(written[::2], written[1::2], strict=False)
-            written = [walk.combine(operator.or_, *both) for both in halves] + written[len(written) & ~1 :]
-            if any(len(walk.values_of(each)) > MOST_CASES for each in written):
-                return None
-        cases = walk.parts(walk.select(self.acting, (walk.constant(-1), *written)))
-        return [
-            (where, dict(pair for place, pair in enumerate(pairs) if mask >> place & 1))
-            for mask, where in cases.items()
-            if mask >= 0
-        ]
-
-    def next(self, function: Function) -> Function:
-        """`function` in `δ(s, π(s))` where the policy acts; elsewhere it means nothing."""
-        if function not in self._next:
-            self._next[function] = self._after_step(function)
-        return self._next[function]
-
-    def _after_step(self, function: Function) -> Function:
-        if self._steps is None:
-            return self.walk.substitute(function, self.successor(self.policy))
-        found = FALSE
-        for where, writes in self._steps:
-            found = self.walk.assign(where, writes, function, found)
-        return found
-
-    def obligations(self) -> Iterator[tuple[str, Function]]:
-        """What makes a decision allowed: claims, each with the decided states that violate it."""
-        spec, walk, policy = self.spec, self.walk, self.policy
-        for number, action in enumerate(spec.actions):
-            if action.preconditions:
-                executed = walk.all_of((self.decided, policy[number]))
-                yield f"the preconditions of {action.name} hold", walk.without(executed, self.preconditions(number))
-        conflict = walk.all_of((self.decided, self.together(self.exclusive, policy)))
-        yield "resources are controlled once, and nominal effects agree", conflict
-        for rule in spec.reaction_rules:
-            yield (
-                f"the reaction rule '{rule.text}' holds",
-                walk.without(self.decided, self.formula(rule.formula, policy)),
-            )
-        apart = walk.without(self.decided, conflict)
-        if spec.restores_stepwise:
-            for where, target in self.requirements:
-                ends = [self.as_decided(self.outcomes_in(target))]
-                ends += [self.next(target)] if self._ordering == "first" else []
-                yield "the rules that have to be kept are", walk.without(walk.all_of((apart, where)), walk.all_of(ends))
-            return
-        yield "every outcome is safe", walk.without(apart, self.as_decided(self.outcomes_safe))
-        if self._ordering == "first":
-            yield "δ is safe", walk.without(apart, self.next(self.safe))
-
-    def as_decided(self, function: Function) -> Function:
-        """`function` of `(s, π(s))`, where no two actions of `π(s)` are in conflict."""
-        walk, policy = self.walk, self.policy
-        for group, actions in enumerate(self.groups):
-            variable = len(self.spec.variables) + group
-            found = walk.substitute(function, {variable: FALSE})
-            for place, member in enumerate(actions, 1):
-                found = walk.assign(policy[member], {variable: place}, function, found)
-            function = found
-        return function
 
     @cached_property
     def allowed(self) -> Function:
@@ -297,7 +199,7 @@ class Model:
             parts += [walk.select(where, (TRUE, self.into(target))) for where, target in self.requirements]
             return walk.all_of(parts)
         if self._ordering == "first":
-            parts.append(walk.substitute(self.safe, self.successor(self.chosen)))
+            parts.append(walk.compose(self.safe, self.successor(self.chosen)))
         return walk.all_of((*parts, self.outcomes_safe))
 
     def into(self, target: Function) -> Function:
@@ -305,29 +207,7 @@ class Model:
         outcomes, walk = self.outcomes_in(target), self.walk
         if self._ordering == "any":  # then all nominal effects in turn are an outcome
             return outcomes
-        return walk.all_of((outcomes, walk.substitute(target, self.successor(self.chosen))))
-
-    # Durations
-
-    def duration(self, executed: Sequence[Function]) -> Function:
-        """The sum of the durations of the executed actions."""
-        amounts = [self.walk.constant(action.duration) for action in self.spec.actions]
-        each = zip(executed, amounts, strict=True)
-        return self._total([self.walk.select(predicate, (FALSE, amount)) for predicate, amount in each])
-
-    def size(self, executed: Sequence[Function]) -> Function:
-        """The number of executed actions."""
-        return self._total(executed)
-
-    def _total(self, numbers: Sequence[Function]) -> Function:
-        return self.walk.combine_all(operator.add, [FALSE, *numbers])
-
-    def least(self, where: Function, measure: Function) -> Function:
-        """That part of `where`, which is not empty, in which `measure` is smallest."""
-        walk = self.walk
-        elsewhere = walk.constant(walk.values_of(measure)[-1] + 1)
-        smallest = walk.values_of(walk.select(where, (elsewhere, measure)))[0]
-        return walk.all_of((where, walk.combine(operator.eq, measure, walk.constant(smallest))))
+        return walk.all_of((outcomes, walk.compose(target, self.successor(self.chosen))))
 
     # States
 
@@ -336,7 +216,7 @@ class Model:
         found: list[int] = []
         for variable, declared in enumerate(self.spec.variables):
             for value in range(len(declared.values)):
-                rest = self.walk.substitute(where, {variable: self.walk.constant(value)})
+                rest = self.walk.compose(where, {variable: self.walk.constant(value)})
                 if rest != FALSE:
                     found.append(value)
                     where = rest
@@ -352,4 +232,4 @@ class Model:
         places = dict.fromkeys(range(len(state), len(state) + len(self.groups)), 0)
         places |= {self.group_variable(action): self._place[action][1] for action in chosen}
         values = {variable: self.walk.constant(value) for variable, value in (*enumerate(state), *places.items())}
-        return self.walk.substitute(function, values) != FALSE
+        return self.walk.compose(function, values) != FALSE
