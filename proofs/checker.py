@@ -1371,7 +1371,7 @@ def text_of(formula: Formula, spec: Specification) -> str:
 # ----------------------------------------------------------------------------------------------------------------------
 # 7. The certificate (docs/certificate.md, docs/policy.md): for every residual goal a diagram with the ranks of the safe
 #    states. It is wrong when a rank is 0 where the goal does not hold, is otherwise not larger than that of the
-#    successor, or is not below L in the first successor of a state that owes the goal; incomplete where ranks miss.
+#    successor, or is not below L in the first successor of a state with this goal; incomplete where ranks are missing.
 #    With a section `Restoring`, the ranks are those of all valid states, and efforts must not be too small.
 
 
@@ -1431,7 +1431,7 @@ def check_bound(judge: Judge, state: State, ranks: dict[Residual, dict[State, in
     goal = world.residual_goal(state, judge.decided[state])
     own = ranks.get(goal, {}).get(after)
     if not goal[0] and (world.is_safe(state) or not world.stepwise):
-        return ""  # nothing is owed, not even a run to safety
+        return ""  # no goal is pending, not even to come to safety
     if own is None:
         return f"{world.show(after)}, which follows {world.show(state)}, has no rank"
     below = world.spec.bound is None or own < world.spec.bound
@@ -1586,9 +1586,9 @@ def meaning_of_goal(spec: Specification, goal: Goal) -> list[Any]:
 
 
 # ----------------------------------------------------------------------------------------------------------------------
-# 8. What the policy guarantees beyond nominal runs (docs/certificate.md). A rank claims, of a state that still owes the
-#    goal, how many steps are left: nominal ones in W_k, of `Surviving`, the worst in G, of `Forced`. The ranks have to
-#    be the fixpoints exactly, so that both what they hold and what they leave out is shown, and each level follows.
+# 8. What the policy guarantees beyond nominal runs (docs/certificate.md). A rank claims, of a state where its goal is
+#    pending, how many steps are left: nominal ones in W_k, of `Surviving`, the worst in G, of `Forced`. The ranks have
+#    to be the fixpoints exactly, so that both what they hold and what they leave out is shown, and each level follows.
 
 
 LEVELS = ("guaranteed", "fair", "survives", "nominal")
@@ -1648,7 +1648,9 @@ class Guarantees:
         """The level of a state, with the worst number of steps and the number of deviations."""
         goal = self.world.residual_goal(state, self.judge.decided[state])
         if goal not in self.forced:
-            raise Refuted(f"it has no ranks for {goal_text(self.world, goal)}, which {self.world.show(state)} owes")
+            raise Refuted(
+                f"it has no ranks for {goal_text(self.world, goal)}, which is pending in {self.world.show(state)}"
+            )
         surviving, forced = self.surviving[goal], self.forced[goal]
         nominal, after = self.judge.after[state], self.next[state]
         worst = [forced[each] for each in after]
@@ -1749,7 +1751,7 @@ def runs_from(world: World, starts: list[State]) -> Iterator[list[State]]:
 
 
 def check_decides(world: World, state: State) -> None:
-    """A policy decides valid states, and owes nothing elsewhere."""
+    """A policy decides valid states, and need not do anything elsewhere."""
     if not world.is_valid(state):
         raise Refuted(f"the state {world.show(state)} is not valid")
 
@@ -1972,14 +1974,14 @@ def check_no_restoration(world: World, reason: dict[str, Any], states: Numbered)
     return f"safety is never surely restored from {world.show(start)}, by a trap of {counted(len(trap), 'state')}"
 
 
-# No plan: whatever residual goal `State` can owe, the layers R_1, …, R_n hold all runs of allowed steps that owe it
+# No plan: whatever residual goal `State` can have, the layers R_1, …, R_n hold all runs of allowed steps that have it
 # (after k steps a run is in one of R_1, …, R_k), and none of their states meets it.
 
 Layers = tuple[Residual, list[int]]  # a residual goal, and a root for every layer
 
 
 def check_no_plan(world: World, reason: dict[str, Any], states: Numbered) -> str:
-    """No run from `State` reaches what it owes in `1` to `L` steps."""
+    """No run from `State` meets its residual goal in `1` to `L` steps."""
     start = read_state(reason, "State", world.spec)
     diagram = Diagram(reason, states, world.spec)
     need(diagram.is_yes_or_no(), "`Leaves` is not [false, true]")
@@ -1993,18 +1995,20 @@ def check_no_plan(world: World, reason: dict[str, Any], states: Numbered) -> str
         check_first_steps(world, start, diagram, goals)
         for state in met:
             check_layers(world, state, diagram, goals)
-    return f"no run from {world.show(start)} reaches what it owes, by layers for {counted(len(goals), 'goal')}"
+    return f"no run from {world.show(start)} meets its residual goal, by layers for {counted(len(goals), 'goal')}"
 
 
 def check_first_steps(world: World, start: State, diagram: Diagram, goals: list[Layers]) -> None:
-    """What the start can owe is listed, and each first successor is in the first layer of the goal that is owed."""
+    """Every residual goal of the start is listed, and each first successor is in the first layer of its goal."""
     for chosen, after in world.steps(start):
-        owed = world.residual_goal(start, chosen)
-        firsts = [layers[0] for goal, layers in goals if goal == owed]
+        pending = world.residual_goal(start, chosen)
+        firsts = [layers[0] for goal, layers in goals if goal == pending]
         if not firsts:
-            raise Refuted(f"{world.step(start, chosen)} and owes {goal_text(world, owed)}, which is not listed")
+            raise Refuted(
+                f"{world.step(start, chosen)} and leaves {goal_text(world, pending)} pending, which is not listed"
+            )
         if not all(diagram.value(first, after) for first in firsts):
-            raise Refuted(f"{world.step(start, chosen)}, which is not in layer 1 for {goal_text(world, owed)}")
+            raise Refuted(f"{world.step(start, chosen)}, which is not in layer 1 for {goal_text(world, pending)}")
 
 
 def check_layers(world: World, state: State, diagram: Diagram, goals: list[Layers]) -> None:
@@ -2028,7 +2032,7 @@ def check_layers(world: World, state: State, diagram: Diagram, goals: list[Layer
                 raise Refuted(f"from layer {number}, {world.step(state, chosen)}, which is not in {where}")
 
 
-# Conflict: for some valid states all *options* are listed, where a set leads and which goal it owes. A *cut* is a run
+# Conflict: for some valid states all *options* are listed, where a set leads and its residual goal. A *cut* is a run
 # that fails unless one of certain options is taken. No choice of one option for every state takes one for every cut.
 
 Option = tuple[State, int]  # the successor, and the goal by its class
@@ -2100,11 +2104,13 @@ def check_conflict(world: World, reason: dict[str, Any], states: Numbered) -> st
 
 
 def check_options(world: World, conflict: Conflict, state: State, options: list[Option]) -> None:
-    """Every allowed set leads where one of the options says, and owes a goal of its class."""
+    """Every allowed set leads where one of the options says, and has a residual goal of its class."""
     for chosen, after in world.steps(state):
-        owed = world.residual_goal(state, chosen)
-        if not any(after == there and owed in conflict.members[goal] for there, goal in options):
-            raise Refuted(f"{world.step(state, chosen)} and owes {goal_text(world, owed)}, which is no option there")
+        pending = world.residual_goal(state, chosen)
+        if not any(after == there and pending in conflict.members[goal] for there, goal in options):
+            raise Refuted(
+                f"{world.step(state, chosen)} and leaves {goal_text(world, pending)} pending, which is no option there"
+            )
 
 
 def check_distances(world: World, conflict: Conflict, state: State) -> None:

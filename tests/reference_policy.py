@@ -12,7 +12,7 @@ def reference_policy(world: World) -> dict[State, ActionSet] | None:
     """The preferred policy, or None where the preferences do not determine it state by state.
 
     That is where runs inside the regions of the own goals do not serve every safe state, where the decisions of the
-    safe states leave an unsafe one unserved, and where the allowed sets of one region owe different targets (goals
+    safe states leave an unsafe one unserved, and where the allowed sets of one region have different targets (goals
     with `executing`): there one state's best decision may lengthen or break the run of another.
     """
     if not _one_target_per_region(world):
@@ -30,7 +30,7 @@ def reference_policy(world: World) -> dict[State, ActionSet] | None:
 
 
 def _one_target_per_region(world: World) -> bool:
-    """Whether the allowed sets of the safe states with the same goals all owe the same set of safe states."""
+    """Whether the allowed sets of the safe states with the same goals all have the same set of safe states."""
     found: dict[ActiveGoals, set[frozenset[State]]] = {}
     for state in world.safe:
         targets = found.setdefault(world.gamma[state], set())

@@ -110,7 +110,7 @@ Proof.
   now apply told_worst.
 Qed.
 
-(** What a policy owes an unsafe state is there. *)
+(** What a policy has to do in an unsafe state is there. *)
 Lemma restoring_restores : forall s, valid spec s -> ~ safe spec s -> restores spec order pi s.
 Proof.
   intros s V U. unfold restores. destruct (restored_in spec) eqn:O.

@@ -255,7 +255,7 @@ Definition back_after (to : leads) (pi : policy) (s : state) (A : actions) (e : 
 
 Definition at_once (s : state) (A : actions) : Prop := forall t, next s A t -> restored s t.
 
-(** What [pi] owes an unsafe state. ([ok] says it already under [OneStep].) *)
+(** What [pi] has to do in an unsafe state. ([ok] says it already under [OneStep].) *)
 Definition restores (pi : policy) (s : state) : Prop :=
   match restored_in spec with
   | OneStep => at_once s (pi s)

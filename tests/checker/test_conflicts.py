@@ -15,7 +15,7 @@ from tests.checker.standalone import checker
 
 PLACES = "lmrLR"
 STEPS = {"l": "lm", "m": "mLR", "r": "rm", "L": "L", "R": "R"}
-OWED = {"l": 0, "r": 1}
+GOALS = {"l": 0, "r": 1}
 LEAVES = [0, 1, 2, None, 3]
 NEVER = 3
 """The reference to the leaf null; those to the numbers 0, 1, 2 are 0, 1, 2."""
@@ -25,14 +25,14 @@ TO_R, TO_L, TO_EITHER = [2, 1, 2, NEVER, 0], [2, 1, 2, 0, NEVER], [2, 1, 2, 0, 0
 
 
 def crossing(bound: int | None) -> str:
-    """`l` owes R, `r` owes L, and both have to pass `m`, which leads to one of the two."""
+    """The goal of `l` is R, that of `r` is L, and both have to pass `m`, which leads to one of the two."""
     goals = "BEGIN GOALS goal type: priority when P is l then goal: P is R when P is r then goal: P is L END GOALS"
     return spec_text(PLACES, "lm rm mL mR", goals, bound)
 
 
-def choice(state: str, after: str = "", owed: int | None = None) -> Document:
-    """A state with all its options, or some of them, or what it does not owe."""
-    goal = OWED.get(state, 2) if owed is None else owed
+def choice(state: str, after: str = "", goal: int | None = None) -> Document:
+    """A state with all its options, or some of them, or a goal that is not its own."""
+    goal = GOALS.get(state, 2) if goal is None else goal
     options = [{"Successor": {"P": place}, "Goal": goal} for place in after or STEPS[state]]
     return {"State": {"P": state}, "Options": options}
 
@@ -118,17 +118,17 @@ WRONG_PARTS: dict[str, tuple[int | None, Document, str]] = {
     "an option too few": (
         None,
         conflict(LOOPS[:1], Choices=[choice("l"), choice("m", "mL"), *map(choice, "rLR")]),
-        "leads to (P R) and owes no goal, which is no option there",
+        "leads to (P R) and leaves no goal pending, which is no option there",
     ),
     "an option twice": (
         None,
         conflict([cut(0, "l")], Choices=[choice("l", "ll"), *map(choice, "mrLR")]),
-        "leads to (P m) and owes (P is R), which is no option there",
+        "leads to (P m) and leaves (P is R) pending, which is no option there",
     ),
-    "an option that owes another goal": (
+    "an option with another goal": (
         None,
-        conflict([cut(2, "l")], Choices=[choice("l", owed=2), *map(choice, "mrLR")]),
-        "owes (P is R), which is no option there",
+        conflict([cut(2, "l")], Choices=[choice("l", goal=2), *map(choice, "mrLR")]),
+        "leaves (P is R) pending, which is no option there",
     ),
     "a distance at the goal": (
         None,
@@ -170,14 +170,14 @@ def test_from_the_bound_on_all_is_too_far(tmp_path: Path) -> None:
 @pytest.mark.parametrize("root", [5, 7])
 def test_goals_with_one_root_are_one(root: int, tmp_path: Path) -> None:
     """It does not matter by which of its names a goal is listed, nor whether the root is written down twice."""
-    choices = [choice("l", owed=3), *map(choice, "mrLR")]
+    choices = [choice("l", goal=3), *map(choice, "mrLR")]
     goals = named(5, 6, 0, root, bodies=["P is R", "P is L", "", "P is R"])
     again = conflict(LOOPS, [TO_R, TO_L, TO_R], Choices=choices, Goals=goals)
     assert_proved(judged(tmp_path, crossing(None), again))
 
 
 def alone(goal: str, options: dict[str, str], distances: list[int], each: Document) -> Document:
-    """A conflict of the first place with itself: what it owes, the options of some places, and one cut."""
+    """A conflict of the first place with itself: its goal, the options of some places, and one cut."""
     choices = [choice(place, after, 0) for place, after in options.items()]
     goals = named(len(LEAVES), bodies=[f"P is {goal}"])
     return conflict([each], [distances], Starts=[0], Choices=choices, Goals=goals)

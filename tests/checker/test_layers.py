@@ -76,17 +76,17 @@ def test_every_goal_that_may_be_owed_needs_layers(tmp_path: Path) -> None:
     def refute(why: str, *entries: Document) -> None:
         assert_refuted(judged(tmp_path, text, {**reason, "Goals": list(entries)}), why)
 
-    owing = {**entry, "Executed": ["ab"]}
-    judge(entry, owing)
-    judge(owing, entry, owing)
-    judge(owing, {**entry, "Executed": ["bc"]})
-    refute("owes ((P is d) OR ((executing ab) AND (P is c))) while executing ab, which is not listed", entry)
-    refute("which is not listed", owing)
-    refute("which is not listed", owing, {**owing, "Executed": ["ab", "cd"]})
+    executing = {**entry, "Executed": ["ab"]}
+    judge(entry, executing)
+    judge(executing, entry, executing)
+    judge(executing, {**entry, "Executed": ["bc"]})
+    refute("leaves ((P is d) OR ((executing ab) AND (P is c))) while executing ab pending, which is not listed", entry)
+    refute("which is not listed", executing)
+    refute("which is not listed", executing, {**executing, "Executed": ["ab", "cd"]})
     refute("which is not listed")
-    refute("which is not in layer 1", entry, owing, {**entry, "Layers": [0]})
-    refute("there is no such goal", entry, owing, {**entry, "Bodies": ["P is c"]})
-    refute("of layer 1 meets no goal", entry, owing, {**entry, "Bodies": []})
+    refute("which is not in layer 1", entry, executing, {**entry, "Layers": [0]})
+    refute("there is no such goal", entry, executing, {**entry, "Bodies": ["P is c"]})
+    refute("of layer 1 meets no goal", entry, executing, {**entry, "Bodies": []})
 
 
 def test_a_goal_that_the_first_action_met_is_met(tmp_path: Path) -> None:

@@ -216,9 +216,9 @@ def test_goals() -> None:
             assert active == {bodies[body] for body in active_goals(spec, state)}
             for chosen in list(literal.sets(spec))[:8]:
                 goal, executed = own.residual_goal(here, names(spec, chosen))
-                owed = residual_goal(spec, state, chosen)
-                assert {checker.text_of(body, own.spec) for body in goal} == {bodies[body] for body in owed.bodies}
-                assert executed == names(spec, owed.executed)
+                pending = residual_goal(spec, state, chosen)
+                assert {checker.text_of(body, own.spec) for body in goal} == {bodies[body] for body in pending.bodies}
+                assert executed == names(spec, pending.executed)
 
 
 @pytest.mark.parametrize("length", [1, 2, 4])

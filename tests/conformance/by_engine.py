@@ -194,7 +194,7 @@ class Bdd:
         encoding = steps.encoding
         assert steps.safe == encoding.domain(), "targets are looked for among safe states"
         pair = encoding.state_cube(state) & encoding.choices_cube(chosen)
-        (target,) = (each for each in found if pair & each.owed == pair)
+        (target,) = (each for each in found if pair & each.pending == pair)
         return encoding.contains(target.states, there)
 
     def answer(self, world: World) -> Answer:

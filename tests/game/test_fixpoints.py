@@ -58,7 +58,7 @@ def test_a_course_is_the_predecessor_of_its_policy(profile: str, taken: str, mon
 @pytest.mark.parametrize("most", [0, fixpoints.MOST_MOVES], ids=["functions", "moves"])
 @pytest.mark.parametrize("profile", sorted(ALL_PROFILES))
 def test_a_mixed_course_is_that_of_the_mixed_policy(profile: str, most: int) -> None:
-    """Mixing where two policies lead, and what they owe, is the same as mixing the policies."""
+    """Mixing where two policies lead, and their targets, is the same as mixing the policies."""
     for problem in problems(profile):
         random = Random(2)
         here, states, target = (some_states(problem, random) for _ in range(3))
@@ -66,7 +66,7 @@ def test_a_mixed_course_is_that_of_the_mixed_policy(profile: str, most: int) -> 
         found = mixed(one, other, here)
         anew = closed_loop(problem, found.policy, most)
         assert found.policy == (one.policy & ~here) | (other.policy & here)
-        assert (found.decided, found.owing) == (anew.decided, anew.owing)
+        assert (found.decided, found.pending) == (anew.decided, anew.pending)
         assert found.predecessor(states, target) == anew.predecessor(states, target)
 
 

@@ -38,7 +38,7 @@ def _options(change: Callable[[list[Any], Random], None]) -> Mutation:
 
 
 def _option(document: Document, random: Random) -> None:
-    """An option leads elsewhere, or owes another goal."""
+    """An option leads elsewhere, or has another goal."""
     if options := _choice(document, random)["Options"]:
         option = random.choice(options)
         if random.random() < 0.5:

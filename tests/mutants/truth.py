@@ -100,8 +100,8 @@ def _decreases(spec: Spec, rows: Rows, goal: Residual, numbers: Numbers) -> bool
 def _within_bound(spec: Spec, rows: Rows, ranks: dict[Residual, Numbers], state: State, ordering: Ordering) -> bool:
     """The state that follows one with a goal has no number for it, or one below the bound."""
     goal = residual_goal(spec, state, rows[state])
-    owes_nothing = not goal.bodies and (is_safe(spec, state) or not spec.restores_stepwise)
-    if owes_nothing or spec.max_plan_length is None or not allowed(spec, state, rows[state], ordering):
+    nothing_pending = not goal.bodies and (is_safe(spec, state) or not spec.restores_stepwise)
+    if nothing_pending or spec.max_plan_length is None or not allowed(spec, state, rows[state], ordering):
         return True
     number = ranks.get(goal, {}).get(successor(spec, state, rows[state]))
     return number is None or number < spec.max_plan_length

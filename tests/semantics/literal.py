@@ -179,12 +179,12 @@ def active(spec: Spec, state: State) -> set[int]:
 
 
 def arrives(spec: Spec, policy: Policy, state: State, first: Actions) -> int | None:
-    """After how many steps the run that begins with `first` satisfies what it owes, within the bound; None if never."""
-    owed = [spec.bodies[body].formula for body in active(spec, state)]
+    """After how many steps the run that begins with `first` meets its goal, within the bound; None if never."""
+    pending = [spec.bodies[body].formula for body in active(spec, state)]
     here, chosen = state, first
     for steps in range(1, (spec.max_plan_length or len(states(spec)) + 1) + 1):
         here = successor(spec, here, chosen)
-        if all(true(body, here, first) for body in owed):
+        if all(true(body, here, first) for body in pending):
             return steps
         if here not in policy or not agrees(spec, policy[here]):
             return None

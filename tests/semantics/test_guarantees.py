@@ -39,7 +39,7 @@ class Played:
         self.spec, self.rows, self.ordering, self.goal = spec, rows, ordering, goal
 
     def endures(self, state: State, deviations: int, before: frozenset[State] = frozenset()) -> bool:
-        """Whether the goal is met from a state that owes it, with so many deviations at most."""
+        """Whether the goal is met from a state where it is pending, with so many deviations at most."""
         if reached(self.spec, self.goal, state):
             return True
         return state not in before and self.step_endures(state, deviations, before | {state})

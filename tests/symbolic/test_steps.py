@@ -101,7 +101,7 @@ def test_predecessors_and_successors_follow_all_nominal_effects_at_once(seed: in
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_regions_and_targets_are_the_active_and_residual_goals(seed: int) -> None:
-    """Every valid state lies in the region of `Γ(s)` alone, every allowed pair owes the target of its residual goal."""
+    """Every valid state lies in the region of `Γ(s)` alone, every allowed pair has the target of its residual goal."""
     spec = random_spec(seed, ALL_PROFILES["interacting"])
     steps = build_steps(encode(spec, available_backend()), "any")
     encoding = steps.encoding
@@ -112,13 +112,13 @@ def test_regions_and_targets_are_the_active_and_residual_goals(seed: int) -> Non
         assert inside == ([active_goals(spec, state)] if is_valid(spec, state) else [])
     for state, chosen in sorted(relation(steps), key=str)[:100]:
         pair = encoding.state_cube(state) & encoding.choices_cube(chosen)
-        owed = [target for target in found if (target.owed & pair) != encoding.manager.false]
+        has = [target for target in found if (target.pending & pair) != encoding.manager.false]
         residual = residual_goal(spec, state, chosen)
-        assert [
-            [r for r, owing in target.residuals if (owing & pair) != encoding.manager.false] for target in owed
-        ] == [[residual]]
+        assert [[r for r, pairs in target.residuals if (pairs & pair) != encoding.manager.false] for target in has] == [
+            [residual]
+        ]
         goal = {t for t in all_states(spec) if is_safe(spec, t) and reached(spec, residual, t)}
-        assert set(encoding.states_in(owed[0].states)) == goal
+        assert set(encoding.states_in(has[0].states)) == goal
 
 
 @pytest.mark.parametrize("seed", SEEDS)

@@ -19,7 +19,7 @@ Pick = tuple[int, int]
 
 
 class Meaning:
-    """All allowed steps of a specification, each with the residual goal that it owes: bodies, and who of them acts."""
+    """All allowed steps of a specification, each with its residual goal: bodies, and who of them acts."""
 
     def __init__(self, spec: Spec, ordering: Ordering) -> None:
         self.spec = spec
@@ -31,12 +31,12 @@ class Meaning:
         """The allowed steps of a state."""
         if state not in self._steps:
             self._steps[state] = [
-                (state, chosen, literal.successor(self.spec, state, chosen), self.owed(state, chosen))
+                (state, chosen, literal.successor(self.spec, state, chosen), self.residual(state, chosen))
                 for chosen in literal.allowed(self.spec, state, self.ordering)
             ]
         return self._steps[state]
 
-    def owed(self, state: literal.State, chosen: literal.Actions) -> Goal:
+    def residual(self, state: literal.State, chosen: literal.Actions) -> Goal:
         """The residual goal."""
         bodies = frozenset(literal.active(self.spec, state))
         spoken = {action for body in bodies for action in _spoken_of(self.spec.bodies[body].formula)}
@@ -134,11 +134,11 @@ def _no_plan(meaning: Meaning, reason: NoPlan) -> bool:
     goals = [(meaning.named(each.bodies, each.executed), each.roots) for each in reason.goals]
     if not literal.valid(spec, reason.state) or any(goal is None or not roots for goal, roots in goals):
         return False
-    if any(owed not in [goal for goal, _ in goals] for _, _, _, owed in meaning.steps(reason.state)):
+    if any(pending not in [goal for goal, _ in goals] for _, _, _, pending in meaning.steps(reason.state)):
         return False
     for goal, roots in goals:
         layers = [{state for state in meaning.safe if reason.diagram.evaluate(root, state)} for root in roots]
-        if any(after not in layers[0] for _, _, after, owed in meaning.steps(reason.state) if owed == goal):
+        if any(after not in layers[0] for _, _, after, pending in meaning.steps(reason.state) if pending == goal):
             return False
         if goal is None or any(meaning.meets(goal, state) for layer in layers for state in layer):
             return False
@@ -169,8 +169,8 @@ def _conflict(meaning: Meaning, reason: Conflict) -> bool:
         for named in reason.goals
     ]
     for choice in reason.choices:
-        for _, _, after, owed in meaning.steps(choice.state):
-            if not any(after == end and owed in classes[goal] for end, goal in choice.options):
+        for _, _, after, pending in meaning.steps(choice.state):
+            if not any(after == end and pending in classes[goal] for end, goal in choice.options):
                 return False
     clauses = [clause(spec, reason, cut) for cut in reason.cuts]
     if any(each is None for each in clauses):
@@ -203,7 +203,7 @@ def clause(spec: Spec, reason: Conflict, cut: Cut) -> set[Pick] | None:
 
     if cut.states[0] not in reason.starts:
         return None
-    found = {(cut.states[0], option) for option, _, owes in options(cut.states[0]) if owes != root}
+    found = {(cut.states[0], option) for option, _, goal in options(cut.states[0]) if goal != root}
     if cut.kind == "loop":
         for place in cut.states:
             for option, after, _ in options(place):

@@ -128,12 +128,12 @@ def test_goals_of_every_prover() -> None:
             terms = GoalTerms.of(spec, Place.fresh(spec, "s", solver.context).after(tuple(enumerate(state))))
             assert {body for body, term in terms.active.items() if term} == active
             for each in _choices(model)[:6]:
-                owed = residual_goal(spec, state, each)
-                assert [goal for goal, where in residuals if _value(model, where, state, each)] == [owed]
-                assert runs.residual(packing.pack(state), each) == owed
+                pending = residual_goal(spec, state, each)
+                assert [goal for goal, where in residuals if _value(model, where, state, each)] == [pending]
+                assert runs.residual(packing.pack(state), each) == pending
                 executed = [number in each for number in range(len(spec.actions))]
-                assert terms.is_residual(owed, executed) is True
-                assert terms.is_residual(Residual(owed.bodies ^ {0}, owed.executed), executed) is False
+                assert terms.is_residual(pending, executed) is True
+                assert terms.is_residual(Residual(pending.bodies ^ {0}, pending.executed), executed) is False
 
 
 def test_durations_sizes_and_the_least() -> None:

@@ -87,7 +87,7 @@ def test_only_what_may_fail_is_an_obligation() -> None:
 
 @pytest.mark.parametrize(("name", "count"), [("z3", 2), ("walk", 2), ("explicit", 1)])
 def test_obligations_of_minimal(name: Name, count: int) -> None:
-    """For the provers, one and one for each goal that a rival owes; for explicit-state checking, the unsafe states."""
+    """For the provers, one and one for each goal of a rival; for explicit-state checking, the unsafe states."""
     spec, policy = restoring(2, 2)
     for each in (policy_from_rows(spec, policy), certified(spec, policy, {GOAL: exact(spec, policy)})):
         answer = verify(each, spec, prover=name, properties=["minimal"])
@@ -202,7 +202,7 @@ def test_a_rank_after_a_state_is_missing(prover: Name) -> None:
 
 @pytest.mark.parametrize("name", ["z3", "walk"])
 def test_ranks_that_a_rival_needs(name: Name) -> None:
-    """Minimal takes ranks of the goal that a cheaper set owes; where the certificate has others only, it says so."""
+    """Minimal takes ranks of the residual goal of a cheaper set; where the certificate has others only, it says so."""
     spec, policy = restoring(2, 2)
     other = Residual(frozenset(), frozenset())
     right = exact(spec, policy)
@@ -311,7 +311,7 @@ def test_decisions_are_those_for_valid_states() -> None:
         assert decisions.origins == {(0, 1): [(0, 1)], (1, 1): [(1, 1)]}
 
 
-def test_who_owes_a_run() -> None:
+def test_who_has_pending_goal() -> None:
     """A decision that is allowed does; one that is not does where the policy is known to be safe, for then it is."""
     build = Build({"x": "ab", "y": "ab"})
     fine, wrong = build.action("x=b"), build.action("y=b", when=[build.atom("x=b")])
@@ -320,7 +320,7 @@ def test_who_owes_a_run() -> None:
     problem = PolicyProblem(spec, as_diagram(policy), Budget())
     for known in (False, True):
         source = RankSource(problem, policy, "any", known)
-        assert [source.owes_a_run(state) for state in ((0, 0), (0, 1))] == [True, known]
+        assert [source.has_pending_goal(state) for state in ((0, 0), (0, 1))] == [True, known]
 
 
 def test_whoever_is_asked_last_does_not_make_it_a_proof(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -368,8 +368,8 @@ def test_a_run_that_fails_is_found_without_the_ranks_of_its_goal(prover: Name) -
     ranks = exact_ranks(spec, rows, "any")
     for place, goal in list(enumerate(residuals))[1:]:
         wrong = {**rows, (place,): frozenset[int]()}
-        owed = residual_goal(spec, (place,), frozenset())
-        others = {each: table for each, table in ranks.items() if each not in (goal, owed)}
+        pending = residual_goal(spec, (place,), frozenset())
+        others = {each: table for each, table in ranks.items() if each not in (goal, pending)}
         answer = verify(certified(spec, wrong, others), spec, prover=prover, properties=["safe", "goals"])
         refutation = answer.properties[1].refutation
         assert refutation is not None, place

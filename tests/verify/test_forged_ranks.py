@@ -239,7 +239,7 @@ def test_every_goal_is_looked_at(prover: Name) -> None:
 
 @needing_no_rival
 def test_what_nobody_owes_may_exceed_the_bound(prover: Name) -> None:
-    """Where another goal is owed, a rank may be as large as it likes; that one is missing elsewhere is no worse."""
+    """Where another goal is pending, a rank may be as large as it likes; that one is missing elsewhere is no worse."""
     spec, policy = going_round(bound=9)
     right = exact_ranks(spec, policy, "any")
     far = {state: rank if state[0] == 0 else 9 * rank for state, rank in right[GOALS[1]].items()}

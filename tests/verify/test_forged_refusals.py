@@ -144,7 +144,7 @@ def test_forged_conflicts(name: str) -> None:
 
 
 def test_two_goals_with_one_root_are_one() -> None:
-    """Where two goals get one root, the distance is owed to both, and an option may owe either."""
+    """Where two goals get one root, the distance is that to both, and an option may have either."""
     spec, certificate = CONFLICTS["conflicting"]
     reason = certificate.reason
     assert isinstance(reason, Conflict)

@@ -52,8 +52,8 @@ def _allowed_policies(spec: Spec, ordering: Ordering, random: Random) -> Iterato
 def _by_walk(spec: Spec, rows: Rows, ordering: Ordering) -> dict[State, Guarantee | None]:
     model = ClosedLoop(spec, as_diagram(policy_from_rows(spec, rows)), ordering)
     goals, found = WalkGoals(model), {}
-    for goal, owing in goals.residuals(model.decided, model.policy):
-        for guarantee, states in WalkProspects(model, goals, goal).levels(owing):
+    for goal, pending in goals.residuals(model.decided, model.policy):
+        for guarantee, states in WalkProspects(model, goals, goal).levels(pending):
             inside = [state for state in all_states(spec) if model.holds(states, state, frozenset())]
             assert not found.keys() & set(inside)
             found |= dict.fromkeys(inside, guarantee)

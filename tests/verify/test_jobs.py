@@ -255,7 +255,7 @@ def test_one_task_is_no_work_for_children(asked: list[int]) -> None:
 
 
 def test_a_child_that_refutes_safe_proves_nothing(asked: list[int]) -> None:
-    """Where a child finds that a decision is not allowed, its run is not looked at; and it owes no goal."""
+    """Where a child finds that a decision is not allowed, its run is not looked at, and no goal is pending."""
     spec, rows = restoring(2, 3)
     wrong = {**rows, (3,): frozenset[int]()}
     policy = certified(spec, wrong, {Residual(frozenset((0,)), frozenset()): exact(spec, rows)})

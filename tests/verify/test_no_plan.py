@@ -201,14 +201,14 @@ def test_what_layers_say_of_unsafe_states_means_nothing(walking, monkeypatch):
 @pytest.mark.parametrize("bound", [None, 2])
 @pytest.mark.parametrize("walking", [False, True])
 def test_a_state_with_several_residual_goals(bound, walking, monkeypatch):
-    """Where the first set decides which goal is owed, each goal has its own layers, and all are needed."""
+    """Where the first set decides which goal is pending, each goal has its own layers, and all are needed."""
     if walking:
         walk_first(monkeypatch)
     build = Build({"x": "abcd", "y": "abc"})
     left, right = build.action("x=b"), build.action("x=c")
     build.action("y=b")
-    owed = Or((And((left, build.atom("x=d"))), And((right, build.atom("y=c"))), And((build.atom("x=d"),))))
-    spec = build.spec(constraint(build.goal(owed)), bound=bound)
+    wanted = Or((And((left, build.atom("x=d"))), And((right, build.atom("y=c"))), And((build.atom("x=d"),))))
+    spec = build.spec(constraint(build.goal(wanted)), bound=bound)
     certificate = certified(spec, "any")
     goals = certificate.reason.goals
     assert {goal.executed for goal in goals} >= {("act0",), ("act1",)}

@@ -186,7 +186,7 @@ def test_cubes_come_in_any_order() -> None:
 
 
 def test_goals_are_named_in_words() -> None:
-    """What is owed: its bodies, the actions that it speaks of, or no goal at all."""
+    """The goal that is pending: its bodies, the actions that it speaks of, or no goal at all."""
     build = Build({"x": "ab"})
     act = build.action("x=a")
     goal = And((build.atom("x=b"), act))
@@ -198,10 +198,10 @@ def test_goals_are_named_in_words() -> None:
     for kept, told in ((0, f"({text}) while executing act0"), (1, f"({text})")):
         some = tuple(each for each in reason.goals if bool(each.executed) == bool(kept))
         found = verify_unrealizable(replace(certificate, reason=replace(reason, goals=some)), spec)
-        assert (found.reason or "").endswith(f"and owes {told}, which is not listed")
+        assert (found.reason or "").endswith(f"and leaves {told} pending, which is not listed")
     nowhere = replace(reason, state=(1,))
     found = verify_unrealizable(replace(certificate, reason=nowhere), spec)
-    assert (found.reason or "").endswith("and owes no goal, which is not listed")
+    assert (found.reason or "").endswith("and leaves no goal pending, which is not listed")
 
 
 def test_what_is_known_before_the_proof() -> None:

@@ -191,9 +191,9 @@ def test_residual_goals_as_terms() -> None:
             place = Place.fresh(spec, "s", solver.context).after(tuple(enumerate(state)))
             executed = [number in chosen for number in range(len(spec.actions))]
             terms = GoalTerms.of(spec, place)
-            owed = residual_goal(spec, state, chosen)
+            pending = residual_goal(spec, state, chosen)
             for goal in goals:
-                assert (solver.ask(terms.is_residual(goal, executed)) == "sat") == (goal == owed)
+                assert (solver.ask(terms.is_residual(goal, executed)) == "sat") == (goal == pending)
                 assert (solver.ask(reached_term(spec, goal, place)) == "sat") == reached(spec, goal, state)
 
 

@@ -25,7 +25,7 @@ def show_undecided(why: str, options: CommandOptions) -> None:
 
 
 def show_user_error(error: UserError, options: CommandOptions) -> None:
-    """A message, or the report that the command owes in another format."""
+    """A message, or the command's report in another format."""
     if options.output_format == "text":
         note(render(error.diagnostics, error.source, color=wants_colour(sys.stderr)))
         return

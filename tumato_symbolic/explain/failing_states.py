@@ -96,6 +96,6 @@ def shortest_plan(demands: Demands, state: Bdd) -> int | None:
         rank + 1
         for target, layers in zip(problem.targets, apart, strict=True)
         for rank, layer in enumerate(layers)
-        if (problem.steps.predecessor(target.owed & pairs, layer) & state) != demands.false
+        if (problem.steps.predecessor(target.pending & pairs, layer) & state) != demands.false
     ]
     return min(found, default=None)

@@ -17,7 +17,7 @@ class Evaluation:
     """What a policy achieves.
 
     `ranks[k]` are the exact layers of target `k` under the policy; `failing` the valid states that have no good
-    decision: safe ones whose run misses what they owe, and unsafe ones where no allowed set serves. `restoration` is
+    decision: safe ones whose run misses its goal, and unsafe ones where no allowed set leads to it. `restoration` is
     what is decided in unsafe states, where safety may take several steps to restore.
     """
 
@@ -33,12 +33,12 @@ def in_time(problem: Problem, ranks: Sequence[Layers]) -> list[Layers]:
 
 
 def winning(problem: Problem, ranks: Sequence[Layers], relation: Bdd) -> Bdd:
-    """The states where some pair of `relation` leads, in time, to a state with a rank for the target that it owes."""
+    """The states where some pair of `relation` leads, in time, to a state with a rank for its target."""
     manager = problem.encoding.manager
     return manager.union(
-        problem.steps.predecessor(relation & target.owed, manager.union(layers))
+        problem.steps.predecessor(relation & target.pending, manager.union(layers))
         for target, layers in zip(problem.targets, in_time(problem, ranks), strict=True)
-        if (relation & target.owed) != problem.false
+        if (relation & target.pending) != problem.false
     )
 
 
@@ -68,9 +68,9 @@ class Evaluator:
 
     @cached_property
     def _restoring(self) -> list[Callable[[Bdd], Bdd]]:
-        """For every target, which pairs in unsafe states owe it and lead into a set."""
+        """For every target, its pending pairs in unsafe states that lead into a set."""
         pairs = self.problem.steps.allowed & self.problem.steps.unsafe
-        return [preimage(self.problem, pairs & target.owed) for target in self.problem.targets]
+        return [preimage(self.problem, pairs & target.pending) for target in self.problem.targets]
 
     def evaluate(self, policy: Bdd) -> Evaluation:
         """All that a policy achieves."""
@@ -78,7 +78,7 @@ class Evaluator:
         found, steps = closed_loop(problem, policy), problem.steps
         ranks = tuple(attractor(problem, t.states, found.predecessor, steps.safe, None) for t in problem.targets)
         near = [union(layers) for layers in in_time(problem, ranks)]
-        safe = union(found.predecessor(*pair) for pair in zip(found.owing, near, strict=True))
+        safe = union(found.predecessor(*pair) for pair in zip(found.pending, near, strict=True))
         if problem.spec.restores_stepwise:
             restoration = self.restorer.restore(ranks, self._forced, self._required)
             return Evaluation(found, ranks, (steps.safe & ~safe) | restoration.failing, restoration)
@@ -92,9 +92,9 @@ class Evaluator:
         problem, steps = self.problem, self.problem.steps
         ranks: dict[int, Layers] = {}
         for place, number in enumerate(suspects):
-            target, owing = problem.targets[number], found.owing[number]
+            target, pending = problem.targets[number], found.pending[number]
             layers = attractor(problem, target.states, found.predecessor, steps.safe, problem.last_layer)
-            if found.predecessor(owing, problem.encoding.manager.union(layers)) != owing:
+            if found.predecessor(pending, problem.encoding.manager.union(layers)) != pending:
                 suspects.insert(0, suspects.pop(place))
                 return False
             ranks[number] = layers
@@ -123,14 +123,14 @@ class Evaluator:
         def predecessor(states: Bdd, target: Bdd) -> Bdd:
             return found.predecessor(states, target) | before.predecessor(states, target)
 
-        for target, owing in zip(problem.targets, before.owing, strict=True):
-            if owing == problem.false:
+        for target, pending in zip(problem.targets, before.pending, strict=True):
+            if pending == problem.false:
                 continue
             layers = attractor(problem, target.states, predecessor, problem.steps.valid, problem.last_layer)
-            if before.predecessor(owing, problem.encoding.manager.union(layers)) != owing:
+            if before.predecessor(pending, problem.encoding.manager.union(layers)) != pending:
                 return False
         return True
 
     def _restored(self, number: int, near: Bdd) -> Bdd:
-        """The unsafe states where some allowed set owes a target and leads into a set."""
+        """The unsafe states where some allowed set has a target and leads into the set given for it."""
         return self.problem.steps.states_of(self._restoring[number](near))

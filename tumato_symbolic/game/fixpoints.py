@@ -69,18 +69,18 @@ def distances(problem: Problem, pairs: Bdd | None = None) -> tuple[Layers, ...]:
 
 @dataclass(frozen=True)
 class ClosedLoop:
-    """The closed loop of a policy: its nominal successor function, and the target that each state owes.
+    """The closed loop of a policy: its nominal successor function and each state's target.
 
     A policy that does few different things is taken move by move: `moves` has the states by what is written there, and
     the predecessor is a union of cofactors. Otherwise `moves` is None, and `following` has the next value of every bit
     that some action writes: the predecessor is a composition, or the relational product where that would be large.
-    `owing` has, for every target, the states whose decision owes it.
+    `pending` has, for every target, the states whose decision leaves it to be reached.
     """
 
     problem: Problem
     policy: Bdd
     decided: Bdd
-    owing: tuple[Bdd, ...]
+    pending: tuple[Bdd, ...]
     moves: Mapping[Assignment, Bdd] | None
     following: Mapping[str, Bdd]
 
@@ -111,8 +111,8 @@ def closed_loop(problem: Problem, policy: Bdd, most: int = MOST_MOVES) -> Closed
     steps = problem.steps
     moves = steps.moves(policy, most)
     following = steps.next_state(policy) if moves is None else {}
-    owing = tuple(steps.states_of(policy & target.owed) for target in problem.targets)
-    return ClosedLoop(problem, policy, steps.states_of(policy), owing, moves, following)
+    pending = tuple(steps.states_of(policy & target.pending) for target in problem.targets)
+    return ClosedLoop(problem, policy, steps.states_of(policy), pending, moves, following)
 
 
 def mixed(one: ClosedLoop, other: ClosedLoop, states: Bdd) -> ClosedLoop:
@@ -133,7 +133,7 @@ def mixed(one: ClosedLoop, other: ClosedLoop, states: Bdd) -> ClosedLoop:
         problem,
         spliced(one.policy, other.policy),
         spliced(one.decided, other.decided),
-        tuple(map(spliced, one.owing, other.owing)),
+        tuple(map(spliced, one.pending, other.pending)),
         moves,
         following,
     )

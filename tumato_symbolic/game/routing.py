@@ -13,17 +13,17 @@ from tumato_symbolic.symbolic import Bdd, Target, preferred
 def own_region_policy(problem: Problem) -> Bdd:
     """Decisions whose runs stay where the same goals are active until these are reached, with the fewest steps."""
     policy = problem.false
-    owed_in: dict[ActiveGoals, list[Target]] = {}
+    targets_in: dict[ActiveGoals, list[Target]] = {}
     for target in problem.targets:
         for active in dict.fromkeys(residual.bodies for residual, _ in target.residuals):
-            owed_in.setdefault(active, []).append(target)
+            targets_in.setdefault(active, []).append(target)
     for active, region in problem.regions.items():
         here = region & problem.steps.safe
-        owing = [target for target in owed_in.get(active, ()) if (target.owed & here) != problem.false]
-        if len(owing) == 1:
-            policy = policy | _nearest_first(problem, owing[0], here)
-        elif owing:
-            policy = policy | route(problem, problem.false, here, here, owing)
+        wanted = [target for target in targets_in.get(active, ()) if (target.pending & here) != problem.false]
+        if len(wanted) == 1:
+            policy = policy | _nearest_first(problem, wanted[0], here)
+        elif wanted:
+            policy = policy | route(problem, problem.false, here, here, wanted)
     return policy
 
 
@@ -34,7 +34,7 @@ def _nearest_first(problem: Problem, target: Target, here: Bdd) -> Bdd:
     others end in it.
     """
     policy, undecided, front, steps = problem.false, here, target.states, 0
-    bound, into = problem.spec.max_plan_length, preimage(problem, target.owed & here)
+    bound, into = problem.spec.max_plan_length, preimage(problem, target.pending & here)
     while problem.false not in {undecided, front} and (bound is None or steps < bound):
         pairs = undecided & into(front)
         decided = problem.steps.states_of(pairs)
@@ -43,7 +43,7 @@ def _nearest_first(problem: Problem, target: Target, here: Bdd) -> Bdd:
     return policy
 
 
-def route(problem: Problem, policy: Bdd, undecided: Bdd, within: Bdd, owing: Sequence[Target]) -> Bdd:
+def route(problem: Problem, policy: Bdd, undecided: Bdd, within: Bdd, wanted: Sequence[Target]) -> Bdd:
     """`policy` and decisions for as many undecided states as possible, fewest steps first.
 
     Runs use decided states of `within` only, so that a later decision never spoils an earlier one.
@@ -51,8 +51,8 @@ def route(problem: Problem, policy: Bdd, undecided: Bdd, within: Bdd, owing: Seq
     while undecided != problem.false:
         so_far = closed_loop(problem, policy)
         decided = within & so_far.decided
-        ranks = [attractor(problem, t.states, so_far.predecessor, decided, problem.last_layer) for t in owing]
-        nearest = next(iter(_by_steps(problem, owing, ranks, undecided, problem.steps.allowed)), None)
+        ranks = [attractor(problem, t.states, so_far.predecessor, decided, problem.last_layer) for t in wanted]
+        nearest = next(iter(_by_steps(problem, wanted, ranks, undecided, problem.steps.allowed)), None)
         if nearest is None:
             break
         policy = policy | preferred(problem.encoding, nearest)
@@ -70,12 +70,12 @@ def shortest_decisions(problem: Problem, ranks: Sequence[Layers], undecided: Bdd
 
 
 def _by_steps(
-    problem: Problem, owing: Sequence[Target], ranks: Sequence[Layers], states: Bdd, relation: Bdd
+    problem: Problem, wanted: Sequence[Target], ranks: Sequence[Layers], states: Bdd, relation: Bdd
 ) -> Iterator[Bdd]:
-    """The pairs that reach what they owe in one step, in two, and so on; empty sets are left out."""
+    """The pairs that reach their target in one step, in two, and so on; empty sets are left out."""
     parts = [
-        (preimage(problem, relation & states & target.owed), layers)
-        for target, layers in zip(owing, ranks, strict=True)
+        (preimage(problem, relation & states & target.pending), layers)
+        for target, layers in zip(wanted, ranks, strict=True)
     ]
     for rank in range(max(map(len, ranks), default=0)):
         pairs = problem.encoding.manager.union(

@@ -82,7 +82,7 @@ class NoRestoration:
 
 @dataclass(frozen=True, slots=True)
 class Layers:
-    """Sets of states that hold the runs from a state that owe one residual goal (named as in `RankedGoal`).
+    """Sets of states that hold the runs from a state that have one residual goal (named as in `RankedGoal`).
 
     `roots` lead to the sets: the first holds every first successor; every allowed successor of a state in one is in it,
     in an earlier one or in the next. None meets the goal. There are as many as the plan bound allows, or the successors
@@ -96,7 +96,7 @@ class Layers:
 
 @dataclass(frozen=True, slots=True)
 class NoPlan:
-    """No run of allowed steps from `state` reaches what it owes: layers for every residual goal that it can owe."""
+    """No run of allowed steps from `state` meets its residual goal: layers for every one that it can have."""
 
     state: State
     diagram: Diagram[bool]
@@ -116,7 +116,7 @@ class NoPlan:
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """A state and everything that can be done in it: where each allowed set leads, and which goal it owes."""
+    """A state and everything that can be done in it: where each allowed set leads, and its residual goal."""
 
     state: State
     options: tuple[tuple[State, int], ...]
@@ -124,7 +124,7 @@ class Choice:
 
 @dataclass(frozen=True, slots=True)
 class Cut:
-    """A failing run, as a claim about all policies: the states on it, the first of which owes goal number `goal`.
+    """A run that misses its residual goal, which is number `goal`, as a claim about all policies.
 
     `path`: unless a state of the run turns off, to a state from which the goal is still near enough, the run comes to
     `end`, from where it is not. `loop`: unless a state of the run leaves these states, to where the goal is near

@@ -124,7 +124,7 @@ class Prospects:
         return Guarantee("survives", deviations=deviations) if deviations else Guarantee("nominal")
 
     def endures(self, state: State) -> float:
-        """With how many deviations at most the goal, still owed in `state`, is met: `inf`; -1 where with none."""
+        """With how many deviations at most the goal, still pending in `state`, is met: `inf`; -1 where with none."""
         if state in self.surviving[-1]:
             return inf
         return sum(state in each for each in self.surviving) - 1

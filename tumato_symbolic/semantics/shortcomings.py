@@ -51,7 +51,7 @@ class Shortcoming:
 class Shortcomings:
     """Tells why the guarantee of a state is no stronger.
 
-    Of a state that still owes `goal`: `endures` tells with how many deviations it is met (`Prospects.endures`),
+    Of a state where `goal` is still pending: `endures` tells with how many deviations it is met (`Prospects.endures`),
     `forced` whether it is met whatever happens. Where they are right, every answer is replayed by `shows`.
     """
 

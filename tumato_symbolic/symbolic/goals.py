@@ -26,14 +26,14 @@ Regions = dict[ActiveGoals, Bdd]
 
 @dataclass(frozen=True)
 class Target:
-    """What the runs that share a target must reach.
+    """The safe states that satisfy a residual goal, and the steps after which it is pending.
 
-    `states` are the safe states that satisfy the residual goal; `owed` are the allowed pairs `(s, A)` whose residual
-    goal this is; `residuals` says which residual goals have this target, each with its own pairs.
+    `states` are the safe states that satisfy the residual goal; `pending` are the allowed pairs `(s, A)` with that
+    residual goal; `residuals` lists the residual goals that share this target, each with its own pairs.
     """
 
     states: Bdd
-    owed: Bdd
+    pending: Bdd
     residuals: tuple[tuple[Residual, Bdd], ...]
 
 
@@ -95,20 +95,20 @@ def _add(found: Regions, parts: Regions, false: Bdd) -> None:
 
 
 def targets(steps: Steps, active_regions: Regions) -> list[Target]:
-    """Every target that some allowed pair owes; their `owed` pairs partition the allowed pairs."""
+    """The target of every allowed pair; their `pending` pairs partition the allowed pairs."""
     encoding, false = steps.encoding, steps.encoding.manager.false
     by_states: dict[Bdd, list[tuple[Residual, Bdd]]] = {}
     for active, region in active_regions.items():
         bodies = [encoding.spec.bodies[body].formula for body in sorted(active)]
-        spoken_of = sorted(frozenset[int]().union(*map(executing_atoms, bodies)))
-        for executed, owed in _split(encoding, spoken_of, steps.allowed & region):
+        mentioned = sorted(frozenset[int]().union(*map(executing_atoms, bodies)))
+        for executed, pairs in _split(encoding, mentioned, steps.allowed & region):
             goal = encoding.all_of(settle(body, executed) for body in bodies)
-            by_states.setdefault(goal & steps.safe, []).append((Residual(active, executed), owed))
+            by_states.setdefault(goal & steps.safe, []).append((Residual(active, executed), pairs))
     found = [
-        Target(states, encoding.manager.union(owed for _, owed in residuals), tuple(residuals))
+        Target(states, encoding.manager.union(pairs for _, pairs in residuals), tuple(residuals))
         for states, residuals in by_states.items()
     ]
-    return [target for target in found if target.owed != false]
+    return [target for target in found if target.pending != false]
 
 
 def _split(encoding: Encoding, atoms: list[int], pairs: Bdd) -> list[tuple[ActionSet, Bdd]]:

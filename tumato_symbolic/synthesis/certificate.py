@@ -72,7 +72,7 @@ def _with_restoring(
 
 
 def certificate(problem: Problem, policy: Bdd, ranks: Sequence[Layers]) -> Certificate:
-    """The ranks of every residual goal that the policy, or an allowed set in an unsafe state, owes."""
+    """The ranks of every residual goal of the policy's decisions, and of allowed sets in unsafe states."""
     spec, steps = problem.spec, problem.steps
     concerned = policy | (steps.allowed & steps.unsafe)
     deepest = max((len(layers) for layers in ranks), default=0)
@@ -80,9 +80,9 @@ def certificate(problem: Problem, policy: Bdd, ranks: Sequence[Layers]) -> Certi
     extract = Extractor(problem.encoding, builder, default=None)
     goals: list[RankedGoal] = []
     for target, layers in zip(problem.targets, ranks, strict=True):
-        owing = [residual for residual, owed in target.residuals if (owed & concerned) != problem.false]
-        if owing:
+        residuals = [residual for residual, pairs in target.residuals if (pairs & concerned) != problem.false]
+        if residuals:
             root = extract.function(list(enumerate(layers)))
-            goals.extend(RankedGoal(*goal_names(spec, residual), root) for residual in owing)
+            goals.extend(RankedGoal(*goal_names(spec, residual), root) for residual in residuals)
     goals.sort(key=lambda goal: (goal.bodies, goal.executed))
     return Certificate(builder.finish(), tuple(goals))

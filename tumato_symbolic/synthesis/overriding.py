@@ -47,7 +47,7 @@ def _towards(problem: Problem, policy: Bdd, failing: Bdd, distances: tuple[Layer
     otherwise take the preferred set that does.
     """
     steps, encoding, layers = problem.steps, problem.encoding, distances[number]
-    starts = shortest_decisions(problem, distances, failing, steps.allowed) & problem.targets[number].owed
+    starts = shortest_decisions(problem, distances, failing, steps.allowed) & problem.targets[number].pending
     changed = starts & steps.safe
     met = steps.successors(starts)
     for distance in range(len(layers) - 1, 0, -1):

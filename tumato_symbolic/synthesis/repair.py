@@ -1,7 +1,7 @@
 """Exact decisions where goals interact: lazy repair, or the proof that no policy exists.
 
-One choice per touched state, among its options (where a set leads and what it owes). Options are complete, so a
-clause about them holds for every policy: *from this start, owing this target, some state of the failing run must decide
+One choice per touched state, among its options (where a set leads, and its target). Options are complete, so a
+clause about them holds for every policy: *where this start has this target, some state of the failing run must decide
 otherwise*. Z3 picks the options; today's decisions are assumptions, relaxed by unsatisfiable cores. Only states of
 failing runs are ever touched.
 """
@@ -27,7 +27,7 @@ RUNS_PER_ROUND = 64
 
 @dataclass(frozen=True, slots=True)
 class Option:
-    """One way to act in a state: where it nominally leads, which target it owes, and the preferred set that does so.
+    """One way to act in a state: where it nominally leads, its target, and the preferred set that does so.
 
     `following` are the outcomes that are not restored, where these matter.
     """
@@ -48,7 +48,7 @@ class RoundsExhaustedError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class FailingRun:
-    """A run that owes `target` to its first state: along `states` to `end`, too far away, or among them for ever."""
+    """A run whose first step leaves `target` pending: along `states` to `end`, too far away, or among them for ever."""
 
     target: int
     states: tuple[State, ...]
@@ -198,8 +198,8 @@ class Repair:
         return {self._states[number] for number in path}
 
     def _cut(self, start: int, goal: int, states: list[int], picks: Iterable[Pick], end: State | None = None) -> None:
-        """A clause, with what proves it: where the start owes the target, one of the picks is made."""
-        self._choices.require(start, list(dict.fromkeys([*self._owing_else(start, goal), *picks])))
+        """A clause, with what proves it: where the start has the target, one of the picks is made."""
+        self._choices.require(start, list(dict.fromkeys([*self._other_targets(start, goal), *picks])))
         self._cuts.append((start, FailingRun(goal, tuple(self._states[number] for number in states), end)))
 
     def _leading_nowhere(self, goal: int) -> Iterator[int]:
@@ -219,8 +219,8 @@ class Repair:
             if not arrives:
                 yield number
 
-    def _owing_else(self, start: int, goal: int) -> Iterator[Pick]:
-        """The options of the start that owe another target."""
+    def _other_targets(self, start: int, goal: int) -> Iterator[Pick]:
+        """The options of the start that have another target."""
         return (Pick(start, n) for n, option in enumerate(self._options[start]) if option.target != goal)
 
     def _turning_off(self, path: list[int], end: State, goal: int) -> Iterator[Pick]:
@@ -282,11 +282,13 @@ class Repair:
             option = self._option(state, chosen)
             yield option
             here = self._cube(state)
-            alike = problem.targets[option.target].owed & here & problem.steps.before(self._cube(option.successor))
+            alike = problem.targets[option.target].pending & here & problem.steps.before(self._cube(option.successor))
             left = left & ~encoding.at(alike, state)
 
     def _option(self, state: State, chosen: ActionSet) -> Option:
         encoding = self._problem.encoding
         pair = self._cube(state) & encoding.choices_cube(chosen)
-        owed = next(n for n, target in enumerate(self._problem.targets) if (pair & target.owed) != self._problem.false)
-        return Option(successor(self._problem.spec, state, chosen), owed, chosen)
+        target = next(
+            number for number, each in enumerate(self._problem.targets) if (pair & each.pending) != self._problem.false
+        )
+        return Option(successor(self._problem.spec, state, chosen), target, chosen)

@@ -273,12 +273,12 @@ def _finish(
 
 
 def _longest_run(problem: Problem, policy: Bdd, ranks: Sequence[Layers]) -> int:
-    """The largest number of steps that a run of a policy takes to what it owes."""
+    """The largest number of steps that a run of a policy takes to its goal."""
     found, deepest = closed_loop(problem, policy), max(map(len, ranks))
     return next(
         1 + rank
         for rank in reversed(range(deepest))
-        for states, layers in zip(found.owing, ranks, strict=True)
+        for states, layers in zip(found.pending, ranks, strict=True)
         if rank < len(layers) and found.predecessor(states, layers[rank]) != problem.false
     )
 

@@ -138,20 +138,20 @@ def no_restoration(problem: Problem, state: State, lost: Bdd) -> NoRestoration:
 
 
 def no_plan(problem: Problem, state: State, distances: Sequence[Ranks]) -> NoPlan:
-    """Sets that hold all runs from a state, for every residual goal that an allowed set in it owes.
+    """Sets that hold all runs from a state, for every residual goal of an allowed set in it.
 
     They are those that are too far from the goal; or those that the runs reach, where that takes fewer nodes.
     """
     here = problem.encoding.state_cube(state)
-    owing = [
-        (residual, problem.steps.successors(owed & here), distances[number])
+    pending = [
+        (residual, problem.steps.successors(pairs & here), distances[number])
         for number, target in enumerate(problem.targets)
-        for residual, owed in target.residuals
-        if (owed & here) != problem.false
+        for residual, pairs in target.residuals
+        if (pairs & here) != problem.false
     ]
-    far = _drawn(problem, state, [(residual, _too_far(problem, ranks)) for residual, _, ranks in owing])
+    far = _drawn(problem, state, [(residual, _too_far(problem, ranks)) for residual, _, ranks in pending])
     size, near = len(far.diagram.nodes), []
-    for residual, first, _ in owing if size > FEW_NODES else ():
+    for residual, first, _ in pending if size > FEW_NODES else ():
         layers = _reached(problem, first, size)
         if layers is None:
             return far

@@ -198,25 +198,24 @@ class WalkProver:
 
     def _goals(self) -> PropertyResult:
         model, walk, ranks = self._model, self._model.walk, self._ranks
-        owing = walk.without(model.decided, self._not_allowed)
-        owed = self._owed(owing)
-        result = self._by_certificate(owed) if ranks.check_given(self._decreases) else None
+        pending = self._pending(walk.without(model.decided, self._not_allowed))
+        result = self._by_certificate(pending) if ranks.check_given(self._decreases) else None
         if result is not None:
             return result
-        missed = walk.any_of(self._missing(where, ranks.near(goal)) for goal, where in owed)
+        missed = walk.any_of(self._missing(where, ranks.near(goal)) for goal, where in pending)
         if missed == FALSE:
-            return PropertyResult("goals", "proved", 1 + len(owed), "walk")
+            return PropertyResult("goals", "proved", 1 + len(pending), "walk")
         refuted = self._witnesses.goal_missed(model.first_state(missed))
         if refuted is None:
             raise RuntimeError("the run reaches its goal, against the walk")
         return refuted
 
-    def _owed(self, owing: Function) -> list[tuple[Residual, Function]]:
-        """The goals that are owed, each with the states of `owing` that owe it.
+    def _pending(self, states: Function) -> list[tuple[Residual, Function]]:
+        """The residual goals after decisions in `states`, each with the states where it is pending.
 
-        Without an active goal nothing is; in several steps an unsafe state owes a run to safety.
+        Without an active goal none is; in several steps, an unsafe state has to come to safety all the same.
         """
-        every = self._residual_goals.residuals(owing, self._model.policy)
+        every = self._residual_goals.residuals(states, self._model.policy)
         if not self._spec.restores_stepwise:
             return [(goal, where) for goal, where in every if goal.bodies]
         walk, safe = self._model.walk, self._model.safe
@@ -226,7 +225,7 @@ class WalkProver:
     def _decreases(self, goal: Residual) -> bool:
         return self._ahead.take(("decreases", goal), partial(self._ranks.decreases, goal))
 
-    def _by_certificate(self, owed: list[tuple[Residual, Function]]) -> PropertyResult | None:
+    def _by_certificate(self, pending: list[tuple[Residual, Function]]) -> PropertyResult | None:
         """The proof with the ranks that came with the policy, or a failing run; None where they do not serve.
 
         After a failing run the other ranks are looked at all the same: they may be wrong as well.
@@ -234,7 +233,7 @@ class WalkProver:
         model, walk, ranks = self._model, self._model.walk, self._ranks
         failed, whole = None, True
         try:
-            for goal, where in owed:
+            for goal, where in pending:
                 if goal not in ranks.roots:
                     ranks.lacks(goal)
                     whole = False
@@ -255,7 +254,7 @@ class WalkProver:
         if not whole:
             return failed
         ranks.serve()
-        return PropertyResult("goals", "proved", 1 + len(ranks.roots) + len(owed), "walk")
+        return PropertyResult("goals", "proved", 1 + len(ranks.roots) + len(pending), "walk")
 
     def _missing(self, where: Function, near: Function) -> Function:
         """The states of `where` from which the first step does not lead near enough."""
@@ -281,10 +280,10 @@ class WalkProver:
         cheaper = walk.apply(operator.lt, model.duration(model.chosen), takes)
         if cheaper != FALSE:
             cheaper = walk.all_of((cheaper, model.allowed))
-        owed = self._residual_goals.residuals(cheaper, model.chosen)
+        pending = self._residual_goals.residuals(cheaper, model.chosen)
         step = model.successor(model.chosen)
         better = FALSE
-        for goal, where in owed:
+        for goal, where in pending:
             near = self._ranks.near_at_least(goal)
             serves = walk.all_of((where, walk.compose(near, step)))
             if serves != FALSE and near != self._ranks.near(goal):
@@ -293,5 +292,5 @@ class WalkProver:
                     self._ranks.inexact(goal)
             better = walk.any_of((better, serves))
         if better == FALSE:
-            return PropertyResult("minimal", "proved", 1 + len(owed), "walk")
+            return PropertyResult("minimal", "proved", 1 + len(pending), "walk")
         return self._witnesses.not_minimal(better)

@@ -91,12 +91,12 @@ class Stepwise:
         """No set restores better and takes no run its goal."""
         self._look_at_the_certificate()
         self._look_closer()
-        rivals, owed = self._rivals()
+        rivals, goals = self._rivals()
         for state, chosen in self._listed():
             rivals = self._walk.without(rivals, self._at(state, chosen))
         for _ in range(MOST_RIVALS):
             if rivals == FALSE:
-                return PropertyResult("minimal", "proved", 1 + owed, "walk")
+                return PropertyResult("minimal", "proved", 1 + goals, "walk")
             state = self._model.first_state(rivals)
             here = self._walk.all_of((rivals, self._model.is_state(state)))
             chosen = self._best(here)
@@ -131,11 +131,11 @@ class Stepwise:
         better = walk.all_of((unsafe, walk.apply(operator.lt, self._quality, now)))
         if better != FALSE:
             better = walk.all_of((better, model.allowed))
-        owed, step, found = self._goals.residuals(better, model.chosen), model.successor(model.chosen), FALSE
-        for goal, where in owed:
+        pending, step, found = self._goals.residuals(better, model.chosen), model.successor(model.chosen), FALSE
+        for goal, where in pending:
             serves = walk.all_of((where, walk.compose(self._ranks.near_at_least(goal), step)))
             found = walk.any_of((found, serves))
-        return found, len(owed)
+        return found, len(pending)
 
     def _listed(self) -> Iterator[tuple[State, ActionSet]]:
         """The deviations of the certificate, all of which are true."""
@@ -164,7 +164,7 @@ class Stepwise:
         spec, walk, model = self._spec, self._walk, self._model
         changed, bound = Changed(self._decisions, state, chosen), self._spec.max_plan_length
         here = self._model.is_state(state)
-        for goal, owing in self._goals.residuals(walk.all_of((model.decided, model.acting)), model.policy):
+        for goal, pending in self._goals.residuals(walk.all_of((model.decided, model.acting)), model.policy):
             today = arrival(spec, self._decisions, state, self._decisions[state], goal)
             if today is None:
                 continue  # no run to this goal passes the state
@@ -174,7 +174,7 @@ class Stepwise:
             steps, passing = 1, self._before(here, here)
             while passing != FALSE and (bound is None or steps + today <= bound):
                 late = then is None or bound is None or steps + then > bound
-                if late and walk.all_of((owing, passing)) != FALSE:
+                if late and walk.all_of((pending, passing)) != FALSE:
                     return True
                 onward = walk.without(passing, self._goals.reached(goal))
                 steps, passing = steps + 1, self._before(onward, here)

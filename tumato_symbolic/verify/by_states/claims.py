@@ -19,27 +19,27 @@ class Claims:
         self._spec, self._packing, self._runs = spec, packing, runs
         self._ranks, self._given = certificate.ranks, given
 
-    def look(self, spoken_of: Iterable[Code], owing: Mapping[Code, ActionSet]) -> None:
+    def look(self, claimed: Iterable[Code], pending: Mapping[Code, ActionSet]) -> None:
         """Say what became of the certificate: wrong where a number is false, incomplete where one is missing.
 
-        `spoken_of` are all states where a number claims something; `owing` the decided states with an allowed decision,
+        `claimed` are all states where a number claims something; `pending` the decided states with an allowed decision,
         and that decision.
         """
         if not self._given.stands:
             return
-        states = list(spoken_of)
+        states = list(claimed)
         numbers = {goal: self._numbers(goal, states) for goal in self._given.roots}
         for goal, known in numbers.items():
             if not all(self._is_true(goal, known, code, number) for code, number in known.items()):
                 self._given.reject(f"the ranks of {self._given.described(goal)} do not go down to it")
                 return
-        self._look_at_the_bound(numbers, owing)
+        self._look_at_the_bound(numbers, pending)
 
-    def _look_at_the_bound(self, numbers: dict[Residual, dict[Code, int]], owing: Mapping[Code, ActionSet]) -> None:
+    def _look_at_the_bound(self, numbers: dict[Residual, dict[Code, int]], pending: Mapping[Code, ActionSet]) -> None:
         whole, bound = True, self._spec.max_plan_length
-        for code, chosen in owing.items():
+        for code, chosen in pending.items():
             goal, after = self._runs.residual(code, chosen), self._runs.follower(code)
-            if after is None or (not goal.bodies and self._is_owed_nothing(code)):
+            if after is None or (not goal.bodies and self._nothing_pending(code)):
                 continue
             number = numbers.get(goal, {}).get(after)
             if number is None:
@@ -52,8 +52,8 @@ class Claims:
         if whole:
             self._given.serve()
 
-    def _is_owed_nothing(self, code: Code) -> bool:
-        """Whether a state without an active goal owes no run: in several steps an unsafe one owes one to safety."""
+    def _nothing_pending(self, code: Code) -> bool:
+        """Whether nothing is pending without an active goal. In several steps, unsafe states have to become safe."""
         return not self._spec.restores_stepwise or self._runs.is_safe(code)
 
     def _numbers(self, goal: Residual, states: list[Code]) -> dict[Code, int]:

@@ -17,7 +17,7 @@ from tumato_symbolic.verify.result import PropertyResult, Refutation
 def prove_goals(problem: PolicyProblem, source: RankSource) -> PropertyResult:
     """From every state where the policy acts, its nominal run reaches the residual goal in 1 to `L` steps.
 
-    Decisions that are not allowed owe no run. Raises `UndecidedError`.
+    Decisions that are not allowed are not followed. Raises `UndecidedError`.
     """
     goals = [goal for goal in _residuals(problem) if goal.bodies or problem.spec.restores_stepwise]
     return _by_certificate(problem, source, goals) or _by_following(problem, source, goals)
@@ -63,11 +63,11 @@ def _by_certificate(problem: PolicyProblem, source: RankSource, goals: list[Resi
                 whole = False
                 continue
             proof = RankProof(problem, given)
-            state = proof.first_beyond(source.owes_a_run)
+            state = proof.first_beyond(source.has_pending_goal)
             if state is None:
                 continue
             failed, whole = failed or _failing(problem, source, state), False
-            if proof.first_too_large(source.owes_a_run) is not None:
+            if proof.first_too_large(source.has_pending_goal) is not None:
                 source.reject(f"its ranks of {source.described(goal)} exceed the bound")
                 return failed
             source.lacks(goal, state)
@@ -86,7 +86,7 @@ def _by_following(problem: PolicyProblem, source: RankSource, goals: list[Residu
     if source.decisions.rows is None:
         why = f"there is no certificate that holds, and over {LARGEST_TABLE} states, too many to follow all runs"
         raise UndecidedError("every run reaches its goal", why)
-    failing = next(filter(source.owes_a_run, source.ranks.missed()), None)
+    failing = next(filter(source.has_pending_goal, source.ranks.missed()), None)
     if failing is not None:
         failed = _failing(problem, source, failing)
         if failed is None:
@@ -94,7 +94,7 @@ def _by_following(problem: PolicyProblem, source: RankSource, goals: list[Residu
         return failed
     for goal in goals:
         proof = RankProof(problem, source.recomputed(goal))
-        if not proof.decreases() or proof.first_beyond(source.owes_a_run) is not None:
+        if not proof.decreases() or proof.first_beyond(source.has_pending_goal) is not None:
             raise RuntimeError(f"the lengths of runs are no ranks of {goal}")
     return _proved(goals)
 

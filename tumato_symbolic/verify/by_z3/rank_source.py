@@ -33,8 +33,8 @@ class RankSource(ClaimedRanks):
             goal, self._certificate.ranks, self.roots[goal], given=True, of_unsafe=self.speaks_of_unsafe
         )
 
-    def owes_a_run(self, state: State) -> bool:
-        """Whether the decision for `state` owes a run: those that are not allowed are refuted without one."""
+    def has_pending_goal(self, state: State) -> bool:
+        """Whether the decision for `state` leaves a goal to be met: those that are not allowed are refuted already."""
         return self._policy_is_safe() or not objections_to(
             self._problem.spec, state, self.decisions[state], self._ordering, self._problem.deadline()
         )

@@ -124,30 +124,30 @@ class RankProof:
         for rank in self._ranks.ranks:
             yield conjunction((moves, self._after(exactly(rank)), negation(self._here(below(rank + 2)))))
 
-    def first_beyond(self, owes_a_run: Callable[[State], bool]) -> State | None:
+    def first_beyond(self, has_pending_goal: Callable[[State], bool]) -> State | None:
         """The first state with this residual goal that steps to one whose rank is not below the bound.
 
-        States for which `owes_a_run` is false are passed over.
+        States for which `has_pending_goal` is false are passed over.
         """
         near = conjunction((self._covered_after, self._ranks.within_bound(self._problem, self._problem.after)))
-        return self._first_owing(negation(near), owes_a_run)
+        return self._first_pending(negation(near), has_pending_goal)
 
-    def first_too_large(self, owes_a_run: Callable[[State], bool]) -> State | None:
+    def first_too_large(self, has_pending_goal: Callable[[State], bool]) -> State | None:
         """The first one whose rank is a number, and not below the bound."""
         bound = self._problem.spec.max_plan_length
         if bound is None:
             return None
         large = self._after(lambda rank: rank is not None and rank >= bound)
-        return self._first_owing(conjunction((self._covered_after, large)), owes_a_run)
+        return self._first_pending(conjunction((self._covered_after, large)), has_pending_goal)
 
-    def _first_owing(self, fault: Term, owes_a_run: Callable[[State], bool]) -> State | None:
+    def _first_pending(self, fault: Term, has_pending_goal: Callable[[State], bool]) -> State | None:
         problem = self._problem
         mine = problem.goals.is_residual(self._ranks.goal, problem.executed)
         deadline = problem.deadline()
         with problem.solver.scope(problem.acting, mine, fault):
             while (model := problem.first_model("ranks are below the bound", deadline=deadline)) is not None:
                 state = problem.state.read(model)
-                if owes_a_run(state):
+                if has_pending_goal(state):
                     return state
                 problem.solver.add(negation(conjunction(problem.literals(state))))
         return None

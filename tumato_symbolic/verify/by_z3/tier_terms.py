@@ -28,8 +28,8 @@ class Tiers:
         terms = [valid_term(spec, after)]
         for concerned, tier, holds in zip(self.levels, spec.tiers, self._holds, strict=False):
             for rule, before in zip(tier, holds, strict=True):
-                owed = concerned if spec.restoration == "one_step" else conjunction((concerned, before))
-                terms.append(implies(owed, formula_term(rule.formula, after)))
+                required = concerned if spec.restoration == "one_step" else conjunction((concerned, before))
+                terms.append(implies(required, formula_term(rule.formula, after)))
         return conjunction(terms)
 
     def restored(self, after: Place) -> Term:

@@ -66,10 +66,10 @@ class Analysis:
     def levels(self) -> tuple[Level, ...]:
         """The levels of all states, the strongest first."""
         found: dict[Guarantee, list[Reference]] = {}
-        for goal, owing in self._goals.residuals(self._model.decided, self._model.policy):
+        for goal, pending in self._goals.residuals(self._model.decided, self._model.policy):
             self._context.check()
             self._prospects[goal] = WalkProspects(self._model, self._goals, goal)
-            for guarantee, states in self._prospects[goal].levels(owing):
+            for guarantee, states in self._prospects[goal].levels(pending):
                 if guarantee is None:
                     raise RuntimeError("a nominal run misses its goal, although that it does not is proved")
                 found.setdefault(guarantee, []).append(self._sets.of_walk(self._model.walk, states))

@@ -61,29 +61,29 @@ class WalkProspects:
             found.append(more)
         return found
 
-    def levels(self, owing: Function) -> Iterator[tuple[Guarantee | None, Function]]:
-        """The parts of `owing`, states with this residual goal, by what their first step guarantees.
+    def levels(self, pending: Function) -> Iterator[tuple[Guarantee | None, Function]]:
+        """The parts of `pending`, states with this residual goal, by what their first step guarantees.
 
         None where not even its nominal run meets the goal.
         """
         for steps, layer in enumerate(self.layers, 1):
-            now, owing = self._split(owing, self._leads_into(layer))
+            now, pending = self._split(pending, self._leads_into(layer))
             if now != FALSE:
                 yield Guarantee("guaranteed", steps=steps), now
-            if owing == FALSE:
+            if pending == FALSE:
                 return
-        fair, owing = self._split(owing, self._leads_into(self.surviving[-1]))
+        fair, pending = self._split(pending, self._leads_into(self.surviving[-1]))
         if fair != FALSE:
             yield Guarantee("fair"), fair
         for deviations in range(len(self.surviving) - 1, -1, -1):
             survives = self._model.next(self.surviving[deviations])
             if deviations:
                 survives = self._walk.all_of((survives, self._leads_into(self.surviving[deviations - 1])))
-            now, owing = self._split(owing, self._walk.all_of((self._model.acting, survives)))
+            now, pending = self._split(pending, self._walk.all_of((self._model.acting, survives)))
             if now != FALSE:
                 yield Guarantee("survives", deviations=deviations) if deviations else Guarantee("nominal"), now
-        if owing != FALSE:
-            yield None, owing
+        if pending != FALSE:
+            yield None, pending
 
     def _split(self, states: Function, predicate: Function) -> tuple[Function, Function]:
         return self._walk.all_of((states, predicate)), self._walk.without(states, predicate)

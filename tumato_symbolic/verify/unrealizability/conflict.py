@@ -75,22 +75,22 @@ def _check_distances(goals: _Goals, step: AllowedStep) -> None:
 
 
 def _check_options(reason: Conflict, goals: _Goals, step: AllowedStep) -> None:
-    """Every allowed set of a choice's state leads where one of its options says, and owes that goal."""
-    owes = {
+    """Every allowed set of a choice's state leads where one of its options says, and has that residual goal."""
+    is_residual = {
         root: step.name(disjunction(step.goals.is_residual(goal, step.executed) for goal in members))
         for root, members in goals.members.items()
     }
     for choice in reason.choices:
         listed = [(after, reason.goals[goal].root) for after, goal in choice.options]
-        others = [negation(conjunction((is_state(step.after, after), owes[root]))) for after, root in listed]
+        others = [negation(conjunction((is_state(step.after, after), is_residual[root]))) for after, root in listed]
         found = step.some_step("the options of a state are complete", is_state(step.state, choice.state), *others)
         if found is not None:
             state, chosen, after = found
-            owed = residual_goal(step.spec, state, chosen)
-            if any(after == other and owed in goals.members[root] for other, root in listed):
+            goal = residual_goal(step.spec, state, chosen)
+            if any(after == other and goal in goals.members[root] for other, root in listed):
                 raise RuntimeError(f"{sorted(chosen)} is an option of {state}, against the solver")
             told = f"in {state_text(step.spec, state)}, {set_text(step.spec, chosen)} is allowed"
-            leads = f"leads to {state_text(step.spec, after)} and owes {goal_text(step.spec, owed)}"
+            leads = f"leads to {state_text(step.spec, after)} and leaves {goal_text(step.spec, goal)} pending"
             raise FalseClaimError(f"{told}, {leads}, which is no option there", state, chosen)
 
 
@@ -103,7 +103,7 @@ def clause(reason: Conflict, distances: Distances, cut: Cut, number: int, spec: 
         raise FalseClaimError(f"cut {number} begins in a state that is not among the starts")
     root = reason.goals[cut.goal].root
     start = reason.choices[cut.states[0]]
-    owing_else = [
+    other_goals = [
         (cut.states[0], option) for option, (_, goal) in enumerate(start.options) if reason.goals[goal].root != root
     ]
     picks = (
@@ -111,7 +111,7 @@ def clause(reason: Conflict, distances: Distances, cut: Cut, number: int, spec: 
         if cut.kind == "loop"
         else _turning_off(reason, distances, cut, number, spec)
     )
-    return [*owing_else, *picks]
+    return [*other_goals, *picks]
 
 
 def _leaving(reason: Conflict, distances: Distances, cut: Cut, root: int) -> Iterator[Pick]:

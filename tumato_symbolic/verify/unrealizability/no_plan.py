@@ -1,4 +1,4 @@
-"""*No run from this state reaches what it owes*: layers of states that hold all runs (`docs/certificate.md`)."""
+"""*No run from this state meets its residual goal*: layers of states that hold all runs (`docs/certificate.md`)."""
 
 from __future__ import annotations
 
@@ -30,12 +30,14 @@ def check_no_plan(reason: NoPlan, step: AllowedStep) -> int:
         raise FalseClaimError(f"the state {state_text(spec, state)} is not valid, so it needs no plan")
     goals = [(named_goal(spec, goal.bodies, goal.executed), goal) for goal in reason.goals]
     others = [negation(step.goals.is_residual(goal, step.executed)) for goal, _ in goals]
-    found = step.some_step("the state can owe no other goal", is_state(step.state, state), *others)
+    found = step.some_step("no other residual goal is possible in the state", is_state(step.state, state), *others)
     if found is not None:
-        owed = residual_goal(spec, state, found[1])
-        if owed in [goal for goal, _ in goals]:
-            raise RuntimeError(f"{owed} is listed, against the solver")
-        raise FalseClaimError(f"{_told(step, found)} and owes {goal_text(spec, owed)}, which is not listed", *found[:2])
+        goal = residual_goal(spec, state, found[1])
+        if goal in [goal for goal, _ in goals]:
+            raise RuntimeError(f"{goal} is listed, against the solver")
+        raise FalseClaimError(
+            f"{_told(step, found)} and leaves {goal_text(spec, goal)} pending, which is not listed", *found[:2]
+        )
     for goal, layers in goals:
         _check_layers(reason, goal, layers, step)
     return 1
@@ -52,9 +54,9 @@ def _check_layers(reason: NoPlan, goal: Residual, layers: Layers, step: AllowedS
     diagram = reason.diagram
     here = [step.name(term) for term in diagram_terms(diagram, layers.roots, step.state, bool)]
     after = [step.name(term) for term in diagram_terms(diagram, layers.roots, step.after, bool)]
-    owing = step.goals.is_residual(goal, step.executed)
+    pending = step.goals.is_residual(goal, step.executed)
     start = is_state(step.state, reason.state)
-    found = step.some_step("the first layer holds the first successors", start, owing, negation(after[0]))
+    found = step.some_step("the first layer holds the first successors", start, pending, negation(after[0]))
     if found is not None:
         if diagram.evaluate(layers.roots[0], found[2]):
             raise RuntimeError(f"layer 1 holds {found[2]}, against the solver")
