@@ -152,7 +152,7 @@ class Session:
     def __init__(self) -> None:
         self._process = subprocess.Popen(
             [str(TOPLEVEL), "-q", "-R", ".", "Tumato"],
-            cwd=_library().name,
+            cwd=compiled(),
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
@@ -188,9 +188,13 @@ class Session:
         self._process.stdin.flush()
 
 
+def compiled() -> str:
+    """A folder with the two files, compiled."""
+    return _library().name
+
+
 @cache
 def _library() -> TemporaryDirectory[str]:
-    """A folder with the two files, compiled."""
     folder = TemporaryDirectory()
     for name in _NEEDED:
         shutil.copy(SOURCES / f"{name}.v", folder.name)

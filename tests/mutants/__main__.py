@@ -14,24 +14,25 @@ from itertools import count, islice
 from multiprocessing import Pool
 from pathlib import Path
 
+from tests.conformance.by_coq import compiled
 from tests.mutants.campaign import Tally, examine
 from tests.mutants.refusals import examine_conflict, examine_refusal
 from tests.mutants.stepwise import examine_stepwise
 from tests.profiles import ALL_PROFILES
 
 CONFLICT, RESTORATION = "conflict", "restoration"
-Job = tuple[str, int, int]
+Job = tuple[str, int, int, bool]
 
 
 def run(job: Job) -> Tally:
     """The mutants of one specification; an exception is a complaint."""
-    profile, seed, each = job
+    profile, seed, each, coq = job
     try:
         with tempfile.TemporaryDirectory() as folder:
             if profile == CONFLICT:
                 return examine_conflict(seed, each, Path(folder))
             if profile == RESTORATION:
-                return examine_stepwise(seed, each, Path(folder))
+                return examine_stepwise(seed, each, Path(folder), coq=coq)
             tally = examine(profile, seed, each, Path(folder))
             tally.add(examine_refusal(profile, seed, each // 4, Path(folder)))
             return tally
@@ -39,9 +40,9 @@ def run(job: Job) -> Tally:
         return Tally(complaints=[f"{profile} {seed}: {traceback.format_exc()}"])
 
 
-def jobs(first: int, each: int, profiles: Sequence[str]) -> Iterator[Job]:
+def jobs(first: int, each: int, profiles: Sequence[str], coq: bool) -> Iterator[Job]:
     """The profiles in turn, without end."""
-    return ((profile, seed, each) for seed in count(first) for profile in profiles)
+    return ((profile, seed, each, coq) for seed in count(first) for profile in profiles)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -52,11 +53,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--seed", type=int, default=0, help="the first seed (default 0)")
     parser.add_argument("--processes", type=int, default=2)
     parser.add_argument("--restoration", action="store_true", help="only of restoring safety in several steps")
+    parser.add_argument("--coq", action="store_true", help="the checker in Coq judges those of restoring as well")
     options = parser.parse_args(arguments)
     profiles = (RESTORATION,) if options.restoration else (*ALL_PROFILES, CONFLICT, RESTORATION)
     total, started, told = Tally(), time.monotonic(), 0
+    if options.coq:
+        compiled()  # once for all processes
     with Pool(options.processes) as pool:
-        everything = jobs(options.seed, options.each, profiles)
+        everything = jobs(options.seed, options.each, profiles, options.coq)
         while total.mutants < options.count:
             for tally in pool.imap_unordered(run, islice(everything, 4 * options.processes)):
                 total.add(tally)
@@ -69,6 +73,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"  {kind}: {total.kinds[kind, True]} right, {total.kinds[kind, False]} wrong")
     for mode, mutants in sorted(total.modes.items()):
         print(f"  {mode}: {mutants} mutants")
+    for kind, mutants in sorted(total.by_coq.items()):
+        print(f"  coq: {kind}: {mutants}")
     print(f"  undecided: {dict(total.undecided)}")
     print(_figures(total, started))
     return 1 if total.complaints else 0

@@ -14,7 +14,7 @@ from typing import Literal
 
 from tests.checker.standalone import ask
 from tests.generate import random_text
-from tests.mutants import policies, specs
+from tests.mutants import by_coq, policies, specs
 from tests.mutants.truth import is_right
 from tests.profiles import ALL_PROFILES
 from tumato_symbolic import Realizable, parse, synthesize
@@ -52,6 +52,7 @@ class Tally:
     forms: Counter[str] = field(default_factory=Counter)
     modes: Counter[str] = field(default_factory=Counter)
     undecided: Counter[str] = field(default_factory=Counter)
+    by_coq: Counter[str] = field(default_factory=Counter)
     disagreements: int = 0
     complaints: list[str] = field(default_factory=list)
 
@@ -64,6 +65,7 @@ class Tally:
         self.forms += other.forms
         self.modes += other.modes
         self.undecided += other.undecided
+        self.by_coq += other.by_coq
         self.disagreements += other.disagreements
         self.complaints += other.complaints
 
@@ -112,8 +114,13 @@ def renew_digest(document: policies.Document, lines: list[str]) -> None:
         document["SpecificationDigest"] = digest(parse("\n".join(lines) + "\n"))
 
 
-def judge(mutant: Mutant, original: str, tally: Tally, folder: Path) -> Iterator[str]:
-    """Complaints about one mutant. One whose specification is in error, or has no valid state, is no mutant."""
+def judge(
+    mutant: Mutant, original: str, tally: Tally, folder: Path, for_coq: list[by_coq.Question] | None = None
+) -> Iterator[str]:
+    """Complaints about one mutant. One whose specification is in error, or has no valid state, is no mutant.
+
+    What Coq is to be asked is added to `for_coq`.
+    """
     try:
         spec = parse(mutant.spec)
     except UserError:
@@ -134,6 +141,8 @@ def judge(mutant: Mutant, original: str, tally: Tally, folder: Path) -> Iterator
     right = is_right(policy, spec)
     tally.right += right
     tally.kinds[mutant.kind, right] += 1
+    if for_coq is not None:
+        for_coq += by_coq.questions(policy, spec)
     answers = {prover: _verified(policy, spec, prover) for prover in PROVERS}
     answers["checker"] = _checked(mutant.document, mutant.spec, folder)
     if spec.restores_stepwise:

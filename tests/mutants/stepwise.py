@@ -8,7 +8,9 @@ from dataclasses import replace
 from pathlib import Path
 from random import Random
 
-from tests.mutants import policies, restoring, specs
+from tests.checker.stepwise import MODES, stepwise_spec, ways
+from tests.mutants import by_coq, policies, restoring, specs
+from tests.mutants.by_coq import Question
 from tests.mutants.campaign import Mutant, Tally, bases_of, judge, renew_digest
 from tests.printing import print_spec
 from tests.restoration.campaign import specifications
@@ -18,12 +20,23 @@ from tumato_symbolic.spec import Spec
 
 
 def texts(seed: int) -> Iterator[tuple[str, str]]:
-    """The specifications of a seed, each with an effect ordering of its own, and one with a deviation."""
+    """The specifications of a seed, each with an effect ordering of its own: one with a deviation, some of each mode.
+
+    A policy that says how it restores is rare where there are three tiers, so that there are more of these.
+    """
     random = Random(f"texts {seed}")
     deviating = (crossing(north="right"), crossing(north="right", south="right"), parse(LOOP))
     known = replace(random.choice(deviating), restoration=random.choice(("bounded", "fair")))
-    for name, spec in (("known", _numbered(known)), *specifications(seed)):
-        yield name, print_spec(replace(spec, effect_ordering=random.choice((None, "any", "first"))), random)
+    drawn = [("known", known), *specifications(seed)]
+    for restoration, tiers in MODES:
+        drawn.append((f"drawn {restoration} {tiers}", stepwise_spec(seed, restoration, tiers)))
+        drawn += [
+            (f"ways {number} {restoration} {tiers}", ways(9 * seed + number, restoration, tiers))
+            for number in range(tiers)
+        ]
+    for name, spec in drawn:
+        ordered = replace(_numbered(spec), effect_ordering=random.choice((None, "any", "first")))
+        yield name, print_spec(ordered, random)
 
 
 def _numbered(spec: Spec) -> Spec:
@@ -31,16 +44,22 @@ def _numbered(spec: Spec) -> Spec:
     return replace(spec, actions=tuple(actions))
 
 
-def examine_stepwise(seed: int, count: int, folder: Path) -> Tally:
-    """Up to `count` mutants of each specification of a seed that has a policy that says how it restores."""
-    tally = Tally()
+def examine_stepwise(seed: int, count: int, folder: Path, *, coq: bool = False) -> Tally:
+    """Up to `count` mutants of each specification of a seed that has a policy that says how it restores.
+
+    With `coq`, through the checker in Coq as well.
+    """
+    tally, for_coq = Tally(), list[tuple[str, Question]]()
     for name, text in texts(seed):
         bases = bases_of(text)
         if not bases or "Restoring" not in bases[0].get("Certificate", {}):
             continue
         for mutant in _mutants(bases, text, Random(f"{name} {seed}"), count):
-            found = judge(mutant, text, tally, folder)
-            tally.complaints += [f"restoration, seed {seed}, {name}, {mutant.kind}: {each}" for each in found]
+            named, asked = f"restoration, seed {seed}, {name}, {mutant.kind}", list[Question]()
+            tally.complaints += [f"{named}: {each}" for each in judge(mutant, text, tally, folder, asked)]
+            for_coq += [(named, question) for question in asked]
+    if coq:
+        tally.complaints += by_coq.examine(for_coq, folder, tally.by_coq)
     return tally
 
 

@@ -42,11 +42,21 @@ def is_right(policy: Policy, spec: Spec) -> bool:
     ordering: Ordering = spec.effect_ordering or "any"
     if (bound.ordering, ordering) == ("first", "any") or restores_less(bound, spec):
         return False
-    table = as_table(bound, count_states(spec))
+    rows = decisions(bound, spec)
+    return is_right_policy(spec, rows, ordering) and claims_hold(bound, spec, rows, ordering)
+
+
+def decisions(policy: Policy, spec: Spec) -> Rows:
+    """What a policy decides, as the specification numbers states and actions."""
+    table = as_table(bind(policy, spec), count_states(spec))
     assert table is not None
-    rows = dict(table.rows)
+    return dict(table.rows)
+
+
+def is_right_policy(spec: Spec, rows: Rows, ordering: Ordering) -> bool:
+    """Whether decisions are sound, complete and minimal, whatever is claimed of them."""
     judgement = judge(spec, rows, ordering)
-    return judgement.sound_and_complete and judgement.minimal and claims_hold(bound, spec, rows, ordering)
+    return judgement.sound_and_complete and judgement.minimal
 
 
 def claims_hold(policy: Policy, spec: Spec, rows: Rows, ordering: Ordering) -> bool:

@@ -42,23 +42,29 @@ MOST_ACTIONS = 7
 """The most actions: the explicit meaning tries all sets."""
 
 
-MOST_POLICIES = 20_000
-"""Where there are more policies they are not tried one by one."""
+MOST_POLICIES = 100_000
+"""Where there are more policies a campaign does not try them one by one."""
 
 
 @dataclass
 class Tally:
-    """What was found, by restoration and answer."""
+    """What was found, by restoration, number of tiers and answer; `tried` where all policies were tried as well."""
 
-    answers: Counter[tuple[Restoration, str]] = field(default_factory=Counter)
+    answers: Counter[tuple[Restoration, int, str]] = field(default_factory=Counter)
+    tried: Counter[tuple[Restoration, int, str]] = field(default_factory=Counter)
     complaints: list[str] = field(default_factory=list)
 
 
 def severe(spec: Spec, restoration: Restoration, random: Random) -> Spec:
-    """The specification with a way to restore safety, and its state rules in up to three tiers."""
-    tiers = random.choice((1, 1, 2, 3))
-    rules = tuple(replace(rule, severity=random.randint(1, tiers)) for rule in spec.state_rules)
-    return replace(spec, restoration=restoration, state_rules=rules)
+    """The specification with a way to restore safety, and its state rules in up to three tiers.
+
+    One step with one tier is the plain meaning, so that under `one_step` there are more where there are more rules.
+    """
+    tiers = random.choice((2, 3) if restoration == "one_step" else (1, 2, 3))
+    numbers = [*range(1, tiers + 1), *(random.randint(1, tiers) for _ in spec.state_rules)][: len(spec.state_rules)]
+    random.shuffle(numbers)
+    rules = (replace(rule, severity=number) for rule, number in zip(spec.state_rules, numbers, strict=True))
+    return replace(spec, restoration=restoration, state_rules=tuple(rules))
 
 
 def specifications(seed: int) -> Iterator[tuple[str, Spec]]:
@@ -73,37 +79,40 @@ def specifications(seed: int) -> Iterator[tuple[str, Spec]]:
                 yield f"{name} {seed} {restoration}, {len(spec.tiers)} tiers", spec
 
 
-def examine(spec: Spec, ordering: Ordering, tally: Tally, backend: Backend | None = None) -> Iterator[str]:
-    """What is wrong with the answer for one specification; nothing where no valid state is unsafe."""
+def examine(
+    spec: Spec, ordering: Ordering, tally: Tally, backend: Backend | None = None, most_policies: int = 200
+) -> Iterator[str]:
+    """What is wrong with the answer for one specification; nothing where no valid state is unsafe.
+
+    Where there are at most so many policies all of them are tried.
+    """
     world = World(spec, ordering)
     if len(world.safe) == len(world.valid):
         return
     failing = Counter(kind for kind in map(world.kind, world.valid) if kind is not None)
     outcome = synthesize(spec, ordering, backend=backend, certify=False)
+    answer = "undecided"
     if isinstance(outcome, Realizable):
-        tally.answers[spec.restoration, "realizable"] += 1
-        yield from _wrong_policy(spec, outcome.policy, ordering)
+        answer = "realizable"
+        yield from _wrong_policy(world, outcome.policy)
         if failing:
             yield f"a policy, but {dict(failing)}"
     elif isinstance(outcome, Unrealizable):
-        kind = outcome.failures[0].kind
-        tally.answers[spec.restoration, kind] += 1
-        if kind == "conflict":
+        answer = outcome.failures[0].kind
+        if answer == "conflict":
             yield from _wrong_conflict(world, outcome.failures[0].states, dict(failing))
         elif {each.kind: each.count for each in outcome.failures} != failing:
             yield f"{[(each.kind, each.count) for each in outcome.failures]}, but {dict(failing)}"
-    else:
-        tally.answers[spec.restoration, "undecided"] += 1
+    tally.answers[spec.restoration, len(spec.tiers), answer] += 1
+    if world.policies <= most_policies:
+        tally.tried[spec.restoration, len(spec.tiers), answer] += 1
+        if world.has_policy() != (answer == "realizable"):
+            yield f"{answer}, but trying all policies says otherwise"
 
 
 def _wrong_conflict(world: World, states: tuple[State, ...], failing: dict[str, int]) -> Iterator[str]:
-    """No policy serves the states together, and one does without any of them: by a SAT encoding of all policies.
-
-    Where there are few policies, they are tried one by one as well.
-    """
+    """No policy serves the states together, and one does without any of them: by a SAT encoding of all policies."""
     together = Together(Stepwise(world.spec, world.ordering))
-    if world.policies <= MOST_POLICIES and next(world.serving(), None) is not None:
-        yield "a conflict, but there is a policy"
     if failing or together.serve(states) is not None:
         yield f"a conflict, but {failing or 'a policy serves the states together'}"
     for state in states:
@@ -111,10 +120,10 @@ def _wrong_conflict(world: World, states: tuple[State, ...], failing: dict[str, 
             yield f"a conflict that is not minimal: {state} is not needed"
 
 
-def _wrong_policy(spec: Spec, policy: Policy, ordering: Ordering) -> Iterator[str]:
-    table = as_table(policy, count_states(spec))
+def _wrong_policy(world: World, policy: Policy) -> Iterator[str]:
+    table = as_table(policy, count_states(world.spec))
     assert table is not None
-    judgement = judge(spec, table.rows, ordering)
+    judgement = judge(world.spec, table.rows, world.ordering)
     if not judgement.sound_and_complete:
         yield f"a policy that is not sound and complete: {judgement}"
     if not judgement.minimal:

@@ -42,7 +42,7 @@ def decided(spec: Spec) -> tuple[dict[State, frozenset[int]], Mapping[State, Eff
     judgement = judge(spec, rows, spec.ordering)
     assert judgement.sound_and_complete
     assert judgement.minimal
-    return rows, Restorations(spec, rows, spec.ordering).worst
+    return rows, dict(Restorations(spec, rows, spec.ordering).worst)
 
 
 @pytest.mark.parametrize("backend", ["cudd", "autoref"])

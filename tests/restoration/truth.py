@@ -113,6 +113,11 @@ class World:
             if self.serves(policy):
                 yield {state: option.chosen for state, option in policy.items()}
 
+    def has_policy(self) -> bool:
+        """Whether some policy is sound and complete, by trying all; of sets from which the same follows, one."""
+        different = ({(o.after, o.goal, o.following): o for o in options}.values() for options in self.options.values())
+        return any(self.serves(dict(zip(self.options, each, strict=True))) for each in product(*different))
+
     def policies_with_options(self) -> Iterator[Mapping[State, Option]]:
         """Every policy with `Keep` everywhere."""
         return (dict(zip(self.options, each, strict=True)) for each in product(*self.options.values()))

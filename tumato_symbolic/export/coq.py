@@ -238,8 +238,12 @@ def _decisions(spec: Spec, rows: dict[State, ActionSet]) -> Iterator[str]:
 
 def _efforts(spec: Spec, rows: dict[State, ActionSet], ordering: Ordering) -> Iterator[str]:
     """What the checker is told of the ways to safety, and does not believe: the least efforts by the decisions."""
-    worst = Restorations(spec, rows, ordering).worst
     sums = nominal_sums(spec, rows) if spec.restoration == "fair" else {}
+    yield from _known(spec, Restorations(spec, rows, ordering).worst, sums)
+
+
+def _known(spec: Spec, worst: Mapping[State, Effort], sums: Mapping[State, Effort]) -> Iterator[str]:
+    """Efforts in the worst case and by nominal effects, as the checker is told of them."""
     found = sorted({*worst.values(), *sums.values()})
     yield "(* The efforts (duration, steps) that restoring takes by these decisions; the checker tests them. *)"
     yield "Definition no : option effort := None. (* a safe state, or no effort suffices *)"
