@@ -13,7 +13,7 @@ from tests.verify.policies import certified
 from tumato_symbolic import parse
 from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.policy import dumps, loads
-from tumato_symbolic.semantics import Residual
+from tumato_symbolic.semantics import ActionSet, Residual, State
 from tumato_symbolic.spec import Spec
 
 GOALS = """BEGIN GOALS
@@ -26,9 +26,12 @@ TEXT = spec_text("ab", "ab", GOALS)
 
 def _policy(spec: Spec) -> str:
     """Its decisions execute all actions, and the certificate ranks all goals, executing all actions."""
-    rows = {(0,): frozenset((0,)), (1,): frozenset[int]()}
+    rows: dict[State, ActionSet] = {(0,): frozenset((0,)), (1,): frozenset[int]()}
     both = frozenset((0, 1))
-    ranks = {Residual(both, frozenset((0,))): {(1,): 0, (0,): 1}, Residual(both, frozenset()): {(1,): 0}}
+    ranks: dict[Residual, dict[State, int]] = {
+        Residual(both, frozenset((0,))): {(1,): 0, (0,): 1},
+        Residual(both, frozenset()): {(1,): 0},
+    }
     return dumps(certified(spec, rows, ranks))
 
 

@@ -313,7 +313,8 @@ def test_first_does_not_pass_for_any(spec: str, tmp_path: Path) -> None:
 
 
 def _goal(document: Document, number: int) -> Document:
-    return document["Certificate"]["Goals"][number]
+    found: Document = document["Certificate"]["Goals"][number]
+    return found
 
 
 WRONG_CERTIFICATES: dict[str, Change] = {

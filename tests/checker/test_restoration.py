@@ -18,14 +18,14 @@ from tests.printing import print_spec
 from tests.semantics.test_restoration import EDGE, OVERRIDE, RETRY, VALVES
 from tumato_symbolic import parse
 from tumato_symbolic.policy import dumps, policy_from_rows
-from tumato_symbolic.semantics import NOTHING
+from tumato_symbolic.semantics import NOTHING, ActionSet, State
 from tumato_symbolic.spec import Spec, digest
 
 BOUNDED_OVERRIDE = f"{OVERRIDE}BEGIN CONFIG restoration: bounded END CONFIG\n"
 TO_T, TO_X, TO_Y = (frozenset((number,)) for number in range(3))
 TO_EACH = {(0,): TO_T, (1,): TO_Y, (2,): NOTHING, (3,): NOTHING}
 CLOSE_A, CLOSE_B = frozenset((0,)), frozenset((1,))
-SINGLY = {(0, 0): CLOSE_A, (0, 1): CLOSE_A, (1, 0): CLOSE_B, (1, 1): NOTHING}
+SINGLY: dict[State, ActionSet] = {(0, 0): CLOSE_A, (0, 1): CLOSE_A, (1, 0): CLOSE_B, (1, 1): NOTHING}
 
 
 def with_truth(text: str, rows: Any) -> str:
@@ -60,7 +60,7 @@ def test_one_valve_after_the_other(tmp_path: Path) -> None:
     """Several steps where they are meant, or asked for; one otherwise."""
     bounded = VALVES + "BEGIN CONFIG restoration: bounded END CONFIG"
     assert ask(tmp_path, with_truth(bounded, SINGLY), bounded, "--strict").code == 0
-    both = {**SINGLY, (0, 0): CLOSE_A | CLOSE_B}
+    both: dict[State, ActionSet] = {**SINGLY, (0, 0): CLOSE_A | CLOSE_B}
     assert ask(tmp_path, with_truth(bounded, both), bounded).failing == {"minimal": 1}
     policy = dumps(policy_from_rows(parse(VALVES), SINGLY))
     assert ask(tmp_path, policy, bounded).code == 0
@@ -71,7 +71,7 @@ def test_one_valve_after_the_other(tmp_path: Path) -> None:
 
 def test_what_never_ends(tmp_path: Path) -> None:
     """A stop that may do nothing restores nothing whatever happens; nothing at all does not nominally either."""
-    stop = {(0,): CLOSE_A, (1,): NOTHING}
+    stop: dict[State, ActionSet] = {(0,): CLOSE_A, (1,): NOTHING}
     policy = dumps(policy_from_rows(parse(RETRY), stop))
     answer = ask(tmp_path, policy, RETRY, "--restoration", "bounded")
     assert answer.failing == {"restoring": 1}
@@ -86,7 +86,7 @@ def test_what_never_ends(tmp_path: Path) -> None:
 def test_severe_rules_first(place: int, arm: int, fits: bool, tmp_path: Path) -> None:
     """Off the edge with the arm out, where the edge is the more severe of the two."""
     text = EDGE.format(place, arm)
-    rows = {(0, 0): CLOSE_A, (0, 1): CLOSE_A, (1, 0): CLOSE_B, (1, 1): NOTHING}
+    rows: dict[State, ActionSet] = {(0, 0): CLOSE_A, (0, 1): CLOSE_A, (1, 0): CLOSE_B, (1, 1): NOTHING}
     answer = ask(tmp_path, dumps(policy_from_rows(parse(text), rows)), text)
     assert (answer.code == 0) == fits, answer
     assert ("restoring" in answer.out) == (place != arm)
@@ -111,7 +111,7 @@ def test_digests() -> None:
 def test_what_a_policy_was_made_for(made_for: str, meant: str, tmp_path: Path) -> None:
     """A weaker restoration than is meant is refused for that alone, unless the command line says what to judge by."""
     text = VALVES.replace("rule: B is closed", "")
-    rows = {state: NOTHING if state[0] else CLOSE_A for state in SINGLY}
+    rows: dict[State, ActionSet] = {state: NOTHING if state[0] else CLOSE_A for state in SINGLY}
     policy = policy_from_rows(parse(text), rows)
     restoration = checker.Parser(f"BEGIN CONFIG restoration: {made_for} END CONFIG").specification().restoration
     written = dumps(replace(policy, restoration=restoration))
@@ -199,7 +199,12 @@ def test_no_allowed_set_by_severity(tmp_path: Path) -> None:
     """In one step from the edge with the arm in: nothing is allowed if the arm counts as much."""
     retreat = {"Kind": "unsafe", "Outcome": [{"Action": "retreat", "Effect": {"Place": "floor", "Arm": "out"}}]}
     fold = {"Kind": "precondition", "Actions": ["fold"]}
-    cubes = ((["fold"], [], fold), (["retreat"], ["fold"], retreat), ([], ["fold", "retreat"], {"Kind": "idle"}))
+    idle = {"Kind": "idle"}
+    cubes: tuple[tuple[list[str], list[str], dict[str, Any]], ...] = (
+        (["fold"], [], fold),
+        (["retreat"], ["fold"], retreat),
+        ([], ["fold", "retreat"], idle),
+    )
     reason = no_set({"Place": "edge", "Arm": "in"}, *cubes)
     for each in (reason, no_set(reason["State"])):
         assert_proved(asked_no(tmp_path, EDGE.format(1, 1), each))

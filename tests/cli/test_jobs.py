@@ -18,7 +18,7 @@ from tests.cli.conftest import Cli, Ran
 from tests.repo.documents import ROOT
 from tumato_symbolic.cli import folder as folder_command
 from tumato_symbolic.cli import verifying
-from tumato_symbolic.verify import portfolio, workers
+from tumato_symbolic.verify import portfolio, verify, workers
 from tumato_symbolic.verify.by_diagrams import prover
 from tumato_symbolic.verify.by_diagrams.ranks import WalkRanks
 
@@ -76,7 +76,7 @@ def test_jobs_is_a_positive_number(cli: Cli, jobs: str) -> None:
 def test_the_default_is_every_processor(cli: Cli, monkeypatch: pytest.MonkeyPatch, command: str) -> None:
     """Without `--jobs`, as many processes may work as there are processors; with it, as many as it says."""
     given: list[int] = []
-    original = verifying.verify
+    original = verify
 
     def recorded(*arguments: Any, jobs: int, **named: Any) -> Any:
         given.append(jobs)

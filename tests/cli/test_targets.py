@@ -12,7 +12,6 @@ import pytest
 
 from tests.cli.conftest import Cli
 from tumato_symbolic.cli.commands import COMMANDS, load
-from tumato_symbolic.policy import saving
 
 SAME: dict[str, Callable[[Path], str]] = {
     "the same name": lambda file: file.name,
@@ -101,7 +100,7 @@ def test_nothing_is_left_of_a_failure(cli: Cli, tmp_path: Path, monkeypatch: pyt
             raise error
 
         with monkeypatch.context() as patched:
-            patched.setattr(saving.os if failing == "fsync" else saving.Path, failing, fail)
+            patched.setattr(os if failing == "fsync" else Path, failing, fail)
             for command in (
                 "synth amr.tum -o amr.json",
                 "export-proof amr.json amr.tum -o warned.tum",

@@ -67,7 +67,9 @@ def test_without_a_proof_the_report_says_so(cli: Cli, tmp_path: Path) -> None:
 def test_time_that_runs_out_is_3(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
     """A certificate that is not proved in time is undecided; `synth` says so, and answers no all the same."""
     assert cli("synth", "conflict.tum").code == 1
-    monkeypatch.setitem(verdict.verify_unrealizable.__kwdefaults__, "timeout", 0.0)
+    defaults = verdict.verify_unrealizable.__kwdefaults__
+    assert defaults is not None
+    monkeypatch.setitem(defaults, "timeout", 0.0)
     checked = cli("verify", "policy.unrealizable.json", "conflict.tum")
     assert checked.code == 3
     assert "undecided" in checked.out

@@ -19,6 +19,7 @@ from tests.checker.standalone import ask
 from tests.generate import random_spec, random_text
 from tests.mutants import denials, specs
 from tests.mutants.campaign import LARGEST, Tally
+from tests.mutants.changes import Document
 from tests.oracle import World, decide_world
 from tests.policy.mutations import mutate
 from tests.printing import print_spec
@@ -74,7 +75,7 @@ def examine_text(text: str, name: str, count: int, folder: Path) -> Tally:
     return tally
 
 
-def _judge(document: denials.Document, text: str, which: str, tally: Tally, folder: Path) -> Iterator[str]:
+def _judge(document: Document, text: str, which: str, tally: Tally, folder: Path) -> Iterator[str]:
     spec = _read(text)
     if spec is None:
         return

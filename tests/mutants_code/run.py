@@ -162,5 +162,5 @@ def _plant(path: Path, module: str, number: int) -> bool:
     def get_code(loader: importlib.machinery.SourceFileLoader, fullname: str) -> CodeType | None:
         return code if Path(loader.path) == path else plain(loader, fullname)
 
-    importlib.machinery.SourceFileLoader.get_code = get_code  # type: ignore[method-assign]
+    setattr(importlib.machinery.SourceFileLoader, "get_code", get_code)  # noqa: B010 - a method is replaced
     return True

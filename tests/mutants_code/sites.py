@@ -229,8 +229,8 @@ def _other_calls(node: ast.Call) -> Iterator[ast.AST]:
         yield _with(node, args=[ast.BinOp(node.args[0], ast.Sub(), ast.Constant(1))])
     starred = any(isinstance(argument, ast.Starred) for argument in node.args)
     if len(node.args) >= 2 and not starred and name not in ASKING | EITHER_WAY:
-        *rest, one, other = node.args
-        yield _with(node, args=[*rest, other, one])
+        *rest, last, swapped = node.args
+        yield _with(node, args=[*rest, swapped, last])
     if name in ASKING and len(node.args) >= 2:
         for left_out in range(len(node.args)):
             yield _with(node, args=[*node.args[:left_out], *node.args[left_out + 1 :]])

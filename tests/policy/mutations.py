@@ -3,6 +3,7 @@
 import json
 import random
 from copy import deepcopy
+from typing import Any
 
 VALUES = [
     None, True, False, -1, 0, 1, 2, 7, 1.5, 1e308, 10**30, "", "any", "hall", "go", "Actions", "\ud800",
@@ -15,7 +16,7 @@ PIECES = [
 ]  # fmt: skip
 
 
-def mutations(text, seed):
+def mutations(text: str, seed: int) -> bytes:
     """One mutant of a JSON text, as bytes: of its structure (twice out of three times) or of its bytes."""
     dice = random.Random(seed)
     if dice.random() < 2 / 3:
@@ -41,7 +42,7 @@ def mutations(text, seed):
     return bytes(data)
 
 
-def _places(value, found):
+def _places(value: Any, found: list[tuple[Any, Any]]) -> list[tuple[Any, Any]]:
     """Every (container, key) below a value."""
     keys = value.keys() if isinstance(value, dict) else range(len(value)) if isinstance(value, list) else ()
     for key in keys:
@@ -50,7 +51,7 @@ def _places(value, found):
     return found
 
 
-def mutate(document, dice):
+def mutate(document: Any, dice: random.Random) -> Any:
     """Change one place: drop it, double it, swap it, replace it by a strange value or by another place's value."""
     places = _places(document, [])
     if not places:

@@ -146,7 +146,8 @@ def test_a_loop_shows_that_a_state_is_no_more_than_fair() -> None:
     """An action that may change nothing may do so for ever; nothing else is a loop."""
     build = Build({"x": "sg"})
     build.action("x=g", ("",), when=(build.atom("x=s"),))
-    spec, rows = build.spec(priority(build.goal(build.atom("x=g")))), {(0,): frozenset({0}), (1,): frozenset[int]()}
+    spec = build.spec(priority(build.goal(build.atom("x=g"))))
+    rows: dict[State, ActionSet] = {(0,): frozenset({0}), (1,): frozenset()}
     assert guarantees(spec, rows, "any")[(0,)] == Guarantee("fair")
     found = _shortcoming(spec, rows, (0,))
     assert found is not None

@@ -12,7 +12,9 @@ from tests.semantics import literal
 from tests.semantics.build import Build, chosen
 from tumato_symbolic.semantics import (
     NOTHING,
+    ActionSet,
     EffectStep,
+    State,
     active_goals,
     all_states,
     allowed_sets,
@@ -240,7 +242,12 @@ def line(bound: int | None) -> tuple[Build, Spec]:
 def test_a_run_ends_at_the_bound(bound: int | None, end: str, steps: int) -> None:
     """A goal three steps away is met within three, and not within two."""
     build, spec = line(bound)
-    policy = {(0,): frozenset((0,)), (1,): frozenset((1,)), (2,): frozenset((2,)), (3,): NOTHING}
+    policy: dict[State, ActionSet] = {
+        (0,): frozenset((0,)),
+        (1,): frozenset((1,)),
+        (2,): frozenset((2,)),
+        (3,): NOTHING,
+    }
     run = follow(spec, policy, build.state("a"), policy[0,])
     assert (run.end, run.steps, run.states[0]) == (end, steps, (0,))
     assert run.states == tuple((place,) for place in range(steps + 1))
@@ -251,14 +258,14 @@ def test_a_run_ends_at_the_bound(bound: int | None, end: str, steps: int) -> Non
 def test_a_run_without_a_decision_or_in_a_loop() -> None:
     """A run ends where nothing is decided, where the decision has no successor, and where it comes back."""
     build, spec = line(None)
-    stay = {(0,): frozenset((0,)), (1,): NOTHING}
+    stay: dict[State, ActionSet] = {(0,): frozenset((0,)), (1,): NOTHING}
     assert follow(spec, stay, (0,), stay[0,]).end == "loop"
     assert follow(spec, stay, (0,), stay[0,]).states == ((0,), (1,), (1,))
     assert follow(spec, {(0,): frozenset((0,))}, (0,), frozenset((0,))).end == "undefined"
-    torn = {(0,): frozenset((0,)), (1,): frozenset((0, 1))}
+    torn: dict[State, ActionSet] = {(0,): frozenset((0,)), (1,): frozenset((0, 1))}
     assert follow(spec, torn, (0,), torn[0,]).end == "undefined"
     assert follow(spec, {(1,): frozenset((1,)), (2,): frozenset((2,))}, (0,), frozenset((0,))).end == "goal"
-    whole = {(place,): frozenset((place,)) for place in range(3)}
+    whole: dict[State, ActionSet] = {(place,): frozenset((place,)) for place in range(3)}
     assert follow(spec, whole, (0,), NOTHING).steps == 4, (
         "a first set that leads back is no loop where the policy goes on"
     )
