@@ -1404,7 +1404,7 @@ def read_ranks(world: World, document: dict[str, Any]) -> dict[Residual, dict[St
     ranks: dict[Residual, dict[State, int | None]] = {}
     for entry in section["Goals"]:
         goal = read_goal(entry, world.spec)
-        need(goal[1] == set(entry["Executed"]), "`Executed` has an action of which the goal does not speak")
+        need(goal[1] == set(entry["Executed"]), "`Executed` has an action that the goal does not mention")
         need(goal not in ranks, f"it ranks {entry['Bodies']} twice")
         root = diagram.reference(entry.get("Root"))
         ranked = world.valid if world.stepwise and "Restoring" in section else world.safe
@@ -1609,7 +1609,7 @@ class Guarantees:
         self.forced: dict[Residual, Ranks] = {}
         for entry in read_objects(section, "Goals"):
             goal = read_goal(entry, world.spec)
-            need(goal[1] == set(entry["Executed"]), "`Executed` has an action of which the goal does not speak")
+            need(goal[1] == set(entry["Executed"]), "`Executed` has an action that the goal does not mention")
             need(goal not in self.forced, f"it ranks {entry['Bodies']} twice")
             need(read_list(entry, "Surviving") != [], "`Surviving` is empty")
             roots = [diagram.reference(root) for root in (*entry["Surviving"], entry.get("Forced"))]

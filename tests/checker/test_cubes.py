@@ -130,11 +130,11 @@ WRONG = {
         "the two share no resource",
     ),
     "an empty outcome": (proof(bc=unsafe("bc", "")), "not those of different actions"),
-    "an action that strikes twice": (
+    "an action that takes effect twice": (
         proof(hop=unsafe("hop", "bc", "hop=a", "hop=b")),
         "not those of different actions",
     ),
-    "an action that strikes twice alike": (
+    "an action that takes effect twice alike": (
         proof(hop=unsafe("hop", "bc", *["hop=b"] * 2)),
         "not those of different actions",
     ),

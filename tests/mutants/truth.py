@@ -80,7 +80,7 @@ def _ranks(certificate: Certificate, spec: Spec) -> dict[Residual, Numbers] | No
     names = [action.name for action in spec.actions]
     everywhere = spec.restores_stepwise and certificate.restoring is not None
     valid = [state for state in all_states(spec) if is_valid(spec, state)]
-    spoken_of = [state for state in valid if everywhere or is_safe(spec, state)]
+    covered = [state for state in valid if everywhere or is_safe(spec, state)]
     found: dict[Residual, Numbers] = {}
     for entry in certificate.goals:
         if not set(entry.bodies) <= set(bodies):
@@ -89,7 +89,7 @@ def _ranks(certificate: Certificate, spec: Spec) -> dict[Residual, Numbers] | No
         mentioned = {action for body in goal.bodies for action in executing_atoms(spec.bodies[body].formula)}
         if goal in found or not goal.executed <= mentioned:
             return None
-        found[goal] = {state: certificate.ranks.evaluate(entry.root, state) for state in spoken_of}
+        found[goal] = {state: certificate.ranks.evaluate(entry.root, state) for state in covered}
     return found
 
 

@@ -50,9 +50,9 @@ def claim_by_package(path: Path, spec: Spec) -> Found:
 
 def _ranks_by_package(policy: Policy, spec: Spec) -> Any:
     """The ranks of the safe states by residual goal, or why there are none."""
-    given = ClaimedRanks(spec, policy, lambda: True)
-    if given.use.status != "unneeded" or policy.certificate is None:
-        return given.use.status
+    claimed = ClaimedRanks(spec, policy, lambda: True)
+    if claimed.use.status != "unneeded" or policy.certificate is None:
+        return claimed.use.status
     safe = [state for state in all_states(spec) if is_safe(spec, state)]
     names = [variable.values for variable in spec.variables]
     return {
@@ -65,7 +65,7 @@ def _ranks_by_package(policy: Policy, spec: Spec) -> Any:
             )
             for state in safe
         }
-        for goal, root in given.roots.items()
+        for goal, root in claimed.roots.items()
     }
 
 

@@ -39,8 +39,8 @@ class Meaning:
     def residual(self, state: literal.State, chosen: literal.Actions) -> Goal:
         """The residual goal."""
         bodies = frozenset(literal.active(self.spec, state))
-        spoken = {action for body in bodies for action in _spoken_of(self.spec.bodies[body].formula)}
-        return bodies, frozenset(spoken & chosen)
+        mentioned = {action for body in bodies for action in _mentioned(self.spec.bodies[body].formula)}
+        return bodies, frozenset(mentioned & chosen)
 
     def meets(self, goal: Goal, state: literal.State) -> bool:
         """Whether the residual goal holds."""
@@ -55,11 +55,11 @@ class Meaning:
         return frozenset(texts.index(text) for text in bodies), frozenset(names.index(name) for name in executed)
 
 
-def _spoken_of(formula: Formula) -> set[int]:
+def _mentioned(formula: Formula) -> set[int]:
     found = {formula.action} if hasattr(formula, "action") else set()
     parts = [getattr(formula, name) for name in ("operand", "left", "right") if hasattr(formula, name)]
     for part in (*parts, *getattr(formula, "operands", ())):
-        found |= _spoken_of(part)
+        found |= _mentioned(part)
     return found
 
 

@@ -294,23 +294,23 @@ class _Times(Budget):
 
 def test_what_children_are_given() -> None:
     """The time that is left to each property, what tasks share done before, and no answer that needed too much."""
-    walk, ahead, budget, told = Walk(range(2), [2, 2]), ParallelProofs(), _Times(), list[str]()
-    ahead.seconds["goals"] = 1000.0
+    walk, parallel, budget, told = Walk(range(2), [2, 2]), ParallelProofs(), _Times(), list[str]()
+    parallel.seconds["goals"] = 1000.0
     shared: list[int] = []
     tasks = [
         Task("goals", "one", lambda: (len(shared), 1), lambda: shared.append(1)),
         Task("minimal", "two", lambda: (len(shared), 2)),
         Task("goals", "three", lambda: (len(shared), 3), lambda: shared.append(2)),
     ]
-    ahead.ask(walk, tasks, 1, budget, told.append)
+    parallel.ask(walk, tasks, 1, budget, told.append)
     assert told == ["goals", "minimal", "goals"]
-    assert ahead.answers == {"one": (1, 1), "two": (1, 2), "three": (2, 3)}
+    assert parallel.answers == {"one": (1, 1), "two": (1, 2), "three": (2, 3)}
     assert [1000 <= each < 1100 for each in budget.spent] == [True, False, True]
     assert 0 <= budget.spent[1] < 100
-    assert 1000 <= ahead.seconds["goals"] < 1100
-    assert 0 <= ahead.seconds["minimal"] < 100
-    assert ahead.take("one", lambda: 5) == (1, 1)
-    assert ahead.take("four", lambda: 5) == 5
+    assert 1000 <= parallel.seconds["goals"] < 1100
+    assert 0 <= parallel.seconds["minimal"] < 100
+    assert parallel.take("one", lambda: 5) == (1, 1)
+    assert parallel.take("four", lambda: 5) == 5
 
 
 def test_workers_share_what_may_be_remembered() -> None:
@@ -322,17 +322,17 @@ def test_workers_share_what_may_be_remembered() -> None:
         return count
 
     for most, counts in ((10, True), (9, False)):
-        walk, ahead = Walk(range(2), [2, 2], most_steps=most + 5), ParallelProofs()
+        walk, parallel = Walk(range(2), [2, 2], most_steps=most + 5), ParallelProofs()
         walk.remembered = 5
         taken: list[int] = []
         tasks = [Task("goals", count, partial(work, walk, count)) for count in (4, 6)]
-        ahead.ask(walk, tasks, 1, Budget(), lambda _: None)
-        assert ahead.answers == ({4: 4, 6: 6} if counts else {})
+        parallel.ask(walk, tasks, 1, Budget(), lambda _: None)
+        assert parallel.answers == ({4: 4, 6: 6} if counts else {})
         assert walk.most == (5 if counts else most + 5)
         if counts:
-            assert ahead.take(4, partial(taken.append, 4)) == 4
-            ahead.forget(walk)
-            assert (walk.most, taken, ahead.answers, ahead.seconds) == (most + 5, [4], {}, {})
+            assert parallel.take(4, partial(taken.append, 4)) == 4
+            parallel.forget(walk)
+            assert (walk.most, taken, parallel.answers, parallel.seconds) == (most + 5, [4], {}, {})
 
 
 def test_substitution_keeps_the_order() -> None:

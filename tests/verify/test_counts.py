@@ -232,25 +232,25 @@ def test_a_decision_without_a_successor_owes_no_rank(parts: bool, monkeypatch: p
         assert (answer.verdict, answer.certificate.status) == ("proved", "used")
 
 
-UNSPOKEN = "`Executed` has act0, of which its goal does not speak"
+NOT_MENTIONED = "`Executed` has act0, which its goal does not mention"
 
 
 def test_a_goal_that_is_named_wrongly(prover: Name) -> None:
-    """An action of which the goal does not speak, a goal that comes twice, a negative rank: wrong, and told so."""
+    """An action that the goal does not mention, a goal that comes twice, a negative rank: wrong, and told so."""
     spec, rows, residuals = turning()
     ranks = exact_ranks(spec, rows, "any")
     right = certified(spec, rows, ranks)
     assert right.certificate is not None
     first, second, third = right.certificate.goals
-    spoken = canonical_text(spec, spec.bodies[0].formula)
-    unspoken = Residual(residuals[1].bodies, frozenset((0,)))
+    mentioned = canonical_text(spec, spec.bodies[0].formula)
+    not_mentioned = Residual(residuals[1].bodies, frozenset((0,)))
     cases: list[tuple[tuple[RankedGoal, ...], str]] = [
-        ((first, replace(second, executed=("act0",)), third), UNSPOKEN),
-        ((replace(first, executed=("act0", "act1")), second), UNSPOKEN.replace("act0", "act1")),
+        ((first, replace(second, executed=("act0",)), third), NOT_MENTIONED),
+        ((replace(first, executed=("act0", "act1")), second), NOT_MENTIONED.replace("act0", "act1")),
         ((first, second, third, first), f"it ranks ({spec.bodies[0].text}) while executing act0 twice"),
-        ((replace(first, bodies=(spoken, "x is d")),), "it ranks 'x is d', which is no goal of the specification"),
+        ((replace(first, bodies=(mentioned, "x is d")),), "it ranks 'x is d', which is no goal of the specification"),
     ]
-    assert unspoken not in ranks
+    assert not_mentioned not in ranks
     for goals, reason in cases:
         policy = replace(right, certificate=replace(right.certificate, goals=goals))
         answer = verify(policy, spec, prover=prover)

@@ -67,13 +67,13 @@ def test_answers_of_children_are_forgotten_only_where_all_memory_is_used(
     monkeypatch.setattr(by_diagrams, "FEWEST_NODES", 0)
     policy, spec = _policy()
     prover = WalkProver(spec, policy, "any")
-    prover.ahead(("goals", "minimal"), 2, lambda _: None)
-    found = dict(prover._ahead.answers)
+    prover.prove_parts(("goals", "minimal"), 2, lambda _: None)
+    found = dict(prover._parallel.answers)
     walk = prover._model.walk
     walk.most = walk.remembered + left
-    monkeypatch.setattr(prover._ahead, "forget", lambda _: prover._ahead.answers.clear())
+    monkeypatch.setattr(prover._parallel, "forget", lambda _: prover._parallel.answers.clear())
     assert found and prover.prove("safe", most).verdict == "undecided"
-    assert prover._ahead.answers == ({} if forgets else found)
+    assert prover._parallel.answers == ({} if forgets else found)
 
 
 @pytest.mark.parametrize(("more", "asked"), [(0, True), (1, False)])
@@ -84,9 +84,9 @@ def test_small_ranks_are_not_prepared(jobs: int, more: int, asked: bool, monkeyp
     assert policy.certificate is not None
     monkeypatch.setattr(by_diagrams, "FEWEST_NODES", len(policy.certificate.ranks.nodes) + more)
     prover = WalkProver(spec, policy, "any")
-    spent = prover.ahead(("goals", "minimal"), jobs, lambda _: None)
+    spent = prover.prove_parts(("goals", "minimal"), jobs, lambda _: None)
     assert "goals" in spent if asked else not spent
-    assert bool(prover._ahead.answers) == (asked and jobs > 1)
+    assert bool(prover._parallel.answers) == (asked and jobs > 1)
 
 
 # Time
@@ -177,7 +177,7 @@ class _Scripted:
         self.asked.append(name)
         return PropertyResult(name, self.verdict)
 
-    def ahead(self, names: Sequence[PropertyName], jobs: int, begin: object) -> Mapping[PropertyName, float]:
+    def prove_parts(self, names: Sequence[PropertyName], jobs: int, begin: object) -> Mapping[PropertyName, float]:
         """What took how long already."""
         assert jobs == 1 and callable(begin)
         self.together.append((*self.asked, *names))

@@ -262,7 +262,7 @@ def test_the_first_run_that_fails_is_the_witness(modes: str, prover: Name, monke
         raise UndecidedError("ranks are below the bound") if prover == "z3" else BudgetError
 
     monkeypatch.setattr(RankProof, "first_too_large", tired)
-    monkeypatch.setattr(WalkRanks, "given_far", tired)
+    monkeypatch.setattr(WalkRanks, "claimed_far", tired)
     answer = verify(certified(spec, standing, ranks), spec, prover=prover, properties=["goals"])
     assert (answer.verdict, answer.certificate.status, answer.certificate.reason) == ("refuted", "incomplete", NOT_ALL)
     right = exact_ranks(spec, policy, "any")

@@ -138,7 +138,7 @@ BAD = [
     (Violation("reaction-rule", rule="executing nobody"), "no such rule"),
     (Violation("unsafe"), "names no effects"),
     (Violation("unsafe", outcome=((1, ((1, 1),)),)), "names no effects"),
-    (Violation("unsafe", outcome=((0, ((0, 1),)), (0, ((0, 1),)))), "strikes twice"),
+    (Violation("unsafe", outcome=((0, ((0, 1),)), (0, ((0, 1),)))), "takes effect twice"),
     (Violation("unsafe", outcome=((0, ((0, 2),)),)), "does not have the effect"),
     (Violation("idle"), "execute an action"),
     (Violation("nominal-unsafe"), "leaves actions open"),

@@ -10,7 +10,7 @@ from tumato_symbolic.diagnostics import UserError, render
 from tumato_symbolic.report import unrealizable, verified
 from tumato_symbolic.report.findings import finding_json, github_command, github_commands
 from tumato_symbolic.report.layout import Paint, count, seconds
-from tumato_symbolic.report.proof import states_spoken_of
+from tumato_symbolic.report.proof import states_covered
 from tumato_symbolic.report.unrealizable import VerifiedUnrealizable
 from tumato_symbolic.report.verified import Verified
 from tumato_symbolic.verify.result import Verdict
@@ -93,7 +93,7 @@ def _words(entry: Entry, width: int, paint: Paint) -> str:
         case Verified():
             found = entry.done.verification
             states = "" if found.valid_states is None else f", {count(found.valid_states, 'valid state')}"
-            states = states if found.decides_all else f", {states_spoken_of(found)}"
+            states = states if found.decides_all else f", {states_covered(found)}"
             return f"{painted}  {entry.done.source.name}{states}, certificate {found.certificate.status}"
 
 

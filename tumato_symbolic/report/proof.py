@@ -53,7 +53,7 @@ def proof_text(verification: Verification, valid: int, took: float, paint: Paint
     return "\n".join((head, *(f"  {property_line(result, paint, verification)}" for result in results)))
 
 
-def states_spoken_of(verification: Verification) -> str:
+def states_covered(verification: Verification) -> str:
     """Of which states a verification speaks: `all 64 valid states`, `the 5 of 64 valid states that it decides`."""
     decided, valid = verification.decided_states, verification.valid_states
     if verification.decides_all:

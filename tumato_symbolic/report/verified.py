@@ -17,7 +17,7 @@ from tumato_symbolic.report.proof import (
     property_line,
     provers,
     refutation_text,
-    states_spoken_of,
+    states_covered,
 )
 from tumato_symbolic.spec import Restoration, Spec
 from tumato_symbolic.verify.guarantees.result import Guarantees
@@ -87,7 +87,7 @@ def as_text(done: Verified, colour: bool) -> str:
         f"  certificate: {_certificate(found.certificate)}",
     ]
     if found.verdict != "proved" and not found.decides_all and found.decided_states is not None:
-        lines.append(f"  states: {states_spoken_of(found)}")
+        lines.append(f"  states: {states_covered(found)}")
     if found.restoration is not None:
         lines.insert(2, f"  restoration: {_RESTORATIONS[found.restoration]}")
     lines.append("")
@@ -113,7 +113,7 @@ def _verdict(done: Verified, paint: Paint) -> str:
     match found.verdict:
         case "proved":
             proved = f"{done.policy} is {paint.good('proved')} against {done.source.name} by {provers(found)}"
-            return f"{proved}, for {states_spoken_of(found)}."
+            return f"{proved}, for {states_covered(found)}."
         case "refuted":
             return f"{done.policy} is {paint.bad('refuted')} against {done.source.name}."
         case "undecided":
@@ -174,7 +174,7 @@ def as_github(done: Verified) -> str:
     if not open_results:
         commands.append(
             github_command(
-                "notice", f"proved against {done.source.name}, for {states_spoken_of(done.verification)}", done.policy
+                "notice", f"proved against {done.source.name}, for {states_covered(done.verification)}", done.policy
             )
         )
     if done.guarantees is not None:

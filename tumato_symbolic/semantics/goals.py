@@ -51,8 +51,8 @@ def _walk(goal: Goal, state: State) -> tuple[bool, ActiveGoals]:
 def residual_goal(spec: Spec, state: State, chosen: ActionSet) -> Residual:
     """The residual goal of `state` when `chosen` is the first set."""
     bodies = active_goals(spec, state)
-    spoken_of = frozenset[int]().union(*(executing_atoms(spec.bodies[body].formula) for body in bodies))
-    return Residual(bodies, chosen & spoken_of)
+    mentioned = frozenset[int]().union(*(executing_atoms(spec.bodies[body].formula) for body in bodies))
+    return Residual(bodies, chosen & mentioned)
 
 
 def reached(spec: Spec, goal: Residual, state: State) -> bool:

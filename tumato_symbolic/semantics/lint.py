@@ -180,10 +180,10 @@ def _actions(spec: Spec, valid: States, work: _Work) -> Iterator[Diagnostic]:
 
     Where none of these has effects, they may need one of the others, which restores safety.
     """
-    spoken_of = frozenset[int]().union(*(executing_atoms(rule.formula) for rule in spec.reaction_rules))
+    mentioned = frozenset[int]().union(*(executing_atoms(rule.formula) for rule in spec.reaction_rules))
     for number, action in enumerate(spec.actions):
         alone = frozenset((number,))
-        sets = [chosen | alone for chosen in _compatible(spec, spoken_of - alone, work)]
+        sets = [chosen | alone for chosen in _compatible(spec, mentioned - alone, work)]
         if not action.effects:
             idle = [chosen for chosen in sets if not takes_effect(spec, chosen)]
             sets += [chosen | {other} for chosen in idle for other, each in enumerate(spec.actions) if each.effects]

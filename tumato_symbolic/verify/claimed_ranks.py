@@ -58,13 +58,13 @@ class ClaimedRanks:
             for goal in certificate.goals:
                 executed = frozenset(actions[name] for name in goal.executed)
                 key = Residual(frozenset(bodies[text] for text in goal.bodies), executed)
-                spoken = frozenset[int]().union(*(executing_atoms(spec.bodies[body].formula) for body in key.bodies))
+                mentioned = frozenset[int]().union(*(executing_atoms(spec.bodies[body].formula) for body in key.bodies))
                 if key in self.roots:
                     self.reject(f"it ranks {self.described(key)} twice")
                     return
-                if not executed <= spoken:
-                    unspoken = action_names(spec, executed - spoken)[0]
-                    self.reject(f"`Executed` has {unspoken}, of which its goal does not speak")
+                if not executed <= mentioned:
+                    other = action_names(spec, executed - mentioned)[0]
+                    self.reject(f"`Executed` has {other}, which its goal does not mention")
                     return
                 self.roots[key] = goal.root
 
@@ -74,7 +74,7 @@ class ClaimedRanks:
         return self.use.status in ("unneeded", "used", "incomplete")
 
     @property
-    def speaks_of_unsafe(self) -> bool:
+    def covers_unsafe(self) -> bool:
         """Whether numbers at unsafe states claim something too: where it tells how these are left in several steps."""
         return self.restoring is not None
 

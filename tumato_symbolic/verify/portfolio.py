@@ -49,7 +49,7 @@ class Prover(Protocol):
     def has_valid_state(self) -> bool:
         """Whether some state is valid, as far as can be told."""
 
-    def ahead(
+    def prove_parts(
         self, names: Sequence[PropertyName], jobs: int, started: Callable[[PropertyName], None]
     ) -> Mapping[PropertyName, float]:
         """Prepare for properties that will be asked; have up to `jobs` child processes prove parts of them, if it pays.
@@ -130,11 +130,11 @@ class _Pair:
         found = self._first.valid_states()
         return self._explicit.valid_states() if found is None and "_explicit" in self.__dict__ else found
 
-    def ahead(
+    def prove_parts(
         self, names: Sequence[PropertyName], jobs: int, started: Callable[[PropertyName], None]
     ) -> Mapping[PropertyName, float]:
         """What the walk has children do."""
-        return self._walk.ahead(names, jobs, started)
+        return self._walk.prove_parts(names, jobs, started)
 
     @property
     def _first(self) -> Z3Prover | WalkProver:
@@ -204,13 +204,13 @@ class _Auto(_Pair):
         yield lambda: self._z3.prove(name)
         yield lambda: self._explicit.prove(name)
 
-    def ahead(
+    def prove_parts(
         self, names: Sequence[PropertyName], jobs: int, started: Callable[[PropertyName], None]
     ) -> Mapping[PropertyName, float]:
         """What the walk has children do, where it has to answer."""
         if not self._is_large or self._may_be_little:
             return {}
-        return self._walk.ahead(names, jobs, started, SOON_REMEMBERED)
+        return self._walk.prove_parts(names, jobs, started, SOON_REMEMBERED)
 
     @property
     def _first(self) -> Z3Prover | WalkProver:

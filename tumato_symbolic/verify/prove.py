@@ -65,19 +65,19 @@ def verify(
     context, asked = context or Context(), _asked(properties, spec)
     bound = bind(policy, spec)
     decisions = Decisions(spec, bound)
-    judged, source = _ordering(spec, ordering)
+    used, source = _ordering(spec, ordering)
     results: list[PropertyResult] = []
     if ordering is None and made_for_less(bound, spec):
         results.append(PropertyResult("ordering", "refuted", refutation=Refutation("ordering")))
     if restoration is None and restores_less(bound, spec):
         results.append(PropertyResult("restoration", "refuted", refutation=Refutation("restoration")))
-    so_far = Verification("undecided", (), judged, source, CertificateUse("unneeded"), None)
+    so_far = Verification("undecided", (), used, source, CertificateUse("unneeded"), None)
     if spec.restores_stepwise:
         so_far = replace(so_far, restoration=spec.restoration)
     try:
         _learn(context, so_far, results, asked)
         context.tell("looking for a valid state")
-        chosen = make_prover(prover, spec, bound, judged, Budget(timeout, context))
+        chosen = make_prover(prover, spec, bound, used, Budget(timeout, context))
         if not chosen.has_valid_state():
             message = "no state satisfies all assumptions, so there is nothing to decide"
             raise UserError((Diagnostic(Code.TUM312, message, help="drop or weaken an assumption"),))
@@ -86,7 +86,7 @@ def verify(
             so_far = replace(so_far, certificate=chosen.use)
             _learn(context, so_far, results, asked)
             if result.refutation is not None and result.refutation.kind == "missing":
-                refutation = with_departure(result.refutation, spec, decisions, judged, context)
+                refutation = with_departure(result.refutation, spec, decisions, used, context)
                 results[-1] = replace(result, refutation=refutation)
         context.tell("counting the valid states")
         return _counted(_with(so_far, results), decisions, spec, chosen.valid_states())
@@ -96,7 +96,7 @@ def verify(
 
 def _results(prover: Prover, asked: Sequence[PropertyName], jobs: int, context: Context) -> Iterator[PropertyResult]:
     """The verdicts on the properties, one after the other. Raises `LimitReachedError`."""
-    ahead: Mapping[PropertyName, float] = {}
+    spent: Mapping[PropertyName, float] = {}
     together = [name for name in asked if name != "total"]
 
     def begin(name: PropertyName) -> None:
@@ -104,13 +104,13 @@ def _results(prover: Prover, asked: Sequence[PropertyName], jobs: int, context: 
 
     for name in asked:
         if name in together[:1]:
-            ahead = prover.ahead(together, jobs, begin)
+            spent = prover.prove_parts(together, jobs, begin)
         begin(name)
         started = time.perf_counter()
         result = prover.prove(name)
         if result.verdict == "undecided":
             context.check()
-        yield replace(result, seconds=ahead.get(name, 0.0) + time.perf_counter() - started)
+        yield replace(result, seconds=spent.get(name, 0.0) + time.perf_counter() - started)
 
 
 def _with(so_far: Verification, results: Sequence[PropertyResult], asked: Sequence[PropertyName] = ()) -> Verification:

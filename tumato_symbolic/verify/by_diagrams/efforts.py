@@ -72,9 +72,9 @@ class WalkEfforts:
                 for action, chosen in enumerate(model.chosen):
                     then = walk.apply(max, then, walk.select(chosen, (FALSE, self._largest_after(action, then))))
         actions = [(action, model.chosen[action]) for action, each in enumerate(model.spec.actions) if each.effects]
-        struck = [walk.select(chosen, (FALSE, self._largest_after(action, then))) for action, chosen in actions]
+        after_effect = [walk.select(chosen, (FALSE, self._largest_after(action, then))) for action, chosen in actions]
         takes_effect = walk.any_of(chosen for _, chosen in actions)
-        found = walk.select(takes_effect, (number, walk.apply_all(max, [FALSE, *struck])))
+        found = walk.select(takes_effect, (number, walk.apply_all(max, [FALSE, *after_effect])))
         if self._ordering == "any":  # then all nominal effects in turn are an outcome
             return found
         return walk.apply(max, found, walk.compose(number, model.successor(model.chosen)))
@@ -186,7 +186,7 @@ class WalkEfforts:
 
     # What a certificate says
 
-    def given(self, restoring: Restoring) -> tuple[Function, Function]:
+    def claimed(self, restoring: Restoring) -> tuple[Function, Function]:
         """The worst and nominal efforts of a certificate, for all unsafe states; `never` where there is none."""
         walk, model = self._walk, self._model
         taken = walk.import_diagram(restoring.efforts, self.number)
@@ -200,7 +200,7 @@ class WalkEfforts:
         return self._walk.apply(operator.eq, number, self.never)
 
     def false_efforts(self, worst: Function, nominal: Function) -> Function:
-        """The states where a given effort does not follow from those after the decision."""
+        """The states where a claimed effort does not follow from those after the decision."""
         walk, model = self._walk, self._model
         enough = walk.apply(operator.ge, worst, self.after_policy(worst))
         claimed = walk.negation(self.is_never(worst))

@@ -28,8 +28,8 @@ class WalkGoals:
         """`region` by the residual goal that its states have when `executed` is the first set."""
         found = []
         for bodies, part in self._split(region, self.active):
-            spoken = frozenset[int]().union(*(executing_atoms(self._spec.bodies[body].formula) for body in bodies))
-            cases = self._split(part, {action: executed[action] for action in sorted(spoken)})
+            mentioned = frozenset[int]().union(*(executing_atoms(self._spec.bodies[body].formula) for body in bodies))
+            cases = self._split(part, {action: executed[action] for action in sorted(mentioned)})
             found += [(Residual(bodies, those), case) for those, case in cases]
         return found
 

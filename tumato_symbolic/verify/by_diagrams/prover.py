@@ -39,7 +39,7 @@ class WalkProver:
         self._policy = policy
         self._ordering = ordering
         self._budget = budget or Budget()
-        self._ahead = ParallelProofs()
+        self._parallel = ParallelProofs()
         self.policy_is_safe = False
 
     @property
@@ -52,21 +52,21 @@ class WalkProver:
 
         `most` is how many results may be remembered for it alone.
         """
-        before = (self._ranks.use, self._ranks.roots) if self._ahead.answers else None
+        before = (self._ranks.use, self._ranks.roots) if self._parallel.answers else None
         try:
-            self._model.walk.deadline = self._budget.until(self._ahead.seconds.get(name, 0.0))
+            self._model.walk.deadline = self._budget.until(self._parallel.seconds.get(name, 0.0))
             self._model.walk.check_time()
             result = self._within(most, self._proof(name, most))
         except (BudgetError, RecursionError) as error:
             if before is not None and most is None and self._model.walk.is_full:
                 self._ranks.use, self._ranks.roots = before
-                self._ahead.forget(self._model.walk)
+                self._parallel.forget(self._model.walk)
                 return self.prove(name)
             return PropertyResult(name, "undecided", reason=given_up(error))
         self.policy_is_safe |= name == "safe" and result.verdict == "proved"
         return result
 
-    def ahead(
+    def prove_parts(
         self,
         names: Sequence[PropertyName],
         jobs: int,
@@ -85,20 +85,20 @@ class WalkProver:
         try:
             tasks = self._tasks(names, most) if jobs > 1 else []
             if len(tasks) > 1:
-                self._ahead.ask(self._model.walk, tasks, jobs, self._budget, started)
+                self._parallel.ask(self._model.walk, tasks, jobs, self._budget, started)
             else:
                 self._prepare()
         except (BudgetError, RecursionError, OSError):
             return {}
-        return self._ahead.seconds
+        return self._parallel.seconds
 
     def _prepare(self) -> None:
         """Compute once what the proofs of `goals` and `minimal` have in common."""
-        if "goals" not in self._ahead.seconds:
+        if "goals" not in self._parallel.seconds:
             began = time.monotonic()
             self._model.walk.deadline = self._budget.until()
             self._ranks.prepare()
-            self._ahead.seconds["goals"] = time.monotonic() - began
+            self._parallel.seconds["goals"] = time.monotonic() - began
 
     def _tasks(self, names: Sequence[PropertyName], most: int | None) -> list[Task]:
         """What children do: nothing where the certificate does not serve."""
@@ -120,7 +120,7 @@ class WalkProver:
             case "total":
                 return self._total
             case "safe":
-                return lambda: self._ahead.take(("safe", most), self._safe)
+                return lambda: self._parallel.take(("safe", most), self._safe)
             case "restoring":
                 return lambda: self._stepwise.restoring(lambda: self._not_allowed == FALSE)
             case "goals":
@@ -199,7 +199,7 @@ class WalkProver:
     def _goals(self) -> PropertyResult:
         model, walk, ranks = self._model, self._model.walk, self._ranks
         pending = self._pending(walk.without(model.decided, self._not_allowed))
-        result = self._by_certificate(pending) if ranks.check_given(self._decreases) else None
+        result = self._by_certificate(pending) if ranks.check_claimed(self._decreases) else None
         if result is not None:
             return result
         missed = walk.any_of(self._missing(where, ranks.near(goal)) for goal, where in pending)
@@ -223,7 +223,7 @@ class WalkProver:
         return [(goal, where) for goal, where in parts if where != FALSE]
 
     def _decreases(self, goal: Residual) -> bool:
-        return self._ahead.take(("decreases", goal), partial(self._ranks.decreases, goal))
+        return self._parallel.take(("decreases", goal), partial(self._ranks.decreases, goal))
 
     def _by_certificate(self, pending: list[tuple[Residual, Function]]) -> PropertyResult | None:
         """The proof with the ranks that came with the policy, or a failing run; None where they do not serve.
@@ -238,12 +238,12 @@ class WalkProver:
                     ranks.lacks(goal)
                     whole = False
                     continue
-                missed = self._missing(where, ranks.given_near(goal))
+                missed = self._missing(where, ranks.claimed_near(goal))
                 if missed == FALSE:
                     continue
                 state = model.first_state(missed)
                 failed, whole = failed or self._witnesses.goal_missed(state), False
-                if walk.all_of((where, model.next(ranks.given_far(goal)))) != FALSE:
+                if walk.all_of((where, model.next(ranks.claimed_far(goal)))) != FALSE:
                     ranks.reject(f"its ranks of {ranks.described(goal)} exceed the bound")
                     return failed
                 ranks.lacks(goal, state)
@@ -261,7 +261,7 @@ class WalkProver:
         return self._model.walk.without(where, self._model.next(near))
 
     def _minimal_joined(self) -> PropertyResult:
-        result, use = self._ahead.take(self._minimal_key, self._minimal_apart)
+        result, use = self._parallel.take(self._minimal_key, self._minimal_apart)
         self._ranks.join(use)
         return result
 

@@ -1,4 +1,4 @@
-"""From where runs reach a residual goal soon enough: by given ranks as far as they hold, otherwise layer by layer."""
+"""From where runs reach a residual goal soon enough: by claimed ranks as far as they hold, otherwise layer by layer."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def at_most_one_more(one: int, other: int) -> int:
 class WalkRanks(ClaimedRanks):
     """What a step must lead to: states that the policy leads to a residual goal in at most `L - 1` steps.
 
-    Given ranks speak of safe states, and of all valid ones where efforts came with them; those computed here of all.
+    Claimed ranks speak of safe states, and of all valid ones where efforts came with them; those computed here of all.
     """
 
     def __init__(self, model: ClosedLoop, goals: WalkGoals, policy: Policy, policy_is_safe: Callable[[], bool]) -> None:
@@ -39,28 +39,28 @@ class WalkRanks(ClaimedRanks):
             self._near[goal] = self._goals.within(goal)
         return self._near[goal]
 
-    def given_near(self, goal: Residual) -> Function:
+    def claimed_near(self, goal: Residual) -> Function:
         """These states, by the ranks that came with the policy."""
         bound = self._model.spec.max_plan_length
         largest = self._never if bound is None else min(bound, self._never)
         walk = self._model.walk
-        near = walk.apply(operator.lt, self._given(goal), walk.constant(largest))
-        return walk.all_of((near, self._spoken_of)) if self._model.spec.restores_stepwise else near
+        near = walk.apply(operator.lt, self._claimed(goal), walk.constant(largest))
+        return walk.all_of((near, self._covered)) if self._model.spec.restores_stepwise else near
 
-    def given_far(self, goal: Residual) -> Function:
-        """The states with a given rank that is a number, and too large."""
+    def claimed_far(self, goal: Residual) -> Function:
+        """The states with a claimed rank that is a number, and too large."""
         walk = self._model.walk
-        ranked = walk.apply(operator.lt, self._given(goal), walk.constant(self._never))
+        ranked = walk.apply(operator.lt, self._claimed(goal), walk.constant(self._never))
         if self._model.spec.restores_stepwise:
-            ranked = walk.all_of((ranked, self._spoken_of))
-        return walk.without(ranked, self.given_near(goal))
+            ranked = walk.all_of((ranked, self._covered))
+        return walk.without(ranked, self.claimed_near(goal))
 
     def prepare(self) -> None:
-        """Compute what given ranks have in common, whatever their goals."""
+        """Compute what claimed ranks have in common, whatever their goals."""
         if self.roots:
-            self._taken, self._spoken_of_after  # noqa: B018 - cached
+            self._imported, self._covered_after  # noqa: B018 - cached
 
-    def check_given(self, decreases: Callable[[Residual], bool]) -> bool:
+    def check_claimed(self, decreases: Callable[[Residual], bool]) -> bool:
         """Whether there is a certificate all of whose ranks decrease; a false one is set aside."""
         if not self.stands or (self.use != UNNEEDED and not self._model.spec.restores_stepwise):
             return False
@@ -71,12 +71,12 @@ class WalkRanks(ClaimedRanks):
         return True
 
     def near_at_least(self, goal: Residual) -> Function:
-        """These states and perhaps more, by given ranks that are nowhere too large, else exactly these."""
+        """These states and perhaps more, by claimed ranks that are nowhere too large, else exactly these."""
         if goal not in self.roots:
             if self.roots:
                 self.lacks(goal)
             return self.near(goal)
-        if self._model.spec.restores_stepwise and not self.speaks_of_unsafe:
+        if self._model.spec.restores_stepwise and not self.covers_unsafe:
             return self.near(goal)
         if goal not in self._lower_bounds:
             self._lower_bounds[goal] = self._is_lower_bound(goal)
@@ -84,9 +84,9 @@ class WalkRanks(ClaimedRanks):
             self.inexact(goal)
             return self.near(goal)
         self.serve()
-        return self.given_near(goal)
+        return self.claimed_near(goal)
 
-    # Given ranks `N`: a number for every state, `never` where there is none
+    # Claimed ranks `N`: a number for every state, `never` where there is none
 
     @cached_property
     def _never(self) -> int:
@@ -95,7 +95,7 @@ class WalkRanks(ClaimedRanks):
         return max((leaf for leaf in leaves if leaf is not None), default=0) + 2
 
     @cached_property
-    def _taken(self) -> list[Function]:
+    def _imported(self) -> list[Function]:
         """The functions of the certificate, by reference."""
         if self._certificate is None:
             return []
@@ -103,36 +103,36 @@ class WalkRanks(ClaimedRanks):
             self._certificate.ranks, lambda rank: self._never if rank is None else rank
         )
 
-    def _given(self, goal: Residual) -> Function:
-        return self._taken[self.roots[goal]]
+    def _claimed(self, goal: Residual) -> Function:
+        return self._imported[self.roots[goal]]
 
     def decreases(self, goal: Residual) -> bool:
         """`N = 0` only where the goal is met, and from `N = j > 0` a step to a state with a smaller rank."""
         model, walk = self._model, self._model.walk
-        here = self._given(goal)
+        here = self._claimed(goal)
         after = model.next(here)
         known = walk.apply(operator.lt, here, walk.constant(self._never))
         at_goal = walk.apply(operator.eq, here, walk.constant(0))
-        goes_down = walk.all_of((model.acting, self._spoken_of_after, walk.apply(operator.lt, after, here)))
+        goes_down = walk.all_of((model.acting, self._covered_after, walk.apply(operator.lt, after, here)))
         right = walk.select(at_goal, (goes_down, self._goals.reached(goal)))
-        return walk.without(walk.all_of((self._spoken_of, known)), right) == FALSE
+        return walk.without(walk.all_of((self._covered, known)), right) == FALSE
 
     def _is_lower_bound(self, goal: Residual) -> bool:
-        """`N = 0` where the goal is met, and nowhere more than one above the next state's, which is spoken of."""
+        """`N = 0` where the goal is met, and nowhere more than one above the next state's, which has a rank."""
         model, walk = self._model, self._model.walk
-        here = self._given(goal)
+        here = self._claimed(goal)
         after = model.next(here)
-        follows = walk.all_of((self._spoken_of_after, walk.apply(at_most_one_more, here, after)))
+        follows = walk.all_of((self._covered_after, walk.apply(at_most_one_more, here, after)))
         at_goal = walk.apply(operator.eq, here, walk.constant(0))
         wrong = walk.select(self._goals.reached(goal), (walk.without(model.acting, follows), walk.negation(at_goal)))
-        return walk.all_of((self._spoken_of, wrong)) == FALSE
+        return walk.all_of((self._covered, wrong)) == FALSE
 
     @property
-    def _spoken_of(self) -> Function:
+    def _covered(self) -> Function:
         """Where a number claims something: in `S`; where efforts came with the ranks, in `V`."""
-        return self._model.valid if self.speaks_of_unsafe else self._model.safe
+        return self._model.valid if self.covers_unsafe else self._model.safe
 
     @property
-    def _spoken_of_after(self) -> Function:
+    def _covered_after(self) -> Function:
         """`δ(s, π(s))` is such a state, where the policy acts."""
-        return self._model.next(self._spoken_of)
+        return self._model.next(self._covered)

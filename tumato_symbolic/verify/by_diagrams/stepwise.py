@@ -32,7 +32,7 @@ class Stepwise:
         self._efforts = WalkEfforts(model, ordering)
         self._witnesses = RestoringWitnesses(model.spec, decisions, ordering)
         self._looked_at = False
-        self._given: tuple[Function, Function] | None = None
+        self._claimed: tuple[Function, Function] | None = None
 
     @property
     def _fair(self) -> bool:
@@ -48,7 +48,7 @@ class Stepwise:
                 self._ranks.tells_nothing_of_restoring()
             self._looked_at = True
             return
-        worst, nominal = self._efforts.given(restoring)
+        worst, nominal = self._efforts.claimed(restoring)
         wrong = self._efforts.false_efforts(worst, nominal)
         self._looked_at = True
         if wrong != FALSE:
@@ -58,7 +58,7 @@ class Stepwise:
         if missing != FALSE:
             self._ranks.lacks_effort(self._model.first_state(missing))
         self._ranks.serve()
-        self._given = worst, nominal
+        self._claimed = worst, nominal
 
     def _lost(self, worst: Function, nominal: Function) -> Function:
         """The states without either effort."""
@@ -67,7 +67,7 @@ class Stepwise:
 
     @cached_property
     def _worst(self) -> Function:
-        return self._efforts.exact_worst(self._given[0] if self._given is not None else None)
+        return self._efforts.exact_worst(self._claimed[0] if self._claimed is not None else None)
 
     @cached_property
     def _nominal(self) -> Function:
@@ -80,7 +80,7 @@ class Stepwise:
         """Every unsafe state is restored as it has to be."""
         self._look_at_the_certificate()
         proved = PropertyResult("restoring", "proved", len(self._model.tiers), "walk")
-        if self._given is not None and (not self._fair or policy_is_safe()) and self._lost(*self._given) == FALSE:
+        if self._claimed is not None and (not self._fair or policy_is_safe()) and self._lost(*self._claimed) == FALSE:
             return proved
         lost = self._lost(self._worst, self._nominal)
         return proved if lost == FALSE else self._witnesses.not_restored(self._model.first_state(lost))
@@ -112,12 +112,12 @@ class Stepwise:
 
     def _look_closer(self) -> None:
         """Say whether the efforts of the certificate are what it takes."""
-        if self._given is None:
+        if self._claimed is None:
             return
         walk, efforts = self._walk, self._efforts
         nominal = walk.select(efforts.is_never(self._worst), (efforts.never, self._nominal))
-        pairs = zip(self._given, (self._worst, nominal), strict=True)
-        same = walk.all_of(walk.apply(operator.eq, given, exact) for given, exact in pairs)
+        pairs = zip(self._claimed, (self._worst, nominal), strict=True)
+        same = walk.all_of(walk.apply(operator.eq, claimed, exact) for claimed, exact in pairs)
         inexact = walk.without(walk.without(self._model.decided, self._model.safe), same)
         if inexact != FALSE:
             self._ranks.inexact_effort(self._model.first_state(inexact))

@@ -78,28 +78,30 @@ class Walk(Functions):
             self._remember(known, (one, other), found)
         return found
 
-    def compose(self, function: Function, given: Mapping[int, Function]) -> Function:
+    def compose(self, function: Function, replacements: Mapping[int, Function]) -> Function:
         """`function` with other functions for some of its variables, all at once."""
-        return self._compose(function, *self._composition(given))
+        return self._compose(function, *self._composition(replacements))
 
-    def _composition(self, given: Mapping[int, Function]) -> tuple[dict[int, Function], int, dict[Function, Function]]:
-        """What is given by level, the deepest level, and what is known of this composition."""
-        by_level = {self.level_of[variable]: replacement for variable, replacement in given.items()}
-        return by_level, max(by_level, default=-1), self._composed.setdefault(tuple(sorted(given.items())), {})
+    def _composition(
+        self, replacements: Mapping[int, Function]
+    ) -> tuple[dict[int, Function], int, dict[Function, Function]]:
+        """The replacements by level, the deepest level, and what is known of this composition."""
+        by_level = {self.level_of[variable]: replacement for variable, replacement in replacements.items()}
+        return by_level, max(by_level, default=-1), self._composed.setdefault(tuple(sorted(replacements.items())), {})
 
     def _compose(
-        self, function: Function, given: Mapping[int, Function], deepest: int, known: dict[Function, Function]
+        self, function: Function, replacements: Mapping[int, Function], deepest: int, known: dict[Function, Function]
     ) -> Function:
         level = self._levels[function]
         if level > deepest:
             return function
         found = known.get(function)
         if found is None:
-            number = given.get(level, -1)
+            number = replacements.get(level, -1)
             if number in self._values:
-                found = self._compose(self._below[function][self._values[number]], given, deepest, known)
+                found = self._compose(self._below[function][self._values[number]], replacements, deepest, known)
             else:
-                below = tuple([self._compose(part, given, deepest, known) for part in self._below[function]])
+                below = tuple([self._compose(part, replacements, deepest, known) for part in self._below[function]])
                 if number < 0 and all(self._levels[part] > level for part in below):
                     found = self._node(level, below)
                 else:
@@ -111,7 +113,7 @@ class Walk(Functions):
         self, where: Function, values: Mapping[int, int], function: Function, otherwise: Function
     ) -> Function:
         """Where a predicate holds, `function` with `values` for some of its variables; elsewhere `otherwise`."""
-        given = {self.level_of[variable]: value for variable, value in values.items()}
+        fixed = {self.level_of[variable]: value for variable, value in values.items()}
         everywhere = self._composition({variable: self.constant(value) for variable, value in values.items()})
         known: dict[tuple[Function, Function, Function], Function] = {}
 
@@ -120,8 +122,8 @@ class Walk(Functions):
                 return otherwise
             if where == TRUE:
                 return self._compose(function, *everywhere)
-            while self._levels[function] in given:
-                function = self._below[function][given[self._levels[function]]]
+            while self._levels[function] in fixed:
+                function = self._below[function][fixed[self._levels[function]]]
             key = (where, function, otherwise)
             found = known.get(key)
             if found is None:

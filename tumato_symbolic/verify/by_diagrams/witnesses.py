@@ -125,7 +125,7 @@ class Witnesses:
 
 
 def _replayed(state: State, steps: list[tuple[int, Assignment]]) -> EffectSequence:
-    """The states met when effects strike in this order."""
+    """The states met when effects happen in this order."""
     way = []
     for number, effect in steps:
         state = apply(effect, state)

@@ -15,9 +15,11 @@ from tumato_symbolic.verify.claimed_ranks import ClaimedRanks
 class Claims:
     """The numbers that a certificate gives to states."""
 
-    def __init__(self, spec: Spec, packing: Packing, runs: Runs, certificate: Certificate, given: ClaimedRanks) -> None:
+    def __init__(
+        self, spec: Spec, packing: Packing, runs: Runs, certificate: Certificate, claimed: ClaimedRanks
+    ) -> None:
         self._spec, self._packing, self._runs = spec, packing, runs
-        self._ranks, self._given = certificate.ranks, given
+        self._ranks, self._claimed = certificate.ranks, claimed
 
     def look(self, claimed: Iterable[Code], pending: Mapping[Code, ActionSet]) -> None:
         """Say what became of the certificate: wrong where a number is false, incomplete where one is missing.
@@ -25,13 +27,13 @@ class Claims:
         `claimed` are all states where a number claims something; `pending` the decided states with an allowed decision,
         and that decision.
         """
-        if not self._given.stands:
+        if not self._claimed.stands:
             return
         states = list(claimed)
-        numbers = {goal: self._numbers(goal, states) for goal in self._given.roots}
+        numbers = {goal: self._numbers(goal, states) for goal in self._claimed.roots}
         for goal, known in numbers.items():
             if not all(self._is_true(goal, known, code, number) for code, number in known.items()):
-                self._given.reject(f"the ranks of {self._given.described(goal)} do not go down to it")
+                self._claimed.reject(f"the ranks of {self._claimed.described(goal)} do not go down to it")
                 return
         self._look_at_the_bound(numbers, pending)
 
@@ -44,20 +46,20 @@ class Claims:
             number = numbers.get(goal, {}).get(after)
             if number is None:
                 if whole:
-                    self._given.lacks(goal, self._packing.unpack(code) if goal in numbers else None)
+                    self._claimed.lacks(goal, self._packing.unpack(code) if goal in numbers else None)
                 whole = False
             elif bound is not None and number >= bound:
-                self._given.reject(f"its ranks of {self._given.described(goal)} exceed the bound")
+                self._claimed.reject(f"its ranks of {self._claimed.described(goal)} exceed the bound")
                 return
         if whole:
-            self._given.serve()
+            self._claimed.serve()
 
     def _nothing_pending(self, code: Code) -> bool:
         """Whether nothing is pending without an active goal. In several steps, unsafe states have to become safe."""
         return not self._spec.restores_stepwise or self._runs.is_safe(code)
 
     def _numbers(self, goal: Residual, states: list[Code]) -> dict[Code, int]:
-        root, found = self._given.roots[goal], dict[Code, int]()
+        root, found = self._claimed.roots[goal], dict[Code, int]()
         for code in states:
             number = self._ranks.evaluate(root, self._packing.unpack(code))
             if number is not None:
@@ -65,7 +67,7 @@ class Claims:
         return found
 
     def _is_true(self, goal: Residual, known: dict[Code, int], code: Code, number: int) -> bool:
-        """0 where the goal holds; otherwise more than that of the next state, which is spoken of and has one."""
+        """0 where the goal holds; otherwise more than that of the next state, if that has one."""
         if number == 0:
             return self._runs.reached(goal, code)
         after = self._runs.follower(code)

@@ -50,7 +50,7 @@ class StateProver:
     @property
     def use(self) -> CertificateUse:
         """What became of the certificate."""
-        return self._given.use if "_given" in self.__dict__ else CertificateUse("unneeded")
+        return self._claimed.use if "_claimed" in self.__dict__ else CertificateUse("unneeded")
 
     @property
     def work(self) -> int | None:
@@ -92,7 +92,7 @@ class StateProver:
         self.policy_is_safe |= name == "safe" and result.verdict == "proved"
         return result
 
-    def ahead(
+    def prove_parts(
         self, names: Sequence[PropertyName], jobs: int, started: Callable[[PropertyName], None]
     ) -> dict[PropertyName, float]:
         """Nothing: one process looks at all states."""
@@ -143,7 +143,7 @@ class StateProver:
         return Runs(self._spec, self._packing, self._steps, self._decided or {}, self._spend)
 
     @cached_property
-    def _given(self) -> ClaimedRanks:
+    def _claimed(self) -> ClaimedRanks:
         return ClaimedRanks(
             self._spec,
             self._policy,
@@ -179,21 +179,21 @@ class StateProver:
         return PropertyResult("goals", "refuted", refutation=Refutation("goal-missed", state, chosen, run=run))
 
     def _look_at_the_certificate(self, decided: Mapping[Code, ActionSet]) -> None:
-        given, certificate = self._given, self._policy.certificate
+        claimed, certificate = self._claimed, self._policy.certificate
         if certificate is None:
             return
-        claims = Claims(self._spec, self._packing, self._runs, certificate, given)
+        claims = Claims(self._spec, self._packing, self._runs, certificate, claimed)
         try:
-            claims.look(self._spoken_of(decided), self._allowed)
+            claims.look(self._covered(decided), self._allowed)
         except TooManyError as many:
             if self._most is not None:
                 raise
-            given.fall_short(str(many))
+            claimed.fall_short(str(many))
 
-    def _spoken_of(self, decided: Mapping[Code, ActionSet]) -> Iterator[Code]:
+    def _covered(self, decided: Mapping[Code, ActionSet]) -> Iterator[Code]:
         """All states where a rank claims something: the safe ones, decided or not; in several steps the unsafe too."""
         every = self._every_valid(decided)
-        return every if self._given.speaks_of_unsafe else filter(self._steps.is_safe, every)
+        return every if self._claimed.covers_unsafe else filter(self._steps.is_safe, every)
 
     def _every_valid(self, decided: Mapping[Code, ActionSet]) -> Iterator[Code]:
         """All valid states, decided or not."""
@@ -215,7 +215,7 @@ class StateProver:
 
     @cached_property
     def _restoring_claims(self) -> RestoringClaims:
-        return RestoringClaims(self._packing, self._several_steps, self._given)
+        return RestoringClaims(self._packing, self._several_steps, self._claimed)
 
     def _look_at_restoring(self, decided: Mapping[Code, ActionSet]) -> None:
         try:
@@ -223,7 +223,7 @@ class StateProver:
         except TooManyError as many:
             if self._most is not None:
                 raise
-            self._given.fall_short(str(many))
+            self._claimed.fall_short(str(many))
 
     def _prove_restoring(self, decided: Mapping[Code, ActionSet]) -> PropertyResult:
         lost = next(self._several_steps.not_restored(), None)

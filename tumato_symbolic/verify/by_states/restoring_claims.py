@@ -14,8 +14,8 @@ from tumato_symbolic.verify.claimed_ranks import ClaimedRanks
 class RestoringClaims:
     """The efforts that a certificate gives to unsafe states, and its deviations."""
 
-    def __init__(self, packing: Packing, several_steps: SeveralSteps, given: ClaimedRanks) -> None:
-        self._packing, self._several_steps, self._given = packing, several_steps, given
+    def __init__(self, packing: Packing, several_steps: SeveralSteps, claimed: ClaimedRanks) -> None:
+        self._packing, self._several_steps, self._claimed = packing, several_steps, claimed
         self._spec, self._steps, self._runs = several_steps.spec, several_steps.steps, several_steps.runs
         self._worst: dict[Code, Effort] = {}
         self._nominal: dict[Code, Effort] = {}
@@ -26,27 +26,27 @@ class RestoringClaims:
 
         `valid` are all valid states.
         """
-        given = self._given
+        claimed = self._claimed
         acting = [code for code in self._several_steps.unsafe if self._acts(code)]
-        if not given.stands or (given.restoring is None and not acting):
+        if not claimed.stands or (claimed.restoring is None and not acting):
             return
-        if given.restoring is None:
-            given.tells_nothing_of_restoring()
+        if claimed.restoring is None:
+            claimed.tells_nothing_of_restoring()
             return
-        self._read(given.restoring, [code for code in valid if not self._steps.is_safe(code)])
+        self._read(claimed.restoring, [code for code in valid if not self._steps.is_safe(code)])
         for code in (*self._worst, *self._nominal):
             if not self._is_true(code):
-                given.false_effort(self._packing.unpack(code))
+                claimed.false_effort(self._packing.unpack(code))
                 return
         missing = next((code for code in acting if code not in self._worst and code not in self._nominal), None)
         if missing is not None:
-            given.lacks_effort(self._packing.unpack(missing))
-        given.serve()
+            claimed.lacks_effort(self._packing.unpack(missing))
+        claimed.serve()
 
     def look_closer(self) -> None:
         """Say whether the efforts are what it takes, and whether the deviations are true. After `look`."""
-        given, efforts = self._given, self._several_steps.efforts
-        if given.restoring is None:
+        claimed, efforts = self._claimed, self._several_steps.efforts
+        if claimed.restoring is None:
             return
         for code, chosen in self._several_steps.unsafe.items():
             exact = efforts.worst.get(code)
@@ -54,11 +54,11 @@ class RestoringClaims:
             if exact is None and self._spec.restoration == "fair" and self._acts(code):
                 nominal = efforts.nominal(code, chosen)
             if (self._worst.get(code), self._nominal.get(code)) != (exact, nominal):
-                given.inexact_effort(self._packing.unpack(code))
+                claimed.inexact_effort(self._packing.unpack(code))
                 break
-        for deviation in given.restoring.deviations:
+        for deviation in claimed.restoring.deviations:
             if not self._misses(deviation):
-                given.false_deviation(deviation)
+                claimed.false_deviation(deviation)
                 return
             state, missed = self._packing.pack(deviation.state), self._packing.pack(deviation.missed)
             self._listed[state, deviation.better] = missed
@@ -69,8 +69,8 @@ class RestoringClaims:
 
     def deviates(self, code: Code, chosen: ActionSet) -> None:
         """A better set is not chosen: the certificate should tell why."""
-        if self._given.restoring is not None and (code, chosen) not in self._listed:
-            self._given.lacks_deviation(self._packing.unpack(code), chosen)
+        if self._claimed.restoring is not None and (code, chosen) not in self._listed:
+            self._claimed.lacks_deviation(self._packing.unpack(code), chosen)
 
     def _read(self, restoring: Restoring, unsafe: Iterable[Code]) -> None:
         self._worst, self._nominal = {}, {}

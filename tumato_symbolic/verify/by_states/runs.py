@@ -35,8 +35,8 @@ class Runs:
             everything = frozenset(range(len(self._spec.actions)))
             goal = residual_goal(self._spec, self._packing.unpack(key), everything)
             self._active[key] = goal.bodies, goal.executed
-        bodies, spoken_of = self._active[key]
-        return Residual(bodies, chosen & spoken_of)
+        bodies, mentioned = self._active[key]
+        return Residual(bodies, chosen & mentioned)
 
     def serves(self, code: Code, chosen: ActionSet) -> bool:
         """Whether the run that begins with a set and goes on with the policy reaches its residual goal in 1 to `L`."""

@@ -106,7 +106,7 @@ class Steps:
         return self._nominal[chosen]
 
     def writes(self, chosen: ActionSet) -> list[tuple[int, int]]:
-        """What the outcomes of a set write. Raises `TooManyError` where they strike in too many ways."""
+        """What the outcomes of a set write. Raises `TooManyError` where they can interleave in too many ways."""
         found = self._writes.get(chosen)
         if found is None:
             if self._ordering == "any" and ways(self._spec, chosen) > MOST_WAYS:

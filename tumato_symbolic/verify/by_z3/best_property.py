@@ -243,7 +243,7 @@ class _Search:
             return True
         goal = residual_goal(spec, state, chosen)
         known = self.ranked.get(goal)
-        if not self._source.policy_is_safe or (known is not None and not known.given):
+        if not self._source.policy_is_safe or (known is not None and not known.claimed):
             self.exclude(state, chosen)
             return False
         ranks = self._source.ranks

@@ -26,7 +26,7 @@ class EffortSource:
         self.policy_is_safe = policy_is_safe
         self._checked: Efforts | None = None
 
-    def given(self) -> Efforts | None:
+    def claimed(self) -> Efforts | None:
         """Those of the certificate, nowhere too small; None where that cannot be said. Raises `UndecidedError`."""
         restoring = self.ranks.restoring
         if restoring is None:
@@ -45,27 +45,27 @@ class EffortSource:
 
         So are nominal ones, as long as the policy can be looked at state by state.
         """
-        given = self.given()
-        too_large = None if given is None else given.too_large()
+        claimed = self.claimed()
+        too_large = None if claimed is None else claimed.too_large()
         if too_large is not None:
             self.ranks.inexact_effort(too_large)
-        if given is None or too_large is not None:
+        if claimed is None or too_large is not None:
             return self.recomputed
-        if not given.fair or given.nominal_is_exact():
-            return given
+        if not claimed.fair or claimed.nominal_is_exact():
+            return claimed
         try:
             found = self.recomputed
         except UndecidedError:
-            return given
-        self._compare(given.record, found.record)
+            return claimed
+        self._compare(claimed.record, found.record)
         return found
 
-    def _compare(self, given: Restoring, found: Restoring) -> None:
+    def _compare(self, claimed: Restoring, found: Restoring) -> None:
         """Heed where nominal efforts of the certificate are not those that the policy has."""
         for state in self._unsafe or ():
-            if given.efforts.evaluate(given.worst, state) is None:
+            if claimed.efforts.evaluate(claimed.worst, state) is None:
                 exact = found.efforts.evaluate(found.nominal, state)
-                if given.efforts.evaluate(given.nominal, state) != exact:
+                if claimed.efforts.evaluate(claimed.nominal, state) != exact:
                     self.ranks.inexact_effort(state)
                     return
 

@@ -23,23 +23,23 @@ class GoalTerms:
         """`Γ` of the state `place`."""
         return cls(spec, active_bodies(spec.goals, lambda condition: formula_term(condition, place), TERMS))
 
-    def spoken_of(self) -> dict[int, Term]:
-        """For every action that goal bodies speak of: one of these bodies is active."""
-        speakers: dict[int, list[Term]] = {}
+    def mentioned_actions(self) -> dict[int, Term]:
+        """For every action that goal bodies mention: one of these bodies is active."""
+        mentioning: dict[int, list[Term]] = {}
         for body, term in self.active.items():
             for action in executing_atoms(self.spec.bodies[body].formula):
-                speakers.setdefault(action, []).append(term)
-        return {action: disjunction(terms) for action, terms in sorted(speakers.items())}
+                mentioning.setdefault(action, []).append(term)
+        return {action: disjunction(terms) for action, terms in sorted(mentioning.items())}
 
     def is_residual(self, goal: Residual, executed: Sequence[Term]) -> Term:
         """The residual goal is `goal` when the actions of `executed` are the first set."""
         if not goal.bodies <= self.active.keys():
             return False
-        spoken = frozenset[int]().union(*(executing_atoms(self.spec.bodies[body].formula) for body in goal.bodies))
+        mentioned = frozenset[int]().union(*(executing_atoms(self.spec.bodies[body].formula) for body in goal.bodies))
         return conjunction(
             [
                 *(term if body in goal.bodies else negation(term) for body, term in self.active.items()),
-                *(executed[a] if a in goal.executed else negation(executed[a]) for a in sorted(spoken)),
+                *(executed[a] if a in goal.executed else negation(executed[a]) for a in sorted(mentioned)),
             ]
         )
 

@@ -26,8 +26,8 @@ def prove_goals(problem: PolicyProblem, source: RankSource) -> PropertyResult:
 def _residuals(problem: PolicyProblem) -> list[Residual]:
     """The residual goals of all acting states, in an order that does not depend on which Z3 finds first."""
     executed = {
-        action: problem.name(conjunction((problem.executed[action], spoken)), "x")
-        for action, spoken in problem.goals.spoken_of().items()
+        action: problem.name(conjunction((problem.executed[action], mentioned)), "x")
+        for action, mentioned in problem.goals.mentioned_actions().items()
     }
     found: list[Residual] = []
     deadline = problem.deadline()
@@ -52,17 +52,17 @@ def _by_certificate(problem: PolicyProblem, source: RankSource, goals: list[Resi
 
     After a failing run the other ranks are looked at all the same: they may be wrong as well.
     """
-    if not source.check_given():
+    if not source.check_claimed():
         return None
     failed, whole = None, True
     try:
         for goal in goals:
-            given = source.given(goal)
-            if given is None:
+            claimed = source.claimed(goal)
+            if claimed is None:
                 source.lacks(goal)
                 whole = False
                 continue
-            proof = RankProof(problem, given)
+            proof = RankProof(problem, claimed)
             state = proof.first_beyond(source.has_pending_goal)
             if state is None:
                 continue

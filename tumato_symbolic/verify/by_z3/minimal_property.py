@@ -93,7 +93,7 @@ class _Search:
     def _learn_ranks(self, goal: Residual) -> None:
         """A set with this residual goal steps to a state with a rank below the bound."""
         known = self.ranked.get(goal)
-        if known is not None and not known.given:
+        if known is not None and not known.claimed:
             raise RuntimeError(f"the ranks of {goal} hold, and a run takes longer")
         ranks = self.ranked[goal] = self._source.lower_bound(goal) if known is None else self._source.exact(goal)
         mine = self._problem.goals.is_residual(goal, self._choice.executed)

@@ -152,7 +152,7 @@ class AnyOutcome:
         ]
 
     def steps(self, model: Any) -> list[tuple[int, Assignment]]:  # noqa: ANN401 - z3 has no types
-        """The effects that strike in a model, in their order."""
+        """The effects that happen in a model, in their order."""
         used = [
             (model.eval(self._ranks[number], model_completion=True).as_long() if number in self._ranks else 0, number)
             for number, term in self._used.items()
@@ -190,8 +190,8 @@ class UnsafeOutcome(AnyOutcome):
     def objection(self, model: Any, state: State, chosen: ActionSet) -> Objection:  # noqa: ANN401 - z3 has no types
         """The outcome that a model gives, replayed, without the effects that are not needed."""
         steps = self.steps(model)
-        striking = {number for number, _ in steps} <= chosen
-        fault = fault_after(self._spec, state, chosen, replay(state, steps)) if steps and striking else None
+        acting = {number for number, _ in steps} <= chosen
+        fault = fault_after(self._spec, state, chosen, replay(state, steps)) if steps and acting else None
         if fault is None:
             raise RuntimeError(f"the outcome {steps} of {sorted(chosen)} in {state} is safe, against the solver")
         for step in list(steps):
@@ -225,7 +225,7 @@ def objections_to(
 
 
 def replay(state: State, steps: Sequence[tuple[int, tuple[tuple[int, int], ...]]]) -> EffectSequence:
-    """The states met when effects strike in this order."""
+    """The states met when effects happen in this order."""
     way = []
     for number, effect in steps:
         state = apply(effect, state)

@@ -80,7 +80,7 @@ class Z3Prover:
         self.policy_is_safe |= name == "safe" and result.verdict == "proved"
         return result
 
-    def ahead(
+    def prove_parts(
         self, names: Sequence[PropertyName], jobs: int, started: Callable[[PropertyName], None]
     ) -> dict[PropertyName, float]:
         """Nothing: what Z3 answers depends on what it was asked before."""

@@ -25,13 +25,11 @@ class RankSource(ClaimedRanks):
         self.ranks = Ranks(problem.spec, self.decisions)
         self._recomputed: dict[Residual, RankFunction] = {}
 
-    def given(self, goal: Residual) -> RankFunction | None:
+    def claimed(self, goal: Residual) -> RankFunction | None:
         """The ranks that came with the policy, unless they were set aside."""
         if self._certificate is None or goal not in self.roots:
             return None
-        return RankFunction(
-            goal, self._certificate.ranks, self.roots[goal], given=True, of_unsafe=self.speaks_of_unsafe
-        )
+        return RankFunction(goal, self._certificate.ranks, self.roots[goal], claimed=True, of_unsafe=self.covers_unsafe)
 
     def has_pending_goal(self, state: State) -> bool:
         """Whether the decision for `state` leaves a goal to be met: those that are not allowed are refuted already."""
@@ -39,15 +37,15 @@ class RankSource(ClaimedRanks):
             self._problem.spec, state, self.decisions[state], self._ordering, self._problem.deadline()
         )
 
-    def check_given(self) -> bool:
+    def check_claimed(self) -> bool:
         """Whether there is a certificate all of whose ranks decrease; a false one is set aside.
 
         Raises `UndecidedError`.
         """
-        if self.use != UNNEEDED and not (self.speaks_of_unsafe and self.stands):
+        if self.use != UNNEEDED and not (self.covers_unsafe and self.stands):
             return False
         for goal in self.roots:
-            ranks = self.given(goal)
+            ranks = self.claimed(goal)
             if ranks is not None and not RankProof(self._problem, ranks).decreases():
                 self.reject(f"the ranks of {self.described(goal)} do not go down to it")
                 return False
@@ -57,16 +55,16 @@ class RankSource(ClaimedRanks):
         """The ranks that the runs have. Needs a policy small enough to be followed."""
         if goal not in self._recomputed:
             diagram, root = self.ranks.diagram(goal)
-            self._recomputed[goal] = RankFunction(goal, diagram, root, given=False)
+            self._recomputed[goal] = RankFunction(goal, diagram, root, claimed=False)
         return self._recomputed[goal]
 
     def lower_bound(self, goal: Residual) -> RankFunction:
         """Ranks proved to be nowhere larger than the run is long. Raises `UndecidedError`."""
-        given = self.given(goal)
-        if given is not None:
-            if RankProof(self._problem, given).is_lower_bound():
+        claimed = self.claimed(goal)
+        if claimed is not None:
+            if RankProof(self._problem, claimed).is_lower_bound():
                 self.serve()
-                return given
+                return claimed
         elif self.roots:
             self.lacks(goal)
         return self.exact(goal)

@@ -43,14 +43,14 @@ def below(bound: float) -> Callable[[Rank], bool]:
 class RankFunction:
     """`N_c` of one residual goal: a rank or None for every state.
 
-    A *given* one comes with the policy; it speaks of safe states, or of all valid ones (`of_unsafe`). A *recomputed*
+    A *claimed* one comes with the policy; it speaks of safe states, or of all valid ones (`of_unsafe`). A *recomputed*
     one speaks of all states: it is 0 wherever the goal holds, and otherwise what the diagram says.
     """
 
     goal: Residual
     diagram: Diagram[Rank]
     root: Reference
-    given: bool
+    claimed: bool
     of_unsafe: bool = False
 
     @property
@@ -66,12 +66,12 @@ class RankFunction:
         """The rank of `place`; None is never."""
         code = self.counts(problem).code
         (rank,) = diagram_terms(self.diagram, [self.root], place, code)
-        return rank if self.given else either(reached_term(problem.spec, self.goal, place), code(0), rank)
+        return rank if self.claimed else either(reached_term(problem.spec, self.goal, place), code(0), rank)
 
     def where(self, problem: PolicyProblem, place: Place, wanted: Callable[[Rank], bool]) -> Term:
         """The rank of `place` is a wanted one."""
         (term,) = diagram_terms(self.diagram, [self.root], place, wanted)
-        return term if self.given else either(reached_term(problem.spec, self.goal, place), wanted(0), term)
+        return term if self.claimed else either(reached_term(problem.spec, self.goal, place), wanted(0), term)
 
     def within_bound(self, problem: PolicyProblem, place: Place) -> Term:
         """A step to `place` serves the goal: the rank there is at most `L - 1`; a number, where there is no bound."""
@@ -90,7 +90,7 @@ class RankProof:
         self._ranks = ranks
         self._covered: Term = True
         self._covered_after: Term = True
-        if ranks.given:
+        if ranks.claimed:
             self._covered = problem.valid if ranks.of_unsafe else problem.safe
             self._covered_after = problem.valid_after if ranks.of_unsafe else problem.safe_after
         self._coded = ranks.counts(problem)

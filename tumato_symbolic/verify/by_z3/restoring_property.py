@@ -18,9 +18,9 @@ def prove_restoring(problem: PolicyProblem, source: EffortSource, ordering: Orde
 
     Raises `UndecidedError`.
     """
-    given = source.given()
-    if given is not None:
-        without = given.first_without()
+    claimed = source.claimed()
+    if claimed is not None:
+        without = claimed.first_without()
         if without is None:
             source.ranks.serve()
             return _proved()

@@ -169,36 +169,36 @@ def _reaction_rule(step: AllowedStep, state: State, cube: Cube) -> str | None:
 
 
 def _unsafe(spec: Spec, state: State, cube: Cube, ordering: Ordering) -> str | None:
-    wrong = _not_struck(spec, cube, ordering)
+    wrong = _not_possible(spec, cube, ordering)
     if wrong is not None:
         return wrong
     return "the outcome is safe" if is_safe(spec, replay(state, cube.violation.outcome)[-1].after) else None
 
 
 def _falsified(spec: Spec, state: State, cube: Cube, ordering: Ordering) -> str | None:
-    wrong = _precondition_of(cube) or _not_struck(spec, cube, ordering)
+    wrong = _precondition_of(cube) or _not_possible(spec, cube, ordering)
     if wrong is not None:
         return wrong
     if spec.preconditions != "throughout":
         return "preconditions have to hold at the start only"
-    (number,), strikes = cube.violation.actions, cube.violation.outcome
-    if number in {action for action, _ in strikes}:
+    (number,), effects = cube.violation.actions, cube.violation.outcome
+    if number in {action for action, _ in effects}:
         return "the action has taken effect"
-    reached = replay(state, strikes)[-1].after
+    reached = replay(state, effects)[-1].after
     kept = all(holds(rule.formula, reached) for rule in spec.actions[number].preconditions)
     return "all preconditions hold" if kept else None
 
 
-def _not_struck(spec: Spec, cube: Cube, ordering: Ordering) -> str | None:
-    """Why the effects that a cube names cannot strike in this order, whichever of its sets is executed."""
-    strikes = cube.violation.outcome
-    striking = [action for action, _ in strikes]
-    if not strikes or not cube.executed.issuperset(striking):
+def _not_possible(spec: Spec, cube: Cube, ordering: Ordering) -> str | None:
+    """Why the effects that a cube names cannot happen in this order, whichever of its sets is executed."""
+    effects = cube.violation.outcome
+    acting = [action for action, _ in effects]
+    if not effects or not cube.executed.issuperset(acting):
         return "it names no effects of actions that all its sets execute"
-    if len(set(striking)) < len(striking):
-        return "an action strikes twice"
-    if ordering == "first" and len(strikes) > 1:
+    if len(set(acting)) < len(acting):
+        return "an action takes effect twice"
+    if ordering == "first" and len(effects) > 1:
         return "only the first effect counts"
-    if any(effect not in spec.actions[action].effects for action, effect in strikes):
+    if any(effect not in spec.actions[action].effects for action, effect in effects):
         return "an action does not have the effect"
     return None

@@ -23,7 +23,7 @@ OBLIGATION_BUDGET = 30.0
 """How many seconds Z3 may think about one obligation."""
 
 _WRITES_FIRST = (
-    "it speaks of the effect ordering any, but the specification writes first, under which more sets are allowed"
+    "it is for the effect ordering any, but the specification writes first, under which more sets are allowed"
 )
 
 
@@ -46,27 +46,27 @@ def verify_unrealizable(
     """
     context = context or Context()
     reason = bind(certificate, spec).reason
-    if not isinstance(reason, NoRestoration) and not all(is_safe(spec, state) for state in _spoken_of(reason)):
+    if not isinstance(reason, NoRestoration) and not all(is_safe(spec, state) for state in _states_of(reason)):
         require_one_step(spec, "verify")
-    judged: Ordering = ordering or certificate.ordering
+    used: Ordering = ordering or certificate.ordering
     found = UnrealizabilityVerdict(
         "proved",
         _kind(certificate),
-        judged,
+        used,
         "command line" if ordering is not None else "certificate",
         certificate.digest != digest(spec),
     )
-    if ordering is None and (judged, spec.effect_ordering) == ("any", "first"):
+    if ordering is None and (used, spec.effect_ordering) == ("any", "first"):
         return replace(found, verdict="refuted", reason=_WRITES_FIRST)
     context.learn(replace(found, verdict="undecided"))
     try:
         context.tell("checking why there is no policy")
-        step = AllowedStep(spec.in_one_step, judged, Budget(timeout, context))
+        step = AllowedStep(spec.in_one_step, used, Budget(timeout, context))
         match reason:
             case NoAllowedSet():
-                checked = check_no_allowed_set(reason, step, judged)
+                checked = check_no_allowed_set(reason, step, used)
             case NoRestoration():
-                check_no_restoration(reason, spec, judged, Budget(timeout, context).until())
+                check_no_restoration(reason, spec, used, Budget(timeout, context).until())
                 return replace(found, obligations=2, by_diagrams=True)
             case NoPlan():
                 checked = check_no_plan(reason, step)
@@ -83,7 +83,7 @@ def verify_unrealizable(
     return replace(found, obligations=proved, by_solver=step.proved > 0, by_diagrams=step.walked > 0)
 
 
-def _spoken_of(reason: NoAllowedSet | NoPlan | Conflict) -> Iterator[State]:
+def _states_of(reason: NoAllowedSet | NoPlan | Conflict) -> Iterator[State]:
     """The states that a reason is about: where they are safe, so is all that runs from there meet."""
     if isinstance(reason, Conflict):
         yield from (choice.state for choice in reason.choices)
