@@ -32,6 +32,7 @@ CONFLICTS = (48, 189, 241, 316, 350)
 """Seeds of the profile `interacting` whose goals conflict."""
 
 Entry = TypeVar("Entry")
+ReasonKind = TypeVar("ReasonKind", NoAllowedSet, NoPlan, Conflict)
 
 VIOLATIONS: tuple[Literal["precondition", "resource", "nominal-conflict", "unsafe", "idle", "nominal-unsafe"], ...] = (
     "precondition",
@@ -48,6 +49,14 @@ def certified(spec: Spec, ordering: Ordering) -> Unrealizability | None:
     """The certificate that there is no policy; None where there is one."""
     outcome = synthesize(spec, ordering)
     return outcome.certificate if isinstance(outcome, Unrealizable) else None
+
+
+def refused(spec: Spec, kind: type[ReasonKind]) -> tuple[Unrealizability, ReasonKind]:
+    """The certificate of a specification that has no policy, and its reason, which is of this kind."""
+    certificate = certified(spec, "any")
+    assert certificate is not None
+    assert isinstance(certificate.reason, kind)
+    return certificate, certificate.reason
 
 
 def unrealizable_specs(profile: str, seeds: range, ordering: Ordering) -> Iterator[tuple[Spec, Unrealizability]]:

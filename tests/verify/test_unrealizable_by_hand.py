@@ -1,7 +1,9 @@
-"""Certificates for the answer no, part by part, on specifications made by hand."""
+"""Certificates that a specification is unrealizable, part by part, on specifications made by hand."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from random import Random
+from typing import Any
 
 import pytest
 
@@ -12,16 +14,17 @@ from tests.unrealizability import (
     assert_never_wrong,
     certified,
     changed,
+    refused,
 )
 from tumato_symbolic.diagnostics import UserError
-from tumato_symbolic.policy.unrealizable import Conflict, Cube, Cut, NoAllowedSet, Violation
+from tumato_symbolic.policy.unrealizable import Conflict, Cube, Cut, NoAllowedSet, NoPlan, Violation
 from tumato_symbolic.policy.unrealizable_file import bind, dumps, loads
 from tumato_symbolic.semantics import allowed
-from tumato_symbolic.spec import And, Not, Or
+from tumato_symbolic.spec import And, Formula, Not, Or, Spec
 from tumato_symbolic.verify import verify_unrealizable
 
 
-def conflicting():
+def conflicting() -> Spec:
     """Two sides that pass through one place, each to the other's goal; unbounded, and with the bound."""
     build = Build({"x": "lmrLR"})
     for here, there in ("lm", "rm", "mL", "mR", "LL", "RR"):
@@ -33,7 +36,7 @@ def conflicting():
     return build.spec(goals)
 
 
-def self_conflicting():
+def self_conflicting() -> Spec:
     """A run that would have to pass one state twice and decide differently."""
     build = Build({"x": "stg"})
     start, goal = build.atom("x=s"), build.atom("x=g")
@@ -43,7 +46,7 @@ def self_conflicting():
     return build.spec(priority(when(start, build.goal(And((away, goal))))))
 
 
-def line(bound=None):
+def line(bound: int | None = None) -> Spec:
     """Four places in a row, one step at a time; the goal is the last one."""
     build = Build({"x": "abcd"})
     for here, there in ("ab", "bc", "cd"):
@@ -51,37 +54,35 @@ def line(bound=None):
     return build.spec(priority(build.goal(build.atom("x=d"))), bound=bound)
 
 
-def stuck(actions=3, reaction_rules=()):
+def stuck(actions: int = 3, reaction_rules: Sequence[Formula] = ()) -> tuple[Build, Spec]:
     """Nothing is allowed in the only unsafe state: the first action breaks a rule, the others do not leave it."""
     build = Build({"x": "abc", "y": "ab"}, ["arm"])
     build.action("x=b", when=[build.atom("x=a")], needs=["arm"])
     for _ in range(actions - 1):
         build.action("y=b", ["x=c"], needs=["arm"] if actions < 4 else [])
-    rules = [Not(build.atom("x=a")), Or((Not(build.atom("x=b")), build.atom("y=b")))]
+    rules: list[Formula] = [Not(build.atom("x=a")), Or((Not(build.atom("x=b")), build.atom("y=b")))]
     return build, build.spec(state_rules=rules, reaction_rules=reaction_rules)
 
 
 @pytest.mark.parametrize("spec", [conflicting(), replace(conflicting(), max_plan_length=3), self_conflicting()])
-def test_conflicts_by_hand(spec):
+def test_conflicts_by_hand(spec: Spec) -> None:
     """Both kinds of cut, with and without a plan bound; every change of one part is judged by what is true."""
-    certificate = certified(spec, "any")
-    assert isinstance(certificate.reason, Conflict)
+    certificate, _ = refused(spec, Conflict)
     assert verify_unrealizable(certificate, spec).verdict == "proved"
     world = World(spec, "any")
     for seed in range(40):
         assert_never_wrong(world, changed(certificate, Random(seed)))
 
 
-def test_every_part_of_a_conflict_is_needed():
+def test_every_part_of_a_conflict_is_needed() -> None:
     """Without an option, with a distance too large, without a cut, or with another start, the proof fails there."""
     spec = conflicting()
-    certificate = certified(spec, "any")
-    reason = certificate.reason
+    certificate, reason = refused(spec, Conflict)
 
-    def refuted(**parts):
+    def refuted(**parts: Any) -> str:
         verdict = verify_unrealizable(replace(certificate, reason=replace(reason, **parts)), spec)
         assert verdict.verdict == "refuted"
-        return verdict.reason
+        return str(verdict.reason)
 
     for place, choice in enumerate(reason.choices):
         fewer = replace(choice, options=choice.options[1:])
@@ -102,32 +103,32 @@ def test_every_part_of_a_conflict_is_needed():
 
 
 @pytest.mark.parametrize(("bound", "layers"), [(2, 2), (1, 1)])
-def test_layers_end_at_the_bound(bound, layers):
+def test_layers_end_at_the_bound(bound: int, layers: int) -> None:
     """As many layers as the bound allows are a proof, one less is none, and neither is one with a state less."""
     spec = line(bound)
-    certificate = certified(spec, "any")
-    goal = certificate.reason.goals[0]
+    certificate, reason = refused(spec, NoPlan)
+    goal = reason.goals[0]
     assert len(goal.roots) == layers
     assert verify_unrealizable(certificate, spec).verdict == "proved"
     empty = replace(goal, roots=(*goal.roots[:-1], 0))
-    verdict = verify_unrealizable(replace(certificate, reason=replace(certificate.reason, goals=(empty,))), spec)
+    verdict = verify_unrealizable(replace(certificate, reason=replace(reason, goals=(empty,))), spec)
     assert verdict.verdict == "refuted"
     assert verdict.state in [(0,), (1,)]
+    assert verdict.chosen is not None
     assert allowed(spec, verdict.state, verdict.chosen, "any")
     longer = verify_unrealizable(certificate, line(3))
     assert (longer.verdict, longer.stale) == ("refuted", True)
 
 
-def test_a_run_that_meets_the_goal_is_found():
+def test_a_run_that_meets_the_goal_is_found() -> None:
     """A layer with a state that meets the goal is named with the state."""
     spec = line(2)
-    certificate = certified(spec, "any")
-    goal = certificate.reason.goals[0]
-    everything = replace(goal, roots=(1, 1))
-    verdict = verify_unrealizable(replace(certificate, reason=replace(certificate.reason, goals=(everything,))), spec)
-    assert "the state x=d of layer 1 meets" in verdict.reason
-    nothing = replace(certificate, reason=replace(certificate.reason, goals=()))
-    assert "which is not listed" in verify_unrealizable(nothing, spec).reason
+    certificate, reason = refused(spec, NoPlan)
+    everything = replace(reason.goals[0], roots=(1, 1))
+    verdict = verify_unrealizable(replace(certificate, reason=replace(reason, goals=(everything,))), spec)
+    assert "the state x=d of layer 1 meets" in str(verdict.reason)
+    nothing = replace(certificate, reason=replace(reason, goals=()))
+    assert "which is not listed" in str(verify_unrealizable(nothing, spec).reason)
 
 
 BAD = [
@@ -145,37 +146,39 @@ BAD = [
 ]
 
 
-@pytest.mark.parametrize(("violation", "reason"), BAD, ids=[f"{bad.kind}: {why}" for bad, why in BAD])
-def test_violations_are_checked_by_their_meaning(violation, reason):
+@pytest.mark.parametrize(("violation", "why"), BAD, ids=[f"{bad.kind}: {why}" for bad, why in BAD])
+def test_violations_are_checked_by_their_meaning(violation: Violation, why: str) -> None:
     """A cube whose violation is none refutes the certificate, with the reason."""
     _, spec = stuck()
-    certificate = certified(spec, "any")
+    certificate, reason = refused(spec, NoAllowedSet)
     assert verify_unrealizable(certificate, spec).verdict == "proved"
-    cubes = certificate.reason.cubes
+    cubes = reason.cubes
+    assert cubes is not None
     place = next(n for n, cube in enumerate(cubes) if cube.executed == {0} and len(cube.idle) < 2)
     wrong = (*cubes[:place], replace(cubes[place], violation=violation), *cubes[place + 1 :])
-    verdict = verify_unrealizable(replace(certificate, reason=replace(certificate.reason, cubes=wrong)), spec)
+    verdict = verify_unrealizable(replace(certificate, reason=replace(reason, cubes=wrong)), spec)
     assert verdict.verdict == "refuted"
-    assert reason in verdict.reason
+    assert why in str(verdict.reason)
 
 
-def test_cubes_must_hold_every_set_once():
+def test_cubes_must_hold_every_set_once() -> None:
     """A cube too few, one too many, and one that contradicts itself are told apart."""
     _, spec = stuck()
-    certificate = certified(spec, "any")
-    cubes = certificate.reason.cubes
+    certificate, reason = refused(spec, NoAllowedSet)
+    cubes = reason.cubes
+    assert cubes is not None
 
-    def reason(*changed):
-        verdict = verify_unrealizable(replace(certificate, reason=replace(certificate.reason, cubes=changed)), spec)
+    def why(*changed: Cube) -> str:
+        verdict = verify_unrealizable(replace(certificate, reason=replace(reason, cubes=changed)), spec)
         assert verdict.verdict == "refuted"
-        return verdict.reason
+        return str(verdict.reason)
 
-    assert "of 8 sets" in reason(*cubes[1:])
-    assert "have sets in common" in reason(*cubes, cubes[0])
-    assert "leaves idle" in reason(*cubes, Cube(frozenset((0,)), frozenset((0,)), cubes[0].violation))
+    assert "of 8 sets" in why(*cubes[1:])
+    assert "have sets in common" in why(*cubes, cubes[0])
+    assert "leaves idle" in why(*cubes, Cube(frozenset((0,)), frozenset((0,)), cubes[0].violation))
 
 
-def test_many_actions_are_left_to_the_prover():
+def test_many_actions_are_left_to_the_prover() -> None:
     """Where there are too many cubes, Z3 proves that no set is allowed, and refutes it with a set that is."""
     build = Build({"x": "ab", "y": "ab", "z": "ab"})
     for _ in range(12):
@@ -183,54 +186,54 @@ def test_many_actions_are_left_to_the_prover():
         build.action("z=b", ["y=b"])
     bad, loud = build.atom("x=a"), And((build.atom("y=b"), build.atom("z=b")))
     spec = build.spec(state_rules=[Not(bad), Not(loud)])
-    certificate = replace(certified(spec, "any"), reason=NoAllowedSet(build.state("aaa"), None))
+    certificate = replace(refused(spec, NoAllowedSet)[0], reason=NoAllowedSet(build.state("aaa"), None))
     assert verify_unrealizable(certificate, spec).verdict == "proved"
     fine = replace(certificate, reason=NoAllowedSet(build.state("baa"), None))
     verdict = verify_unrealizable(fine, spec)
     assert (verdict.verdict, verdict.state) == ("refuted", build.state("baa"))
 
 
-def test_an_open_action_may_keep_a_reaction_rule():
+def test_an_open_action_may_keep_a_reaction_rule() -> None:
     """A reaction rule must be false for every choice of the open actions, also where that takes a proof."""
     build, _ = stuck()
     build = Build({"x": "ab"})
     first, second = build.action("x=b"), build.action("x=b")
     never = And((Or((first, second)), Or((first, Not(second))), Or((Not(first), second)), Not(And((first, second)))))
     spec = build.spec(state_rules=[Not(build.atom("x=a"))], reaction_rules=[never])
-    certificate = certified(spec, "any")
-    rule = next(cube.violation.rule for cube in certificate.reason.cubes if cube.violation.rule)
-    whole = NoAllowedSet(
-        certificate.reason.state, (Cube(frozenset(), frozenset(), Violation("reaction-rule", rule=rule)),)
-    )
+    certificate, reason = refused(spec, NoAllowedSet)
+    assert reason.cubes is not None
+    rule = next(cube.violation.rule for cube in reason.cubes if cube.violation.rule)
+    whole = NoAllowedSet(reason.state, (Cube(frozenset(), frozenset(), Violation("reaction-rule", rule=rule)),))
     assert verify_unrealizable(replace(certificate, reason=whole), spec).verdict == "proved"
     easier = replace(spec, reaction_rules=(replace(spec.reaction_rules[0], formula=Or((first, second))),))
     assert verify_unrealizable(replace(certificate, reason=whole), easier).verdict == "refuted"
 
 
-def test_a_state_that_is_not_valid_proves_nothing():
+def test_a_state_that_is_not_valid_proves_nothing() -> None:
     """Certificates about states outside the assumptions are refuted, whatever their kind."""
     spec = line(1)
     excluded = replace(spec, assumptions=rules(Not(Build({"x": "abcd"}).atom("x=a"))))
-    for reason in (certified(spec, "any").reason, NoAllowedSet((0,), None)):
+    certificate, no_plan = refused(spec, NoPlan)
+    for reason in (no_plan, NoAllowedSet((0,), None)):
         assert reason.state == (0,)
-        verdict = verify_unrealizable(replace(certified(spec, "any"), reason=reason), excluded)
+        verdict = verify_unrealizable(replace(certificate, reason=reason), excluded)
         assert (verdict.verdict, verdict.stale) == ("refuted", True)
-        assert "not valid" in verdict.reason
-    conflict = certified(conflicting(), "any")
+        assert "not valid" in str(verdict.reason)
+    conflict, _ = refused(conflicting(), Conflict)
     left = Not(Build({"x": "lmrLR"}).atom("x=l"))
     verdict = verify_unrealizable(conflict, replace(conflicting(), assumptions=rules(left)))
-    assert "not valid" in verdict.reason
+    assert "not valid" in str(verdict.reason)
 
 
-def test_the_ordering_that_counts():
+def test_the_ordering_that_counts() -> None:
     """The certificate's ordering, unless another is asked for; `any` proves nothing where `first` is written."""
     spec = line(1)
-    certificate = certified(spec, "any")
+    certificate, _ = refused(spec, NoPlan)
     assert verify_unrealizable(certificate, spec).ordering_source == "certificate"
     writes_first = replace(spec, effect_ordering="first")
     verdict = verify_unrealizable(certificate, writes_first)
     assert verdict.verdict == "refuted"
-    assert "writes first" in verdict.reason
+    assert "writes first" in str(verdict.reason)
     asked = verify_unrealizable(certificate, writes_first, ordering="first")
     assert (asked.verdict, asked.ordering, asked.ordering_source) == ("proved", "first", "command line")
     first = replace(certificate, ordering="first")
@@ -238,23 +241,27 @@ def test_the_ordering_that_counts():
 
 
 @pytest.mark.parametrize("spec", [line(1), conflicting()])
-def test_time_that_runs_out_is_no_verdict(spec):
+def test_time_that_runs_out_is_no_verdict(spec: Spec) -> None:
     """What is not proved in time is undecided, with the claim that is open."""
-    verdict = verify_unrealizable(certified(spec, "any"), spec, timeout=0.0)
+    certificate = certified(spec, "any")
+    assert certificate is not None
+    verdict = verify_unrealizable(certificate, spec, timeout=0.0)
     assert verdict.verdict == "undecided"
     assert verdict.reason
 
 
-def test_names_that_do_not_fit_are_an_error():
+def test_names_that_do_not_fit_are_an_error() -> None:
     """A certificate about another vocabulary is unreadable for this specification, not refuted."""
     with pytest.raises(UserError, match="TUM503"):
-        verify_unrealizable(certified(line(1), "any"), stuck()[1])
+        verify_unrealizable(refused(line(1), NoPlan)[0], stuck()[1])
 
 
 @pytest.mark.parametrize("spec", [stuck()[1], line(2), conflicting()])
-def test_broken_files_end_in_a_verdict_or_a_coded_error(spec):
+def test_broken_files_end_in_a_verdict_or_a_coded_error(spec: Spec) -> None:
     """However a file is broken, it is refused, or judged: nothing false is proved, and nothing crashes."""
-    text = dumps(certified(spec, "any"))
+    whole = certified(spec, "any")
+    assert whole is not None
+    text = dumps(whole)
     world = World(spec, "any")
     verdicts = set()
     for seed in range(150):
