@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import subprocess
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -78,32 +78,39 @@ def _claimed(policy: Policy, own: Question, unsafe: Iterable[State]) -> Question
 
 def examine(asked: Sequence[tuple[str, Question]], folder: Path, judged: Counter[str]) -> Iterator[str]:
     """Complaints about named questions, asked in one file and each once; counts what was judged."""
-    different = {_definitions(question): named for named in asked for question in (named[1],)}
+    different = {(question.spec, _definitions(question)): (name, question) for name, question in asked}
     if not different:
         return
-    specs = {question.spec: number for number, (_, question) in enumerate(different.values())}
-    (folder / "mutants.v").write_text("\n".join(_file(specs, different)), encoding="utf-8")
-    command = [str(COQC), "-q", "-R", compiled(), "Tumato", "mutants.v"]
-    answer = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
-    assert answer.returncode == 0, answer.stderr
-    found = [word == "true" for word in re.findall(r"= (true|false)\b", answer.stdout)]
+    found = answers("\n".join(written([question for _, question in different.values()])), folder)
     for (name, question), accepted in zip(different.values(), found, strict=True):
         judged[f"{question.kind}, {'right' if question.right else 'wrong'}"] += 1
         if accepted != question.right:
             yield f"{name}: coq {'accepts' if accepted else 'rejects'} a {question.kind} that is not so"
 
 
-def _definitions(question: Question) -> tuple[Spec, str]:
-    spec = question.spec
-    decided = coq._decisions(spec, question.rows)
-    return spec, "\n".join((*decided, *coq._known(spec, question.worst, question.sums)))
-
-
-def _file(specs: Mapping[Spec, int], different: Iterable[tuple[Spec, str]]) -> Iterator[str]:
-    yield "From Coq Require Import List NArith. From Tumato Require Import Semantics Checker. Import ListNotations."
+def written(questions: Sequence[Question]) -> Iterator[str]:
+    """What asks the checker in Coq, in this order."""
+    specs = {question.spec: number for number, question in enumerate(questions)}
     for spec, number in specs.items():
         yield from (f"Module S{number}.", *coq._specification(spec), f"End S{number}.")
-    for number, (spec, text) in enumerate(different):
-        order, efforts = spec.ordering.capitalize(), "no_efforts" if spec.restoration == "one_step" else "known"
-        check = f"check S{specs[spec]}.spec {order} decisions {efforts}"
-        yield f"Module C{number}.\n{text}\nEval vm_compute in {check}.\nEnd C{number}."
+    for number, question in enumerate(questions):
+        order, several = question.spec.ordering.capitalize(), question.spec.restoration != "one_step"
+        check = f"check S{specs[question.spec]}.spec {order} decisions {'known' if several else 'no_efforts'}"
+        yield f"Module C{number}.\n{_definitions(question)}\nEval vm_compute in {check}.\nEnd C{number}."
+
+
+def _definitions(question: Question) -> str:
+    told = coq._known(question.spec, question.worst, question.sums)
+    return "\n".join((*coq._decisions(question.spec, question.rows), *told))
+
+
+def answers(text: str, folder: Path) -> list[bool]:
+    """What Coq computes where a file asks for it."""
+    (folder / "asked.v").write_text(f"{_HEAD}\n{text}", encoding="utf-8")
+    command = [str(COQC), "-q", "-R", compiled(), "Tumato", "asked.v"]
+    answer = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    assert answer.returncode == 0, answer.stderr
+    return [word == "true" for word in re.findall(r"= (true|false)\b", answer.stdout)]
+
+
+_HEAD = "From Coq Require Import List NArith. From Tumato Require Import Semantics Checker. Import ListNotations."
