@@ -1715,7 +1715,7 @@ def check_cubes(world: World, cubes: Any, states: set[State], title: str) -> Non
 
 
 # ----------------------------------------------------------------------------------------------------------------------
-# 9. The answer no (docs/certificate.md): a certificate that there is no policy. What it claims is looked at state by
+# 9. Unrealizability (docs/certificate.md): a certificate that there is no policy. What it claims is looked at state by
 #    state, set by set; the first claim that is not so ends in `Refuted`.
 
 
@@ -1864,9 +1864,9 @@ def read_cube(entry: dict[str, Any], spec: Specification) -> Cube:
         cube.rule = violation.get("Rule", "")
         need(isinstance(cube.rule, str), "`Rule` is a text")
     if kind in ("unsafe", "falsified"):
-        for strike in read_objects(violation, "Outcome"):
-            need(isinstance(strike.get("Action"), str) and strike["Action"] in spec.actions, "`Action` is an action")
-            cube.outcome.append((strike["Action"], read_effect(strike, "Effect", spec)))
+        for step in read_objects(violation, "Outcome"):
+            need(isinstance(step.get("Action"), str) and step["Action"] in spec.actions, "`Action` is an action")
+            cube.outcome.append((step["Action"], read_effect(step, "Effect", spec)))
     need(kind in VIOLATIONS, f"there is no violation {kind!r}")
     return cube
 
@@ -2157,23 +2157,23 @@ class Choosing:
     """The search for one option of every state so that every clause has one that is chosen.
 
     A *group* is a clause, or all options of a state: it needs an option that is chosen. Where all but one of a group
-    are struck out, that one is chosen, and the other options of its state are struck out.
+    are excluded, that one is chosen, and the other options of its state are excluded.
     """
 
     def __init__(self, counts: list[int], clauses: list[list[Pick]]) -> None:
         self.states = [[(state, place) for place in range(count)] for state, count in enumerate(counts)]
         self.groups = self.states + [sorted(set(clause)) for clause in clauses]
-        self.left = [len(group) for group in self.groups]  # how many of a group are not struck out
+        self.left = [len(group) for group in self.groups]  # how many of a group are not excluded
         self.groups_of: dict[Pick, list[int]] = {pick: [] for group in self.states for pick in group}
         for number, group in enumerate(self.groups):
             for pick in group:
                 self.groups_of[pick].append(number)
-        self.struck: dict[Pick, None] = {}  # in order
+        self.excluded: dict[Pick, None] = {}  # in order
         self.touched = list(range(len(self.groups)))
 
     def succeeds(self) -> bool:
-        """Whether there is such a choice: guess an option; strike it out where that leaves nothing of some group."""
-        guesses: list[tuple[Pick, int]] = []  # and how many were struck out before
+        """Whether there is such a choice: guess an option; exclude it where that leaves nothing of some group."""
+        guesses: list[tuple[Pick, int]] = []  # and how many were excluded before
         count = 0
         while True:
             if not self.follow():
@@ -2181,14 +2181,14 @@ class Choosing:
                     return False
                 guess, before = guesses.pop()
                 self.take_back(before)
-                self.strike([guess])
+                self.exclude([guess])
                 continue
             undecided = [state for state in range(len(self.states)) if self.left[state] > 1]
             if not undecided:
                 return True
             count += 1
             within_limit(count, "choices of options")
-            guesses.append((self.first_left(min(undecided, key=self.left.__getitem__)), len(self.struck)))
+            guesses.append((self.first_left(min(undecided, key=self.left.__getitem__)), len(self.excluded)))
             self.choose(guesses[-1][0])
 
     def follow(self) -> bool:
@@ -2203,26 +2203,26 @@ class Choosing:
         return True
 
     def first_left(self, number: int) -> Pick:
-        """The first option of a group that is not struck out."""
-        return next(pick for pick in self.groups[number] if pick not in self.struck)
+        """The first option of a group that is not excluded."""
+        return next(pick for pick in self.groups[number] if pick not in self.excluded)
 
     def choose(self, pick: Pick) -> None:
-        """Strike out all other options of the state."""
-        self.strike([other for other in self.states[pick[0]] if other != pick])
+        """Exclude all other options of the state."""
+        self.exclude([other for other in self.states[pick[0]] if other != pick])
 
-    def strike(self, picks: list[Pick]) -> None:
-        """Strike options out."""
+    def exclude(self, picks: list[Pick]) -> None:
+        """Exclude options."""
         for pick in picks:
-            if pick not in self.struck:
-                self.struck[pick] = None
+            if pick not in self.excluded:
+                self.excluded[pick] = None
                 for number in self.groups_of[pick]:
                     self.left[number] -= 1
                     self.touched.append(number)
 
     def take_back(self, count: int) -> None:
-        """Leave the first `count` struck out."""
-        while len(self.struck) > count:
-            for number in self.groups_of[self.struck.popitem()[0]]:
+        """Leave the first `count` excluded."""
+        while len(self.excluded) > count:
+            for number in self.groups_of[self.excluded.popitem()[0]]:
                 self.left[number] += 1
 
 

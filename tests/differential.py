@@ -117,7 +117,7 @@ def _compare_failures(world: World, verdict: OracleVerdict, outcome: Unrealizabl
 
 
 def _verify_certificate(world: World, outcome: Unrealizable) -> Iterator[str]:
-    """Complaints about the verification of the answer no, through its file."""
+    """Complaints about the verification of unrealizability, through its file."""
     assert outcome.certificate is not None
     certificate = unrealizable_file.loads(unrealizable_file.dumps(outcome.certificate))
     answer = verify_unrealizable(certificate, world.spec, ordering=world.ordering)

@@ -85,7 +85,7 @@ RESTORING = Profile(
     repeated=0.3,
     bounded=0.3,
 )
-"""Unsafe states, and actions that strike together on the same variables."""
+"""Unsafe states, and actions that write the same variables together."""
 
 CONCURRENT = Profile(
     variables=(3, 4),

@@ -1,4 +1,4 @@
-"""Certificates for the answer no: right ones, changed ones, and what is true of them by the explicit meaning."""
+"""Certificates of unrealizability: right ones, changed ones, and what is true of them by the explicit meaning."""
 
 from __future__ import annotations
 
@@ -160,7 +160,7 @@ def _changed_cubes(reason: NoAllowedSet, vocabulary: Vocabulary, dice: Random) -
         named = tuple(dice.sample(actions, min(number, len(actions)))) if kind[0] in "prn" else ()
         return replace(cube, violation=Violation(kind, named, cube.violation.rule, cube.violation.outcome))
 
-    def struck(cube: Cube) -> Cube:
+    def applied(cube: Cube) -> Cube:
         way = cube.violation.outcome
         if len(way) < 2:
             return violated(cube)
@@ -175,7 +175,7 @@ def _changed_cubes(reason: NoAllowedSet, vocabulary: Vocabulary, dice: Random) -
         case 2:
             return replace(reason, cubes=_exchanged(cubes, dice, moved))
         case 3:
-            return replace(reason, cubes=_exchanged(cubes, dice, struck))
+            return replace(reason, cubes=_exchanged(cubes, dice, applied))
         case 4:
             return replace(reason, cubes=_exchanged(cubes, dice, violated))
         case _:

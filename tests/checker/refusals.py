@@ -1,4 +1,4 @@
-"""Certificates of the answer no, written by hand, and what the stand-alone checker says of them."""
+"""Certificates of unrealizability, written by hand, and what the stand-alone checker says of them."""
 
 from __future__ import annotations
 

@@ -34,9 +34,9 @@ def cube(executed: str, idle: str, kind: str, **violation: Any) -> Document:
     return {"Executed": executed.split(), "Idle": idle.split(), "Violation": {"Kind": kind, **violation}}
 
 
-def unsafe(executed: str, idle: str, *strikes: str) -> Document:
+def unsafe(executed: str, idle: str, *effects: str) -> Document:
     """A cube with an outcome: `hop=b` is the action `hop` that takes the effect `P is b`."""
-    pairs = [each.split("=") for each in strikes]
+    pairs = [each.split("=") for each in effects]
     return cube(executed, idle, "unsafe", Outcome=[{"Action": name, "Effect": {"P": value}} for name, value in pairs])
 
 

@@ -1,4 +1,4 @@
-"""Certificates of the answer no as files: those that are committed, those that are broken."""
+"""Certificates of unrealizability as files: those that are committed, those that are broken."""
 
 from __future__ import annotations
 

@@ -46,7 +46,7 @@ def forked(monkeypatch: pytest.MonkeyPatch) -> list[int]:
 
 @pytest.fixture
 def folder(tmp_path: Path) -> str:
-    """Two policies, one of them with a warning in its specification, an answer no, and a file that is none."""
+    """Two policies (one specification has a warning), a certificate of unrealizability, and a file that is neither."""
     for name in ("amr.policy.json", "coin.policy.json", "two_robots.unrealizable.json"):
         (tmp_path / name).write_text((ROOT / "proofs" / name).read_text())
         spec = name.split(".")[0] + ".tum"

@@ -116,7 +116,7 @@ def test_usage(cli: Cli, arguments: list[str]) -> None:
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    """A repository: two policies and an answer no in `policies`, their specifications in `examples`."""
+    """Two policies and a certificate of unrealizability in `policies`, their specifications in `examples`."""
     (tmp_path / "policies").mkdir()
     (tmp_path / "examples").mkdir()
     for name in ("amr.policy.json", "coin.policy.json", "two_robots.unrealizable.json"):
@@ -127,7 +127,7 @@ def folder(tmp_path: Path) -> Path:
 
 
 def test_a_folder_is_verified_file_by_file(cli: Cli, folder: Path) -> None:
-    """A line for every file and a summary; the answer no counts as proved, too."""
+    """A line for every file and a summary; unrealizable counts as proved, too."""
     ran = cli("verify", "policies", "--strict")
     assert ran.code == 0
     first, second, third, last = ran.out.splitlines()

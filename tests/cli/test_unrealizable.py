@@ -1,4 +1,4 @@
-"""The answer no, from `synth` to `verify`."""
+"""Unrealizable specifications, from `synth` to `verify`."""
 
 import json
 from pathlib import Path

@@ -182,7 +182,7 @@ class Walk(Prover):
 
 
 class Z3(Prover):
-    """The prover that asks Z3, and with it the room that judges certificates of the answer no."""
+    """The prover that asks Z3, and with it the room that judges certificates of unrealizability."""
 
     def __init__(self) -> None:
         super().__init__("z3", "z3")

@@ -1,4 +1,4 @@
-"""What mutations of a certificate for the answer no have in common, and those that fit several kinds."""
+"""What mutations of a certificate of unrealizability have in common, and those that fit several kinds."""
 
 from __future__ import annotations
 

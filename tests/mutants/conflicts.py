@@ -1,4 +1,4 @@
-"""Mutations of the conflict in a certificate for the answer no, as a JSON object."""
+"""Mutations of the conflict in a certificate of unrealizability, as a JSON object."""
 
 from __future__ import annotations
 

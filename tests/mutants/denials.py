@@ -1,4 +1,4 @@
-"""Mutations of a certificate for the answer no, as a JSON object, by its kind; here its cubes and its layers."""
+"""Mutations of a certificate of unrealizability, as a JSON object, by its kind; here its cubes and its layers."""
 
 from __future__ import annotations
 
@@ -91,10 +91,10 @@ def _violations_swapped(document: Document, random: Random) -> None:
 
 def _outcome(document: Document, random: Random) -> None:
     """The effects of an outcome: one less, one twice, another order, another value."""
-    struck = [cube for cube in reason(document)["Cubes"] or () if cube["Violation"].get("Outcome")]
-    if not struck:
+    applied = [cube for cube in reason(document)["Cubes"] or () if cube["Violation"].get("Outcome")]
+    if not applied:
         return
-    outcome = random.choice(struck)["Violation"]["Outcome"]
+    outcome = random.choice(applied)["Violation"]["Outcome"]
     match random.randrange(5):
         case 0:
             dropped(outcome, random)

@@ -92,7 +92,7 @@ def _predecessor(patch: pytest.MonkeyPatch) -> None:
 
 
 def _order_of_effects(patch: pytest.MonkeyPatch) -> None:
-    """Only the first effect is looked at, whatever strikes after it."""
+    """Only the first effect is looked at, whatever happens after it."""
     patch.setattr(steps, "_always_safe", lambda _, safe: safe)
 
 

@@ -1,4 +1,4 @@
-"""Mutants of the answer no: a certificate that there is no policy, beside a specification, one or both of them changed.
+"""Mutants of unrealizability: a certificate beside a specification, one or both of them changed.
 
 A certificate that is no proof any more need not be false, so not every rejection can be judged by what is true. What
 can: whoever is told *proved unrealizable* has no policy; a specification that means the same is still proved by its

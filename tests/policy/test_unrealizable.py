@@ -1,4 +1,4 @@
-"""The certificate for the answer no: its text, its schema, its numbers."""
+"""The certificate of unrealizability: its text, its schema, its numbers."""
 
 import json
 import re
@@ -53,9 +53,9 @@ def cubes(draw, vocabulary):
         violation = Violation(kind, rule=draw(NAMES))
     elif kind in ("unsafe", "falsified"):
         effect = st.lists(pairs(vocabulary), max_size=3, unique_by=lambda pair: pair[0])
-        strikes = st.tuples(st.sampled_from(numbers), effect.map(lambda found: tuple(sorted(found))))
+        effects = st.tuples(st.sampled_from(numbers), effect.map(lambda found: tuple(sorted(found))))
         pending = (draw(st.sampled_from(numbers)),) if kind == "falsified" else ()
-        violation = Violation(kind, pending, outcome=tuple(draw(st.lists(strikes, max_size=3))))
+        violation = Violation(kind, pending, outcome=tuple(draw(st.lists(effects, max_size=3))))
     return Cube(draw(sets), draw(sets), violation)
 
 

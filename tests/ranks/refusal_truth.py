@@ -1,4 +1,4 @@
-"""Whether a certificate of the answer no is a proof: every line of `docs/certificate.md`, state by state."""
+"""Whether a certificate of unrealizability is a proof: every line of `docs/certificate.md`, state by state."""
 
 from __future__ import annotations
 

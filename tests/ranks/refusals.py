@@ -1,4 +1,4 @@
-"""Changed distances and layers: certificates of the answer no, held against what they have to prove."""
+"""Changed distances and layers: certificates of unrealizability, held against what they have to prove."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ from tumato_symbolic.verify import verify_unrealizable
 from tumato_symbolic.verify.claimed_ranks import ClaimedRanks
 
 Found = Meaning | str
-"""What a policy says, the verdict on a certificate of the answer no, or that the file is refused."""
+"""What a policy says, the verdict on a certificate of unrealizability, or that the file is refused."""
 
 
 def claim_by_package(path: Path, spec: Spec) -> Found:

@@ -1,4 +1,4 @@
-"""Damaged policy files and certificates of the answer no, as bytes: values, keys, nesting, numbers, texts, encodings.
+"""Damaged policy files and certificates of unrealizability, as bytes: values, keys, nesting, numbers, texts, encodings.
 
 A document is kept as JSON spells it: an object is a list of pairs, so that a key may come twice, and a `Raw` is written
 as it is.
@@ -83,7 +83,7 @@ class Base:
 
 @cache
 def bases() -> tuple[tuple[Base, ...], ...]:
-    """Tables, diagrams, and certificates of the answer no."""
+    """Tables, diagrams, and certificates of unrealizability."""
     tables: list[Base] = []
     diagrams: list[Base] = []
     refusals: list[Base] = []

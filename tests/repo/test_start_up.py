@@ -62,7 +62,7 @@ def test_check_loads_neither_solver_nor_lark() -> None:
 
 
 def test_synth_loads_solvers_only(tmp_path: Path) -> None:
-    """`synth` imports dd and z3, no lark, and, where there is a policy, nothing that only the answer no needs."""
+    """`synth` imports dd and z3, no lark, and, where there is a policy, nothing that only unrealizability needs."""
     output = str(tmp_path / "policy.json")
     assert _loaded("synth", str(ROOT / "examples" / "amr.tum"), "-o", output) == (0, {"dd", "z3"})
 
@@ -75,7 +75,7 @@ def test_decide_loads_neither_solver_nor_parser() -> None:
 
 
 def test_verify_does_not_load_the_engine() -> None:
-    """`verify` imports no dd, for it shares nothing with the engine, and no lark, and nothing for the answer no."""
+    """`verify` imports no dd, for it shares nothing with the engine, and no lark, and nothing for unrealizability."""
     files = (str(ROOT / "proofs" / "amr.policy.json"), str(ROOT / "examples" / "amr.tum"))
     assert _loaded("verify", *files) == (0, {"z3"})
 

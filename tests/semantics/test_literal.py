@@ -47,7 +47,7 @@ def _some(spec: Spec, count: int) -> list[literal.State]:
 
 @pytest.mark.parametrize("ordering", BOTH)
 def test_outcomes_are_the_ends_of_all_sequences(ordering: Ordering) -> None:
-    """`Out(s, A)` state by state, each with a way of as few effects as any, of actions that strike once."""
+    """`Out(s, A)` state by state, each with a way of as few effects as any, of actions that take effect once."""
     for spec in SPECS:
         sets = [each for each in literal.sets(spec) if len(each) <= 3]
         for state in _some(spec, 2):
@@ -68,7 +68,7 @@ def test_outcomes_are_the_ends_of_all_sequences(ordering: Ordering) -> None:
 def test_three_effects_in_every_order() -> None:
     """Which action still waits counts, not only the state that is reached: `b` by one action leaves others than by two.
 
-    From a, the first action leads to b, the second (b to c through y) only matters when it strikes after, and the
+    From a, the first action leads to b, the second (b to c through y) only matters when it comes after, and the
     third writes back. The same state with other actions waiting has other outcomes.
     """
     build = Build({"x": "abcd", "y": "ab"})

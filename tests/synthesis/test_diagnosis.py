@@ -55,7 +55,7 @@ def test_two_robots() -> None:
 
 
 def test_where_all_is_restored_or_several_steps_may_be_taken_nothing_is_said() -> None:
-    """The answer no for another reason has no diagnosis, and it can be left out."""
+    """What is unrealizable for another reason has no diagnosis, and it can be left out."""
     assert found(replace(parse(RETRY), restoration="bounded")) is None
     outcome = synthesize(parse(VALVES), certify=False, diagnose=False)
     assert isinstance(outcome, Unrealizable)

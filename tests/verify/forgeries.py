@@ -1,4 +1,4 @@
-"""Certificates for the answer no, changed in every small way: each number by one, each part left out or repeated."""
+"""Certificates of unrealizability, changed in every small way: each number by one, each part left out or repeated."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What `docs/certificate.md` asks of a certificate for the answer no, claim by claim, by trying every state and set.
+"""What `docs/certificate.md` asks of a certificate of unrealizability, claim by claim, by trying every state and set.
 
 Nothing here calls `tumato_symbolic.verify`: a forged certificate is a proof exactly where all its claims hold here.
 """
@@ -106,20 +106,20 @@ def violated(meaning: Meaning, state: literal.State, cube: Cube) -> bool:
             sets = [cube.executed | chosen for chosen in literal.sets(spec) if chosen <= still_open]
             return bool(rules) and not any(literal.true(rules[0], state, chosen) for chosen in sets)
         case "unsafe" | "falsified":
-            striking = [action for action, _ in given.outcome]
+            acting = [action for action, _ in given.outcome]
             after = state
             for action, effect in given.outcome:
                 if action not in cube.executed or effect not in literal.effects(spec, action):
                     return False
                 after = literal.changed(after, effect)
-            once = 0 < len(striking) == len(set(striking)) and (meaning.ordering == "any" or len(striking) == 1)
+            once = 0 < len(acting) == len(set(acting)) and (meaning.ordering == "any" or len(acting) == 1)
             if given.kind == "unsafe":
                 return once and not literal.safe(spec, after)
             if not once or spec.preconditions != "throughout" or len(given.actions) != 1:
                 return False
             (waiting,) = given.actions
             rules = spec.actions[waiting].preconditions
-            late = waiting in cube.executed and waiting not in striking
+            late = waiting in cube.executed and waiting not in acting
             return late and not all(literal.true(rule.formula, after) for rule in rules)
         case "idle":
             may_act = [action for action in cube.executed | still_open if literal.effects(spec, action)]

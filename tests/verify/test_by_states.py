@@ -103,7 +103,7 @@ def test_how_much_there_is_to_look_at() -> None:
 
 
 def test_too_many_ways(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A set whose effects strike in more ways than are listed leaves it open whether it is safe, but under `first`."""
+    """Whether a set is safe stays open where its effects interleave in more ways than are listed, but under `first`."""
     build = Build({"x": "ab"})
     actions = [build.action("x=b") for _ in range(4)]
     spec = build.spec()

@@ -1,4 +1,4 @@
-"""Forged certificates for the answer no: each is proved exactly where every claim of it holds, state by state."""
+"""Forged certificates of unrealizability: each is proved exactly where every claim of it holds, state by state."""
 
 from __future__ import annotations
 
@@ -218,14 +218,14 @@ def _two(build: Build) -> tuple:
 
 
 def forced() -> Spec:
-    """In every state two actions are forced, of which one may strike after the other, and then it is too much."""
+    """In every state two actions are forced, of which one may take effect after the other, and then it is too much."""
     build = Build({"x": "ab", "y": "ab"})
     one, two = build.action("x=b"), build.action("", ["y=b"])
     return build.spec(state_rules=[Not(And((build.atom("x=b"), build.atom("y=b"))))], reaction_rules=[one, two])
 
 
 def test_two_effects_count_under_any_alone() -> None:
-    """Nothing is allowed under `any`, where both effects strike; the same certificate is no proof under `first`."""
+    """Nothing is allowed under `any`, where both effects happen; the same certificate is no proof under `first`."""
     certificate = certified(forced(), "any")
     assert certificate is not None and isinstance(certificate.reason, NoAllowedSet)
     assert max(len(cube.violation.outcome) for cube in certificate.reason.cubes or ()) == 2

@@ -21,7 +21,7 @@ def _forbidding(build: Build, *forbidden: str) -> tuple[Not, ...]:
 
 @pytest.mark.parametrize("prover", ["z3", "walk"])
 def test_the_witness_is_an_order_that_goes_wrong(prover: ProverName) -> None:
-    """An alternative strikes after the other action's effect; under `first` there is no such order."""
+    """An alternative happens after the other action's effect; under `first` there is no such order."""
     build = Build({"x": "abc", "y": "ab"})
     one = build.action("x=b", alternatives=["x=c"])
     two = build.action("x=b y=b")

@@ -268,12 +268,12 @@ def test_what_a_bad_outcome_teaches() -> None:
             lessons += 1
             solver, here, choice = _choice(spec)
             solver.add(choice.lemma(objection))
-            striking = {step.action for step in objection.outcome}
+            acting = {step.action for step in objection.outcome}
             for other, rival in product(literal.states(spec), literal.sets(spec)):
                 end = other
                 for step in objection.outcome:
                     end = literal.changed(end, step.effect)
-                wrong = striking <= rival and not is_safe(spec, end)
+                wrong = acting <= rival and not is_safe(spec, end)
                 assert (solver.ask(is_state(here, other), *_only(choice, rival)) == "sat") == (not wrong)
             if lessons == 3:
                 return

@@ -1,4 +1,4 @@
-"""Certificates for the answer no are proved when they are right, and never when what they claim is false."""
+"""Certificates of unrealizability are proved when they are right, and never when what they claim is false."""
 
 from dataclasses import replace
 from random import Random

@@ -1,4 +1,4 @@
-"""Certificates that a specification is unrealizable, part by part, on specifications made by hand."""
+"""Certificates of unrealizability, part by part, on specifications made by hand."""
 
 from collections.abc import Sequence
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""Certificates of the answer no where an action nominally changes nothing (`docs/semantics.md`, rule 3.9)."""
+"""Certificates of unrealizability where an action nominally changes nothing (`docs/semantics.md`, rule 3.9)."""
 
 from __future__ import annotations
 

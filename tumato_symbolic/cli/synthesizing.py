@@ -98,7 +98,7 @@ def _prove_certificate(so_far: Synthesized, certificate: Unrealizability, contex
 
 
 def write_answer(so_far: Synthesized, context: Context) -> Synthesized:
-    """With what may be written: a policy that is proved, or not to be proved; the certificate of the answer no."""
+    """With what may be written: a policy that is proved, or not to be proved; the certificate of unrealizability."""
     outcome = so_far.outcome
     if isinstance(outcome, Realizable) and (so_far.proof is None or so_far.proof.verdict == "proved"):
         context.tell("writing the policy")

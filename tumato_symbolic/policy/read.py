@@ -20,7 +20,7 @@ FORMAT_VERSION = 1
 """The version of this project's own sections."""
 
 UNREALIZABLE = "unrealizable"
-"""The `Type` of certificates for the answer no."""
+"""The `Type` of certificates of unrealizability."""
 
 
 class PolicyFields(NamedTuple):

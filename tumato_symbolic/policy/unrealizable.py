@@ -1,4 +1,4 @@
-"""Certificates for the answer no, as data (`docs/certificate.md`): why a specification has no policy.
+"""Certificates of unrealizability, as data (`docs/certificate.md`): why a specification has no policy.
 
 One failing state, or one conflict, is enough for the answer; the report of all failing states is another matter.
 States, values and actions are numbers of the vocabulary; rules are named by their canonical text.
@@ -15,7 +15,7 @@ from tumato_symbolic.policy.records import RankedGoal, Vocabulary
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import Assignment, Ordering, Restoration
 
-Strike: TypeAlias = tuple[int, Assignment]
+ActionEffect: TypeAlias = tuple[int, Assignment]
 """An action taking one of its effects."""
 
 
@@ -25,7 +25,7 @@ class Violation:
 
     `precondition`: the executed action of `actions` has a precondition that is false. `resource`, `nominal-conflict`:
     the two executed actions of `actions` exclude each other. `reaction-rule`: `rule` is false however the open actions
-    are chosen. `unsafe`: the executed actions of `outcome` can strike in this order, and lead to a state that is not
+    are chosen. `unsafe`: the executed actions of `outcome` can happen in this order, and lead to a state that is not
     safe. `falsified`: so they can, and what they lead to falsifies a precondition of the executed action of `actions`,
     which has not taken effect; preconditions have to hold throughout. `idle`: the state is not safe, and every action
     that has effects is idle. `nominal-unsafe`: all nominal effects together lead to a state that is not safe; every
@@ -44,7 +44,7 @@ class Violation:
     ]
     actions: tuple[int, ...] = ()
     rule: str | None = None
-    outcome: tuple[Strike, ...] = ()
+    outcome: tuple[ActionEffect, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

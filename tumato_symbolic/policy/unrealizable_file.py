@@ -1,4 +1,4 @@
-"""The certificate for the answer no as a file, and in the numbers of a specification (`docs/certificate.md`)."""
+"""A certificate of unrealizability as a file, and in the numbers of a specification (`docs/certificate.md`)."""
 
 from __future__ import annotations
 
@@ -119,12 +119,12 @@ class _Names:
             case "reaction-rule":
                 return {"Kind": violation.kind, "Rule": violation.rule}
             case "unsafe" | "falsified":
-                strikes = [
+                effects = [
                     {"Action": self.actions([action])[0], "Effect": self.assignment(effect)}
                     for action, effect in violation.outcome
                 ]
                 pending = {"Actions": self.actions(violation.actions)} if violation.kind == "falsified" else {}
-                return {"Kind": violation.kind, **pending, "Outcome": strikes}
+                return {"Kind": violation.kind, **pending, "Outcome": effects}
             case _:
                 return {"Kind": violation.kind}
 
@@ -219,10 +219,10 @@ def bind(certificate: Unrealizability, spec: Spec) -> Unrealizability:
 
 def _bound_cube(cube: Cube, by: Renumbering) -> Cube:
     violation = cube.violation
-    strikes = tuple((by.actions[action], by.assignment(effect)) for action, effect in violation.outcome)
+    effects = tuple((by.actions[action], by.assignment(effect)) for action, effect in violation.outcome)
     actions = tuple(by.actions[action] for action in violation.actions)
     return Cube(
-        by.action_set(cube.executed), by.action_set(cube.idle), replace(violation, actions=actions, outcome=strikes)
+        by.action_set(cube.executed), by.action_set(cube.idle), replace(violation, actions=actions, outcome=effects)
     )
 
 

@@ -1,4 +1,4 @@
-"""JSON values to the certificate of the answer no. The format is described in `docs/certificate.md`."""
+"""JSON values to a certificate of unrealizability. The format is described in `docs/certificate.md`."""
 
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ from tumato_symbolic.policy.read import (
 from tumato_symbolic.policy.read_diagrams import read_diagram
 from tumato_symbolic.policy.records import RankedGoal, Vocabulary
 from tumato_symbolic.policy.unrealizable import (
+    ActionEffect,
     Choice,
     Conflict,
     Cube,
@@ -29,7 +30,6 @@ from tumato_symbolic.policy.unrealizable import (
     NoAllowedSet,
     NoPlan,
     NoRestoration,
-    Strike,
     Unrealizability,
     Violation,
 )
@@ -102,9 +102,9 @@ class _Reader:
             case "reaction-rule":
                 return Violation(kind, rule=as_text(member(section, "Rule", where), f"`Rule` in {where}"))
             case "unsafe":
-                return Violation(kind, outcome=self._strikes(section, where))
+                return Violation(kind, outcome=self._effects(section, where))
             case "falsified":
-                return Violation(kind, self._named(section, where, 1), outcome=self._strikes(section, where))
+                return Violation(kind, self._named(section, where, 1), outcome=self._effects(section, where))
             case "idle" | "nominal-unsafe":
                 return Violation(kind)
             case _:
@@ -118,11 +118,11 @@ class _Reader:
             raise fault(Code.TUM502, message)
         return actions
 
-    def _strikes(self, section: dict[str, Any], where: str) -> tuple[Strike, ...]:
+    def _effects(self, section: dict[str, Any], where: str) -> tuple[ActionEffect, ...]:
         entries = as_list(member(section, "Outcome", where), f"`Outcome` in {where}")
-        return tuple(self._strike(entry, f"strike {n} of {where}") for n, entry in enumerate(entries, 1))
+        return tuple(self._effect(entry, f"effect {n} of {where}") for n, entry in enumerate(entries, 1))
 
-    def _strike(self, value: object, where: str) -> Strike:
+    def _effect(self, value: object, where: str) -> ActionEffect:
         section = as_object(value, where)
         action = self._action(member(section, "Action", where), f"`Action` of {where}")
         effect = as_object(member(section, "Effect", where), f"`Effect` of {where}")

@@ -199,7 +199,7 @@ def near_story(place: Place, near: NearMiss) -> list[str]:
     if first.rule is not None and first.state is not None and near.chosen:
         told = objection_text(place, first).split("\n")[0].removeprefix("when ").rstrip(",")
         if first.kind == "nominal-unsafe":
-            told = "all nominal effects strike"
+            told = "all nominal effects are applied"
         shown, broken = _facts(place, first), f"breaks {place.rule(first.rule)}"
         if first.kind == "falsified":
             pending = place.spec.actions[first.actions[0]].name

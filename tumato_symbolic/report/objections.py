@@ -59,7 +59,7 @@ class Place:
 
 
 def story(place: Place, outcome: EffectSequence) -> str:
-    """How effects struck one after the other."""
+    """How effects happened one after the other."""
     return ", then ".join(_effectuation(place, step) for step in outcome)
 
 

@@ -1,4 +1,4 @@
-"""What was found about a certificate for the answer no, for a person, a program and GitHub."""
+"""The verdict on a certificate of unrealizability, for a person, a program and GitHub."""
 
 from __future__ import annotations
 

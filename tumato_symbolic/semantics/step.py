@@ -21,7 +21,7 @@ class EffectStep:
 
 
 EffectSequence: TypeAlias = tuple[EffectStep, ...]
-"""How a state was reached: effects in the order in which they struck. Empty where no action has effects."""
+"""How a state was reached: effects in the order in which they happened. Empty where no action has effects."""
 
 
 def outcomes(spec: Spec, state: State, chosen: ActionSet, ordering: Ordering) -> dict[State, EffectSequence]:
@@ -149,7 +149,7 @@ def falsified(spec: Spec, state: State, chosen: ActionSet, ordering: Ordering) -
 
 
 def fault_after(spec: Spec, state: State, chosen: ActionSet, way: EffectSequence) -> Objection | None:
-    """What is wrong when `chosen` is executed in `state` and effects have struck in this way, if anything is."""
+    """What is wrong when `chosen` is executed in `state` and effects have happened in this way, if anything is."""
     end = way[-1].after
     broken = first_broken(required_rules(spec, state), end)
     if broken is not None:

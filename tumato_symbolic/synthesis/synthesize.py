@@ -74,8 +74,8 @@ def synthesize(
 
     `ordering` overrides the specification's effect ordering (default: what it says, else `any`). `context` limits the
     work; it is told the name of each stage, and learns what the outcome would be if a limit were met now. Without
-    `certify` the answer no comes without its certificate, and without `diagnose` it does not tell what several steps
-    would do for states that cannot be restored in one. Raises `UserError` where no state is valid.
+    `certify`, what is unrealizable comes without a certificate, and without `diagnose` without what several steps would
+    do for states that cannot be restored in one. Raises `UserError` where no state is valid.
     """
     context = context or Context()
     try:
@@ -171,7 +171,7 @@ def _reason(
 def _unrealizable(
     problem: Problem, failures: tuple[Failure, ...], statistics: Statistics, warnings: tuple[Diagnostic, ...]
 ) -> Unrealizable:
-    """The answer no, before there is a certificate for it."""
+    """*Unrealizable*, before there is a certificate for it."""
     answer = Unrealizable(failures, statistics, None, warnings)
     problem.context.learn(answer)
     problem.context.tell("certifying that there is no policy")

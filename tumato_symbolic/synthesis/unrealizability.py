@@ -1,4 +1,4 @@
-"""The certificate for the answer no (`docs/certificate.md`)."""
+"""The certificate of unrealizability (`docs/certificate.md`)."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from tumato_symbolic.game import Problem
 from tumato_symbolic.policy import RankedGoal, Vocabulary
 from tumato_symbolic.policy.compact import minimized_layers, minimized_trap
 from tumato_symbolic.policy.unrealizable import (
+    ActionEffect,
     Choice,
     Conflict,
     Cube,
@@ -20,7 +21,6 @@ from tumato_symbolic.policy.unrealizable import (
     NoAllowedSet,
     NoPlan,
     NoRestoration,
-    Strike,
     Unrealizability,
     Violation,
 )
@@ -114,14 +114,14 @@ def _by_outcomes(spec: Spec, state: State, executed: ActionSet, ordering: Orderi
         raise _TooManyOutcomesError
     for reached, way in outcomes_in_turn(spec, state, executed, ordering):
         if not is_safe(spec, reached):
-            yield Violation("unsafe", outcome=_strikes(way))
+            yield Violation("unsafe", outcome=_effects(way))
     if spec.preconditions == "throughout":
         for objection in falsified(spec, state, executed, ordering):
-            yield Violation("falsified", objection.actions, outcome=_strikes(objection.outcome))
+            yield Violation("falsified", objection.actions, outcome=_effects(objection.outcome))
 
 
-def _strikes(way: EffectSequence) -> tuple[Strike, ...]:
-    return tuple((strike.action, strike.effect) for strike in way)
+def _effects(way: EffectSequence) -> tuple[ActionEffect, ...]:
+    return tuple((step.action, step.effect) for step in way)
 
 
 def _name(spec: Spec, rule: Rule) -> str:

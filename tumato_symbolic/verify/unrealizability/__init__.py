@@ -1,1 +1,1 @@
-"""The answer that there is no policy, proved by Z3 and the walk (`docs/certificate.md`, "The answer no")."""
+"""Certificates of unrealizability, proved by Z3 and decision diagrams (`docs/certificate.md`)."""

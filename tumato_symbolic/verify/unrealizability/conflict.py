@@ -1,6 +1,6 @@
 """*No policy serves these states together*: complete options, distances, and cuts that no choice respects.
 
-Why this is a proof: `docs/certificate.md`, the section on the answer no.
+Why this is a proof: `docs/certificate.md`, the section on unrealizability.
 """
 
 from __future__ import annotations
