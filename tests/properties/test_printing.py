@@ -19,7 +19,7 @@ def bare(value: Any) -> Any:
         return tuple(bare(part) for part in value)
     if not is_dataclass(value) or isinstance(value, type):
         return value
-    kept = {part.name: bare(getattr(value, part.name)) for part in fields(value)}
+    kept = {part.name: bare(getattr(value, part.name)) for part in fields(value) if part.init}
     hidden = {"span": NOWHERE, "text": "", "outcomes": tuple(sorted(kept.get("outcomes", ())))}
     return replace(value, **{name: hidden.get(name, part) for name, part in kept.items()})
 

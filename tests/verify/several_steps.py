@@ -90,9 +90,10 @@ def with_repairs(spec: Spec, random: Random) -> Spec:
 
 def near(spec: Spec, ordering: Ordering, random: Random, count: int = 3) -> Iterator[dict[State, ActionSet]]:
     """A policy that is as good as a greedy search makes it, `count` changed ones, and one at random."""
-    valid = [state for state in all_states(spec) if is_valid(spec, state)]
-    options = {state: list(allowed_sets(spec, state, ordering)) for state in valid}
-    found = greedy(spec, ordering, options)
+    world = World(spec, ordering)
+    valid = world.valid
+    options = {state: [option.chosen for option in some] for state, some in world.options.items()}
+    found = greedy(world, options)
     yield found
     for _ in range(count):
         rows = dict(found)
@@ -114,14 +115,13 @@ def near(spec: Spec, ordering: Ordering, random: Random, count: int = 3) -> Iter
     }
 
 
-def greedy(spec: Spec, ordering: Ordering, options: Mapping[State, list[ActionSet]]) -> dict[State, ActionSet]:
+def greedy(world: World, options: Mapping[State, list[ActionSet]]) -> dict[State, ActionSet]:
     """Safe states as the oracle serves them, then unsafe ones by increasing quality; some may stay undecided."""
-    world = World(spec, ordering)
+    spec, unsafe = world.spec, world.unsafe
     world.valid, world.unsafe = world.safe, []
     policy = dict(decide_world(world).policy or {state: options[state][0] for state in world.safe if options[state]})
-    unsafe = [state for state in options if not is_safe(spec, state)]
     while True:
-        restorations = Restorations(spec, policy, ordering)
+        restorations = Restorations(spec, policy, world.ordering)
         found: list[tuple[Quality, State, ActionSet]] = []
         for state in unsafe:
             for chosen in options[state] if state not in policy else ():

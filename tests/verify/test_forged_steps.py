@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import product
 from typing import Literal
 
@@ -10,7 +11,7 @@ import pytest
 
 from tests.generate import ALL_PROFILES, random_spec
 from tests.semantics import literal
-from tests.semantics.build import Build
+from tests.semantics.build import Build, rules
 from tumato_symbolic.policy import as_diagram, policy_from_rows
 from tumato_symbolic.spec import And, Iff, Is, Not, Or, Ordering, Spec
 from tumato_symbolic.verify import verify
@@ -34,9 +35,7 @@ def writers() -> Build:
 def forbidding(spec: Spec, state: literal.State) -> Spec:
     """The specification with one state that is not safe."""
     here = And(tuple(Is(variable, value) for variable, value in enumerate(state)))
-    from tests.semantics.build import rules
-
-    return Spec(**{name: getattr(spec, name) for name in spec.__slots__} | {"state_rules": rules(Not(here))})
+    return replace(spec, state_rules=rules(Not(here)))
 
 
 def compatible(spec: Spec) -> Iterator[literal.Actions]:

@@ -69,11 +69,11 @@ def _assert_witness(spec: Spec, rows: Rows, judged: Judgement, ordering: Orderin
 def test_every_mode_is_judged_as_by_the_explicit_meaning(restoration: Restoration, ordering: Ordering) -> None:
     """Right policies, nearly right and random ones: every verdict is the judge's, and every witness is one."""
     met = Counter[tuple[str, str, str]]()
-    for seed in range(20):
+    for seed in range(12):
         spec, random = stepwise_spec(seed, restoration, 1 + seed % 3), Random(seed)
         if not spec.restores_stepwise:
             continue
-        for rows in near(spec, ordering, random):
+        for rows in near(spec, ordering, random, count=1):
             judged = judge(spec, rows, ordering)
             for prover in PROVERS:
                 answer = judged_by(spec, rows, ordering, policy_from_rows(spec, rows), prover, judged=judged)

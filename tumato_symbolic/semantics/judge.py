@@ -49,33 +49,39 @@ def judge(spec: Spec, policy: Mapping[State, ActionSet], ordering: Ordering) -> 
     runs = [
         (state, follow(spec, decided, state, chosen)) for state, chosen in decided.items() if state not in forbidden
     ]
-    cheaper = ((state, better_sets(spec, decided, state, ordering)) for state in decided if not is_safe(spec, state))
+    ways_back = Restorations(spec, decided, ordering) if spec.restores_stepwise else None
+    unsafe = [state for state in decided if not is_safe(spec, state)]
+    cheaper = ((state, better_sets(spec, decided, state, ordering, ways_back)) for state in unsafe)
     return Judgement(
         missing,
         not_allowed,
         tuple((state, run) for state, run in runs if run.end != "goal"),
         tuple((state, best) for state, sets in cheaper if (best := next(sets, None)) is not None),
         max((run.steps for _, run in runs if run.end == "goal"), default=0),
-        tuple(_not_restored(spec, decided, ordering)) if spec.restores_stepwise else (),
+        tuple(state for state in unsafe if ways_back is not None and _is_trapped(spec, decided, state, ways_back)),
     )
 
 
-def _not_restored(spec: Spec, policy: Mapping[State, ActionSet], ordering: Ordering) -> Iterator[State]:
-    """The unsafe states that the policy does not restore as it has to."""
-    restorations = Restorations(spec, policy, ordering)
-    for state, chosen in policy.items():
-        if not is_safe(spec, state) and nominal_agrees(spec, chosen) and restorations.quality(state, chosen) is None:
-            yield state
+def _is_trapped(spec: Spec, policy: Mapping[State, ActionSet], state: State, ways_back: Restorations) -> bool:
+    """Whether the policy does not restore an unsafe state as it has to."""
+    return nominal_agrees(spec, policy[state]) and ways_back.quality(state, policy[state]) is None
 
 
-def better_sets(spec: Spec, policy: Mapping[State, ActionSet], state: State, ordering: Ordering) -> Iterator[ActionSet]:
+def better_sets(
+    spec: Spec,
+    policy: Mapping[State, ActionSet],
+    state: State,
+    ordering: Ordering,
+    ways_back: Restorations | None = None,
+) -> Iterator[ActionSet]:
     """The allowed sets that restore an unsafe state better than `policy[state]`, and serve as well.
 
     In one step: those of smaller duration whose run, continued by `policy`, meets the goal. In several: those of better
     quality with which its own run meets the goal, and so do the runs of all other states that meet theirs by `policy`.
+    `ways_back` are those of the policy, where they are known.
     """
     if spec.restores_stepwise:
-        yield from _better_stepwise(spec, policy, state, ordering)
+        yield from _better_stepwise(spec, policy, state, ordering, ways_back or Restorations(spec, policy, ordering))
         return
     cost = duration(spec, policy[state])
     for chosen in allowed_sets(spec, state, ordering):
@@ -84,12 +90,12 @@ def better_sets(spec: Spec, policy: Mapping[State, ActionSet], state: State, ord
 
 
 def _better_stepwise(
-    spec: Spec, policy: Mapping[State, ActionSet], state: State, ordering: Ordering
+    spec: Spec, policy: Mapping[State, ActionSet], state: State, ordering: Ordering, ways_back: Restorations
 ) -> Iterator[ActionSet]:
-    restorations, today = Restorations(spec, policy, ordering), policy[state]
-    now = restorations.quality(state, today) if nominal_agrees(spec, today) else None
+    today = policy[state]
+    now = ways_back.quality(state, today) if nominal_agrees(spec, today) else None
     for chosen in allowed_sets(spec, state, ordering):
-        found = restorations.quality(state, chosen)
+        found = ways_back.quality(state, chosen)
         if found is not None and (now is None or found < now) and _serves(spec, policy, state, chosen):
             yield chosen
 

@@ -21,10 +21,10 @@ NOTHING: ActionSet = frozenset()
 def holds(formula: Formula, state: State, executed: ActionSet = NOTHING) -> bool:
     """Whether `formula` is true in `state` while the actions `executed` run."""
     match formula:
-        case Constant(value):
-            return value
         case Is(variable, value):
             return state[variable] == value
+        case Constant(value):
+            return value
         case Executing(action):
             return action in executed
         case Not(operand):

@@ -61,9 +61,9 @@ def _in_turn(
                 rest = waiting - {action}
                 for effect in spec.actions[action].effects:
                     there = apply(effect, here)
-                    way = (*past, EffectStep(action, effect, there))
                     if (there, rest) not in seen:
                         seen.add((there, rest))
+                        way = (*past, EffectStep(action, effect, there))
                         following.append((there, rest, way))
                         yield there, rest, way
         frontier = following if ordering == "any" else []

@@ -55,7 +55,9 @@ class Alternative:
 class Action:
     """An action. `resources` are resource numbers; the preconditions are a conjunction.
 
-    `resource_span` is where the resources are listed, None where the text has no such field.
+    `resource_span` is where the resources are listed, None where the text has no such field. `effects` has the nominal
+    assignment first, then every alternative one; each assignment once. It is empty for an action without effects, none
+    of whose effects mentions a variable: it never takes effect.
     """
 
     name: str
@@ -66,15 +68,11 @@ class Action:
     alternatives: tuple[Alternative, ...]
     span: Span
     resource_span: Span | None = field(default=None, compare=False)
+    effects: tuple[Assignment, ...] = field(init=False, repr=False, compare=False)
 
-    @property
-    def effects(self) -> tuple[Assignment, ...]:
-        """The nominal assignment first, then every alternative one; each assignment once.
-
-        Empty for an action without effects, none of whose effects mentions a variable: it never takes effect.
-        """
+    def __post_init__(self) -> None:
         found = [self.nominal, *(outcome for entry in self.alternatives for outcome in entry.outcomes)]
-        return tuple(dict.fromkeys(found)) if any(found) else ()
+        object.__setattr__(self, "effects", tuple(dict.fromkeys(found)) if any(found) else ())
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,7 +112,8 @@ class Spec:
     once (aliases expanded), so that two goals are the same exactly when their body numbers are. `max_plan_length`
     is None where plans are unbounded, `effect_ordering` is None where the text does not say.
     `bound_span` is where the plan bound is set. `restoration` is how safety is to be restored: what the text says,
-    or the command line in its place. `preconditions` is when those of actions have to hold.
+    or the command line in its place. `preconditions` is when those of actions have to hold. `tiers` are the state rules
+    by severity, the most severe first; one tier at least.
     """
 
     variables: tuple[Variable, ...]
@@ -130,17 +129,17 @@ class Spec:
     bound_span: Span | None = field(default=None, compare=False)
     restoration: Restoration = "one_step"
     preconditions: PreconditionsHold = "at_start"
+    tiers: tuple[tuple[Rule, ...], ...] = field(init=False, repr=False, compare=False)
 
-    @property
-    def tiers(self) -> tuple[tuple[Rule, ...], ...]:
-        """The state rules by severity, the most severe first; one tier at least."""
+    def __post_init__(self) -> None:
         severities = sorted({rule.severity for rule in self.state_rules}) or [1]
-        return tuple(tuple(rule for rule in self.state_rules if rule.severity == each) for each in severities)
+        tiers = tuple(tuple(rule for rule in self.state_rules if rule.severity == each) for each in severities)
+        object.__setattr__(self, "tiers", tiers)
 
     @property
     def restores_stepwise(self) -> bool:
         """Whether the way back to safety may take more than one step: decisions in unsafe states then serve runs."""
-        return self.restoration != "one_step" or len({rule.severity for rule in self.state_rules}) > 1
+        return self.restoration != "one_step" or len(self.tiers) > 1
 
     @property
     def in_one_step(self) -> Spec:
