@@ -91,11 +91,10 @@ def test_a_policy_that_takes_a_run_its_goal(prover: ProverName) -> None:
     assert [each.name for each in answer.properties if each.verdict == "refuted"] == ["minimal"]
 
 
-@pytest.mark.parametrize("prover", PROVERS)
 @pytest.mark.parametrize("restoration", RESTORATIONS)
-def test_a_certificate_changes_no_verdict(restoration: Restoration, prover: ProverName) -> None:
+def test_a_certificate_changes_no_verdict(restoration: Restoration) -> None:
     """Right ones are used where safety is restored and every run reaches its goal; wrong ones are set aside."""
-    met = set()
+    met: dict[ProverName, set[str]] = {prover: set() for prover in PROVERS}
     for seed in range(12):
         spec, random = stepwise_spec(seed, restoration, 1 + seed % 3), Random(seed)
         if not spec.restores_stepwise:
@@ -105,26 +104,30 @@ def test_a_certificate_changes_no_verdict(restoration: Restoration, prover: Prov
             if judged.not_allowed:
                 continue
             said = exact(spec, rows, "any")
-            answer = judged_by(spec, rows, "any", certified(spec, rows, said), prover)
-            assert (answer.certificate.status == "used") == (not judged.goal_missed and not judged.not_restored)
-            answer = judged_by(spec, rows, "any", certified(spec, rows, changed(said, spec, random)), prover)
-            met.add(answer.certificate.status)
-    assert met >= {"wrong", "incomplete"}, met
+            right, wrong = certified(spec, rows, said), certified(spec, rows, changed(said, spec, random))
+            for prover in PROVERS:
+                answer = judged_by(spec, rows, "any", right, prover, judged=judged)
+                assert (answer.certificate.status == "used") == (not judged.goal_missed and not judged.not_restored)
+                answer = judged_by(spec, rows, "any", wrong, prover, judged=judged)
+                met[prover].add(answer.certificate.status)
+    assert all(statuses >= {"wrong", "incomplete"} for statuses in met.values()), met
 
 
 @pytest.mark.parametrize("restoration", ["bounded", "fair"])
 def test_runs_that_need_a_detour(restoration: Restoration) -> None:
     """Better sets that take another run its goal, and such as only seem to."""
     met = Counter[tuple[str, bool]]()
-    for seed in range(60):
+    for seed in range(24):
         spec, random = detours(seed, restoration), Random(seed)
         options = {state: list(allowed_sets(spec, state, "any")) for state in all_states(spec)}
         for number in range(12):
             rows = {state: random.choice(sets[len(sets) > 1 :]) for state, sets in options.items()}
             judged = judge(spec, rows, "any")
-            if number > 1 and not judged.sound_and_complete:
+            if number and not judged.sound_and_complete:
                 continue
             said = exact(spec, rows, "any")
+            if number and not said[3]:
+                continue
             silent = (*said[:3], list[Deviation]())
             for prover in PROVERS:
                 answer = judged_by(spec, rows, "any", certified(spec, rows, said), prover, judged=judged)
