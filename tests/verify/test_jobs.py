@@ -72,15 +72,13 @@ def _policies(spec: Spec, ordering: Ordering, random: Random) -> Iterator[Policy
 @pytest.mark.parametrize("profile", ALL_PROFILES)
 @pytest.mark.parametrize("ordering", ["any", "first"])
 def test_the_answer_does_not_depend_on_the_jobs(profile: str, ordering: Ordering, asked: list[int]) -> None:
-    """Verdicts, witnesses, numbers of obligations, provers and certificate are the same with 1, 2 and 3 processes."""
+    """Verdicts, witnesses, numbers of obligations, provers and certificate are those of one process."""
     for seed in range(400, 404):
         spec, random = random_spec(seed, ALL_PROFILES[profile]), Random(seed)
         for policy in _policies(spec, ordering, random):
-            for name in ("walk", random.choice(("auto", "both"))):
-                ask = partial(_ask, policy, spec, ordering, name)
-                alone = ask(1)
-                assert [ask(2), ask(3)] == [alone, alone]
-    assert sum(asked) > 50, "children were asked"
+            name, jobs = random.choice(("walk", "walk", "auto", "both")), random.choice((2, 3))
+            assert _ask(policy, spec, ordering, name, jobs) == _ask(policy, spec, ordering, name, 1)
+    assert sum(asked) > 20, "children were asked"
 
 
 def _ask(policy: Policy, spec: Spec, ordering: Ordering, name: ProverName, jobs: int) -> Verification:
@@ -94,7 +92,7 @@ def test_the_limit_on_memory_does_not_depend_on_the_jobs(
     """Children together may remember what one process may; where that is too little, the answer is that of one."""
     policy, spec = _amr()
     verdicts = set()
-    for most in range(200, 4000, 100):
+    for most in (*range(200, 1600, 100), 2500, 3900):
         monkeypatch.setattr(
             import_module("tumato_symbolic.verify.by_diagrams.steps"), "Walk", partial(Walk, most_steps=most)
         )
