@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from tests.conformance.roles import Decider, Judge, Restorer, Stepper
+from tests.conformance.roles import Decider, Guarantor, Judge, Restorer, Stepper
 from tests.conformance.world import BOTH, Decisions, world
 from tumato_symbolic.semantics import ActionSet, Effort, State, all_states
 from tumato_symbolic.spec import Ordering
@@ -71,6 +71,17 @@ def efforts(restorer: Restorer, text: str, decisions: Decisions, ordering: Order
     asked = world(text, ordering)
     found = restorer.efforts(asked, asked.rows(decisions))
     return {asked.words(state): effort for state, effort in sorted(found.items())}
+
+
+def guaranteed(guarantor: Guarantor, text: str, decisions: Decisions, ordering: Ordering = "any") -> dict[str, str]:
+    """What a policy in words guarantees: `guaranteed 2` (steps), `fair`, `survives 1`, `nominal` or `nothing`."""
+    asked = world(text, ordering)
+    found = guarantor.guarantees(asked, asked.rows(decisions))
+    numbered = {
+        state: each and (each.kind, *(number for number in (each.steps, each.deviations) if number is not None))
+        for state, each in sorted(found.items())
+    }
+    return {asked.words(state): " ".join(map(str, each or ("nothing",))) for state, each in numbered.items()}
 
 
 def policy(decider: Decider, text: str, ordering: Ordering = "any") -> dict[str, str]:

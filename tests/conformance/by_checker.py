@@ -9,10 +9,12 @@ from typing import Any
 from tests.checker.standalone import checker
 from tests.conformance.roles import Rows
 from tests.conformance.world import REMEMBERED, World
+from tumato_symbolic.policy import guarantees_file, policy_from_rows
 from tumato_symbolic.policy.unrealizable import Unrealizability
 from tumato_symbolic.policy.unrealizable_file import dumps
-from tumato_symbolic.semantics import ActionSet, Effort, State
+from tumato_symbolic.semantics import ActionSet, Effort, Guarantee, State
 from tumato_symbolic.spec import Ordering
+from tumato_symbolic.verify.guarantees.analyse import guarantees as analysed
 
 
 class Checker:
@@ -73,6 +75,20 @@ class Checker:
         decided = {_values(world, state): _names(world, chosen) for state, chosen in rows.items()}
         worst = checker.Restoring(_own(world.text, world.ordering), decided).worst
         return {_numbers(world, values): effort for values, effort in worst.items()}
+
+    def guarantees(self, world: World, rows: Rows) -> dict[State, Guarantee | None]:
+        """`Guarantees.level`, by the certificate of the package, once `Guarantees.check_ranks` accepts it."""
+        policy = policy_from_rows(world.spec, dict(rows))
+        certificate = analysed(policy, world.spec, world.ordering, certify=True).certificate
+        assert certificate is not None
+        decisions = {_values(world, state): _names(world, chosen) for state, chosen in rows.items()}
+        judge = checker.Judge(_own(world.text, world.ordering), decisions.get)
+        claims = checker.Guarantees(judge, loads(guarantees_file.dumps(certificate)))
+        try:
+            claims.check_ranks()
+        except checker.Refuted as refuted:
+            raise AssertionError(refuted) from None
+        return {state: Guarantee(*claims.level(_values(world, state))) for state in rows}
 
     def believes(self, world: World, certificate: Unrealizability) -> bool:
         """`judge_no`."""

@@ -17,11 +17,13 @@ from tumato_symbolic.policy import as_table
 from tumato_symbolic.semantics import (
     ActionSet,
     Effort,
+    Guarantee,
     Restorations,
     State,
     all_states,
     allowed,
     allowed_sets,
+    guarantees,
     is_safe,
     is_valid,
     judge,
@@ -99,6 +101,10 @@ class Explicit:
     def efforts(self, world: World, rows: Rows) -> dict[State, Effort]:
         """`Restorations.worst`."""
         return dict(Restorations(world.spec, rows, world.ordering).worst)
+
+    def guarantees(self, world: World, rows: Rows) -> dict[State, Guarantee | None]:
+        """`guarantees`."""
+        return guarantees(world.spec, rows, world.ordering)
 
     def answer(self, world: World) -> Answer:
         """The preferred policy where the preferences alone make one, else any; states that fail, or a conflict."""

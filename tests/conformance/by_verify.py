@@ -17,14 +17,16 @@ from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.limits import Budget
 from tumato_symbolic.policy import as_diagram, policy_from_rows
 from tumato_symbolic.policy.unrealizable import Unrealizability
-from tumato_symbolic.semantics import ActionSet, Effort, State, all_states, takes_effect
+from tumato_symbolic.semantics import ActionSet, Effort, Guarantee, State, all_states, takes_effect
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify import ProverName, verify, verify_unrealizable
 from tumato_symbolic.verify.by_diagrams.closed_loop import ClosedLoop
 from tumato_symbolic.verify.by_diagrams.efforts import WalkEfforts
+from tumato_symbolic.verify.by_diagrams.goals import WalkGoals
 from tumato_symbolic.verify.by_states.efforts import Efforts
 from tumato_symbolic.verify.by_states.packed import Packing
 from tumato_symbolic.verify.by_states.steps import Steps
+from tumato_symbolic.verify.guarantees.prospects import WalkProspects
 from tumato_symbolic.verify.unrealizability.allowed_step import AllowedStep, is_state
 
 
@@ -168,6 +170,15 @@ class Walk(Prover):
             for state in rows
             if number in number_of and model.holds(where, state, frozenset())
         }
+
+    def guarantees(self, world: World, rows: Rows) -> dict[State, Guarantee | None]:
+        """`WalkProspects.levels`."""
+        model = ClosedLoop(world.spec, as_diagram(policy_from_rows(world.spec, dict(rows))), world.ordering)
+        goals, found = WalkGoals(model), dict[State, Guarantee | None]()
+        for goal, pending in goals.residuals(model.decided, model.policy):
+            for guarantee, states in WalkProspects(model, goals, goal).levels(pending):
+                found |= {state: guarantee for state in rows if model.holds(states, state, frozenset())}
+        return found
 
     def finds(self, world: World, state: State, chosen: ActionSet) -> bool:
         """`ClosedLoop.allowed`, by which better sets are looked for; false where two actions are of one group."""

@@ -8,7 +8,7 @@ from typing import Protocol, runtime_checkable
 
 from tests.conformance.world import World
 from tumato_symbolic.policy.unrealizable import Unrealizability
-from tumato_symbolic.semantics import ActionSet, Effort, State
+from tumato_symbolic.semantics import ActionSet, Effort, Guarantee, State
 
 Rows = Mapping[State, ActionSet]
 
@@ -97,6 +97,14 @@ class Restorer(Engine, Protocol):
         """`w` in the unsafe states of a policy for all valid states, where it is finite."""
 
 
+@runtime_checkable
+class Guarantor(Engine, Protocol):
+    """Knows what policies guarantee beyond their nominal runs."""
+
+    def guarantees(self, world: World, rows: Rows) -> Mapping[State, Guarantee | None]:
+        """The strongest that holds of each valid state, where all nominal runs of a total policy meet their goals."""
+
+
 ROLES: dict[str, type] = {
     "reader": Reader,
     "stepper": Stepper,
@@ -104,5 +112,6 @@ ROLES: dict[str, type] = {
     "decider": Decider,
     "refuter": Refuter,
     "restorer": Restorer,
+    "guarantor": Guarantor,
 }
 """The fixture by which a test asks for every engine of a role."""

@@ -21,15 +21,17 @@ from tests.conformance import test_7_none as none
 from tests.conformance import test_8_paper as paper
 from tests.conformance import test_9_restoring as restoring
 from tests.conformance import test_10_severities as severities
+from tests.conformance import test_11_guarantees as guarantees
 from tests.conformance.by_checker import Checker
 from tests.conformance.by_coq import Coq
 from tests.conformance.by_engine import Bdd, Explicit
 from tests.conformance.by_verify import Z3, States, Walk
 from tumato_symbolic.export import coq
 from tumato_symbolic.game import routing
-from tumato_symbolic.semantics import Restorations, holds
+from tumato_symbolic.semantics import Guarantee, Prospects, Restorations, holds
 from tumato_symbolic.semantics import goals as explicit_goals
 from tumato_symbolic.semantics import step as explicit_step
+from tumato_symbolic.semantics.guarantees import Step as ExplicitStep
 from tumato_symbolic.spec import Action, GoalList, Spec
 from tumato_symbolic.symbolic import goals as symbolic_goals
 from tumato_symbolic.symbolic import steps as symbolic_steps
@@ -43,6 +45,7 @@ from tumato_symbolic.verify.by_states import steps as states_steps
 from tumato_symbolic.verify.by_states.efforts import Efforts
 from tumato_symbolic.verify.by_z3 import policy_problem, prover
 from tumato_symbolic.verify.by_z3.choice import Choice
+from tumato_symbolic.verify.guarantees.prospects import WalkProspects
 
 explicit_judge = import_module("tumato_symbolic.semantics.judge")
 taken_alone = import_module("tumato_symbolic.game.alone")
@@ -138,6 +141,22 @@ def _one_tier(written: Any) -> Any:
     )
 
 
+def _met_at_once(of: Any) -> Any:
+    def planted(prospects: Prospects, step: ExplicitStep) -> Any:
+        here = [state for state, known in prospects._steps.items() if known is step]
+        return Guarantee("guaranteed", steps=0) if prospects._met.intersection(here) else of(prospects, step)
+
+    return planted
+
+
+def _nothing_is_nominal(of: Any) -> Any:
+    def planted(prospects: Prospects, step: ExplicitStep) -> Any:
+        found = of(prospects, step)
+        return None if found == Guarantee("nominal") else found
+
+    return planted
+
+
 def _no_coq_rules(written: Any) -> Any:
     return lambda spec: written(replace(spec, reaction_rules=()))
 
@@ -216,6 +235,24 @@ BUGS = (
     Bug("10.4", "goals count everywhere", Checker, checker.World, "reached",
         lambda _: lambda world, goal, state: all(checker.holds(body, state, goal[1]) for body in goal[0]),
         lambda engine: severities.test_goals_count_in_safe_states_only(engine, "bounded")),
+    Bug("11.1", "alternatives never happen", Walk, Action, "effects",
+        lambda _: property(lambda action: (action.nominal,)), guarantees.test_what_is_not_nominal_is_a_deviation),
+    Bug("11.2", "a goal that holds is met at once", Explicit, Prospects, "of", _met_at_once,
+        guarantees.test_the_goal_is_met_after_a_step),
+    Bug("11.4", "deviations may lead anywhere", Explicit, Prospects, "_nominally",
+        lambda nominally: lambda prospects, _: nominally(prospects, frozenset(prospects._steps)),
+        guarantees.test_deviations_are_counted_over_the_whole_run),
+    Bug("11.5", "nothing is fair", Walk, WalkProspects, "surviving",
+        lambda _: property(lambda prospects: [prospects._nominal_layers[-1], prospects._met]),
+        guarantees.test_a_fair_state_meets_its_goal_once_deviations_stop),
+    Bug("11.6", "what is fair is guaranteed", Walk, WalkProspects, "layers",
+        lambda _: property(lambda prospects: [prospects._nominal_layers[-1]]),
+        guarantees.test_a_fair_state_meets_its_goal_once_deviations_stop),
+    Bug("11.7", "the nominal outcome counts alone", Checker, checker.World, "next_states",
+        lambda _: lambda world, state, chosen: {world.successor(state, chosen)},
+        guarantees.test_the_worst_number_of_steps),
+    Bug("11.8", "what is only nominal is nothing", Explicit, Prospects, "of", _nothing_is_nominal,
+        lambda engine: guarantees.test_each_guarantee_implies_the_weaker_ones(engine, "adc", "a", "nominal")),
 )  # fmt: skip
 
 
