@@ -38,7 +38,7 @@ def examine(job: Job) -> tuple[Job, Counter[str], list[str]]:
             counts["empty cores"] += sum(not core for core in reason.cores)
         counts["repairs by dropping"] += sum(repair.drops for repair in explanation.repairs)
         counts["repairs by weakening"] += sum(not repair.drops for repair in explanation.repairs)
-        counts["hopeless"] += explanation.hopeless is not None
+        counts["unavoidable"] += explanation.unavoidable is not None
         counts["realizable parts"] += explanation.part is not None
         counts["parts with a choice"] += explanation.part is not None and not explanation.part.unique
         return job, counts, list(complaints(explanation))

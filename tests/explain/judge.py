@@ -104,9 +104,9 @@ def _wrong_repairs(explanation: Explanation) -> Iterator[str]:
             _wrong_drop(spec, ordering, repair, everything) if repair.drops else _wrong_edit(spec, ordering, repair)
         )
     assumptions = frozenset(each for each in everything if each.kind == "assumption")
-    if (explanation.hopeless is None) != realizable(keep_only(spec, assumptions), ordering):
+    if (explanation.unavoidable is None) != realizable(keep_only(spec, assumptions), ordering):
         yield "whether there is hope is wrong"
-    if explanation.hopeless is None and not explanation.repairs:
+    if explanation.unavoidable is None and not explanation.repairs:
         yield "there is hope, but no repair"
 
 

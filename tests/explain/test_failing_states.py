@@ -8,11 +8,11 @@ from tests.generate import ALL_PROFILES, random_spec
 from tumato_symbolic import parse
 from tumato_symbolic.explain import failing_states
 from tumato_symbolic.explain.conflicts import conflict_core
-from tumato_symbolic.explain.demands import Demands
 from tumato_symbolic.explain.elements import Elements
 from tumato_symbolic.explain.explain import explain
 from tumato_symbolic.explain.explanation import Explanation
 from tumato_symbolic.explain.failing_states import FailingStates, failing
+from tumato_symbolic.explain.requirements import Requirements
 from tumato_symbolic.symbolic import Bdd
 from tumato_symbolic.synthesis import Unrealizable, repair, synthesize
 
@@ -22,38 +22,38 @@ def test_what_is_remembered_is_so(profile: str) -> None:
     """Asked about one set of elements after another, for all states and for one: the answer is the computed one."""
     random = Random(profile)
     for seed in range(12):
-        demands = Demands(random_spec(seed, ALL_PROFILES[profile]), "any", "autoref")
-        known, encoding = FailingStates(demands), demands.encoding
+        requirements = Requirements(random_spec(seed, ALL_PROFILES[profile]), "any", "autoref")
+        known, encoding = FailingStates(requirements), requirements.encoding
         for _ in range(12):
             share = random.random()
-            kept = frozenset(each for each in demands.elements if random.random() < share)
-            expected = failing(demands, kept, demands.valid)
-            if demands.valid != demands.false:
-                state = random.choice(list(encoding.states_in(demands.valid)))
+            kept = frozenset(each for each in requirements.elements if random.random() < share)
+            expected = failing(requirements, kept, requirements.valid)
+            if requirements.valid != requirements.false:
+                state = random.choice(list(encoding.states_in(requirements.valid)))
                 assert known.fails(state, kept) == encoding.contains(expected, state)
-            assert known.failing(kept, demands.valid) == expected
+            assert known.failing(kept, requirements.valid) == expected
 
 
 def test_an_answer_answers_for_more_and_for_less(monkeypatch: pytest.MonkeyPatch) -> None:
     """What fails does when more is kept, and what does not fail does not when less is: nothing is computed again."""
-    demands = Demands(random_spec(1, ALL_PROFILES["mixed"]), "any", "autoref")
-    known = FailingStates(demands)
+    requirements = Requirements(random_spec(1, ALL_PROFILES["mixed"]), "any", "autoref")
+    known = FailingStates(requirements)
     computed: list[Elements] = []
 
-    def counted(demands: Demands, kept: Elements, states: Bdd) -> Bdd:
+    def counted(requirements: Requirements, kept: Elements, states: Bdd) -> Bdd:
         computed.append(kept)
-        return failing(demands, kept, states)
+        return failing(requirements, kept, states)
 
     monkeypatch.setattr(failing_states, "failing", counted)
-    most: Elements = demands.everything
+    most: Elements = requirements.everything
     least: Elements = frozenset()
-    hopeless = known.failing(least, demands.valid)
-    winning = demands.valid & ~known.failing(most, demands.valid)
+    unavoidable = known.failing(least, requirements.valid)
+    winning = requirements.valid & ~known.failing(most, requirements.valid)
     assert len(computed) == 2
-    for element in demands.elements:
-        assert known.failing(most - {element}, hopeless) == hopeless
-        assert known.failing(frozenset((element,)), winning) == demands.false
-    assert known.failing(most, demands.valid) == demands.valid & ~winning
+    for element in requirements.elements:
+        assert known.failing(most - {element}, unavoidable) == unavoidable
+        assert known.failing(frozenset((element,)), winning) == requirements.false
+    assert known.failing(most, requirements.valid) == requirements.valid & ~winning
     assert len(computed) == 2
 
 
@@ -67,17 +67,17 @@ def test_what_no_repair_drops_is_named_first() -> None:
         """
     found = explain(parse(text))
     assert isinstance(found, Explanation)
-    assert found.hopeless == "failing"
+    assert found.unavoidable == "failing"
     assert [[element.kind for element in reason.core] for reason in found.reasons] == [["assumption"]]
 
 
 def test_a_conflict_that_is_too_hard_is_not_made_smaller(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where no question about a conflict is answered, all elements are to blame: they suffice."""
     spec = random_spec(101314, ALL_PROFILES["interacting"])
-    demands = Demands(spec, "any", "autoref")
+    requirements = Requirements(spec, "any", "autoref")
     outcome = synthesize(spec, "any", certify=False)
     assert isinstance(outcome, Unrealizable)
     together = outcome.failures[0].states
-    assert len(conflict_core(demands, together, demands.everything)) < len(demands.everything)
+    assert len(conflict_core(requirements, together, requirements.everything)) < len(requirements.everything)
     monkeypatch.setattr(repair, "ROUNDS", 0)
-    assert conflict_core(demands, together, demands.everything) == demands.everything
+    assert conflict_core(requirements, together, requirements.everything) == requirements.everything

@@ -43,7 +43,7 @@ def test_states_that_no_policy_serves_together() -> None:
 
 @pytest.mark.parametrize("seed", range(5100, 5103))
 def test_reasons_hold_and_are_minimal(seed: int) -> None:
-    """What a core demands suffices for each failing state, and without any one element the state does not fail so."""
+    """What a core requires suffices for each failing state, and without any one element the state does not fail so."""
     for name, spec in specifications(seed):
         if len(spec.tiers) > 1 or not name.startswith(("restoring", "stepwise")):
             continue

@@ -36,7 +36,7 @@ def test_the_text_shows_order_and_actions() -> None:
 
 
 def test_the_object_for_programs() -> None:
-    """Demands are lists of values by variable, the last one is empty."""
+    """Conditions are lists of values by variable, the last one is empty."""
     rules = (Rule((("S_B", ("on",)),), ("go",)), Rule((), ()))
     assert as_json("p.json", RuleList(rules), 8)["rules"] == [
         {"condition": {"S_B": ["on"]}, "actions": ["go"]},

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from tumato_symbolic.explain.demands import Demands
 from tumato_symbolic.explain.elements import Elements, keep_only
 from tumato_symbolic.explain.failing_states import build_kept_problem
 from tumato_symbolic.explain.minimize import minimal
+from tumato_symbolic.explain.requirements import Requirements
 from tumato_symbolic.explain.trial import trial
 from tumato_symbolic.game import Evaluator, Problem, distances, shortest_decisions, winning
 from tumato_symbolic.semantics import State
@@ -17,26 +17,26 @@ from tumato_symbolic.synthesis import Unrealizable
 from tumato_symbolic.synthesis.repair import Repair, RepairConflict, RoundsExhaustedError
 
 
-def conflict_core(demands: Demands, states: Sequence[State], among: Elements) -> Elements:
+def conflict_core(requirements: Requirements, states: Sequence[State], among: Elements) -> Elements:
     """A set of elements, out of some that suffice, because of which nothing serves the states together.
 
     It is minimal, but for elements of which it cannot be found out in time whether they are needed. Where dropping
     assumptions makes more states valid, a run may end in those without an allowed set, but not go on.
     """
-    wanted = demands.manager.union(map(demands.encoding.state_cube, states))
-    items = [each for each in demands.elements if each in among]
-    return minimal(items, lambda kept: conflicting(demands, wanted, kept))
+    wanted = requirements.manager.union(map(requirements.encoding.state_cube, states))
+    items = [each for each in requirements.elements if each in among]
+    return minimal(items, lambda kept: conflicting(requirements, wanted, kept))
 
 
-def conflicting(demands: Demands, wanted: Bdd, kept: Elements) -> bool:
+def conflicting(requirements: Requirements, wanted: Bdd, kept: Elements) -> bool:
     """Whether it is shown that no policy serves these states when only some elements are kept."""
-    if demands.spec.restores_stepwise:
-        return isinstance(trial(demands, keep_only(demands.spec, kept)), Unrealizable)
-    valid = demands.steps(kept).valid
-    problem = build_kept_problem(demands, kept, regions(demands.encoding, valid))
+    if requirements.spec.restores_stepwise:
+        return isinstance(trial(requirements, keep_only(requirements.spec, kept)), Unrealizable)
+    valid = requirements.steps(kept).valid
+    problem = build_kept_problem(requirements, kept, regions(requirements.encoding, valid))
     problem = replace(problem, steps=replace(problem.steps, valid=wanted))
     ranks = distances(problem)
-    if (wanted & ~winning(problem, ranks, problem.steps.allowed)) != demands.false:
+    if (wanted & ~winning(problem, ranks, problem.steps.allowed)) != requirements.false:
         return True
     policy = shortest_decisions(problem, ranks, problem.steps.safe, problem.steps.allowed)
     try:

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from tumato_symbolic.explain.cubes import disjoint_cubes, set_of
-from tumato_symbolic.explain.demands import Demands
 from tumato_symbolic.explain.elements import Element, Elements
 from tumato_symbolic.explain.failing_states import FailingStates
 from tumato_symbolic.explain.minimize import minimal
+from tumato_symbolic.explain.requirements import Requirements
 from tumato_symbolic.semantics import State
 from tumato_symbolic.symbolic import Bdd
 
@@ -36,22 +36,22 @@ class Failing:
     no_plan: Bdd
 
 
-def failing_states(plans: FailingStates) -> Failing:
+def failing_states(oracle: FailingStates) -> Failing:
     """All states that fail (`docs/semantics.md`, section 7)."""
-    demands = plans.demands
-    stuck, lost = demands.stuck(demands.everything), plans.lost(demands.everything)
-    no_plan = plans.failing(demands.everything, demands.valid & ~stuck & ~lost)
+    requirements = oracle.requirements
+    stuck, lost = requirements.stuck(requirements.everything), oracle.lost(requirements.everything)
+    no_plan = oracle.failing(requirements.everything, requirements.valid & ~stuck & ~lost)
     return Failing(stuck & ~lost, lost, no_plan)
 
 
-def causes(plans: FailingStates, states: Failing) -> Iterator[Cause]:
+def causes(oracle: FailingStates, states: Failing) -> Iterator[Cause]:
     """The failing states by kind and core, in no order.
 
     A typical state gives a core, and the core gives all states that have it: as many rounds as there are cores.
     """
-    yield from _by_core(plans, "no-allowed-set", states.no_allowed_set)
-    yield from _by_core(plans, "no-restoration", states.no_restoration)
-    yield from _no_plan(plans, states.no_plan)
+    yield from _by_core(oracle, "no-allowed-set", states.no_allowed_set)
+    yield from _by_core(oracle, "no-restoration", states.no_restoration)
+    yield from _no_plan(oracle, states.no_plan)
 
 
 @dataclass(frozen=True)
@@ -62,47 +62,47 @@ class Question:
     failing: Callable[[Elements, Bdd], Bdd]
 
     @classmethod
-    def of(cls, plans: FailingStates, kind: FailingKind) -> Question:
+    def of(cls, oracle: FailingStates, kind: FailingKind) -> Question:
         """The question about one way to fail."""
-        demands = plans.demands
+        requirements = oracle.requirements
         match kind:
             case "no-allowed-set":
-                return cls(demands.is_stuck, lambda kept, states: states & demands.stuck(kept))
+                return cls(requirements.is_stuck, lambda kept, states: states & requirements.stuck(kept))
             case "no-restoration":
-                contains = demands.encoding.contains
+                contains = requirements.encoding.contains
                 return cls(
-                    lambda state, kept: contains(plans.lost(kept), state),
-                    lambda kept, states: states & plans.lost(kept),
+                    lambda state, kept: contains(oracle.lost(kept), state),
+                    lambda kept, states: states & oracle.lost(kept),
                 )
             case "no-plan":
-                return cls(plans.fails, plans.failing)
+                return cls(oracle.fails, oracle.failing)
 
 
-def _by_core(plans: FailingStates, kind: FailingKind, left: Bdd) -> Iterator[Cause]:
-    demands, question = plans.demands, Question.of(plans, kind)
-    while left != demands.false:
-        example = typical_state(demands, left)
-        core = core_of(plans, kind, example, demands.everything)
+def _by_core(oracle: FailingStates, kind: FailingKind, left: Bdd) -> Iterator[Cause]:
+    requirements, question = oracle.requirements, Question.of(oracle, kind)
+    while left != requirements.false:
+        example = typical_state(requirements, left)
+        core = core_of(oracle, kind, example, requirements.everything)
         alike = _having(core, left, question.failing)
         yield Cause(kind, alike, core, example)
         left = left & ~alike
 
 
-def _no_plan(plans: FailingStates, left: Bdd) -> Iterator[Cause]:
+def _no_plan(oracle: FailingStates, left: Bdd) -> Iterator[Cause]:
     """What fails even with nothing kept, then what does with the assumptions alone, which no repair drops."""
-    demands = plans.demands
-    hopeless = plans.failing(frozenset(), left)
-    for region in demands.regions.values():
-        here = region & hopeless
-        if here != demands.false:
-            yield Cause("no-plan", here, frozenset(), typical_state(demands, here))
-    left = left & ~hopeless
-    assumptions = frozenset(each for each in demands.elements if each.kind == "assumption")
-    for blamed in (assumptions, demands.everything):
-        while (these := plans.failing(blamed, left)) != demands.false:
-            example = typical_state(demands, these)
-            core = core_of(plans, "no-plan", example, blamed)
-            alike = _having(core, left, plans.failing)
+    requirements = oracle.requirements
+    unavoidable = oracle.failing(frozenset(), left)
+    for region in requirements.regions.values():
+        here = region & unavoidable
+        if here != requirements.false:
+            yield Cause("no-plan", here, frozenset(), typical_state(requirements, here))
+    left = left & ~unavoidable
+    assumptions = frozenset(each for each in requirements.elements if each.kind == "assumption")
+    for blamed in (assumptions, requirements.everything):
+        while (these := oracle.failing(blamed, left)) != requirements.false:
+            example = typical_state(requirements, these)
+            core = core_of(oracle, "no-plan", example, blamed)
+            alike = _having(core, left, oracle.failing)
             yield Cause("no-plan", alike, core, example)
             left = left & ~alike
 
@@ -115,15 +115,15 @@ def _having(core: Elements, left: Bdd, fail: Callable[[Elements, Bdd], Bdd]) -> 
     return states
 
 
-def core_of(plans: FailingStates, kind: FailingKind, state: State, among: Elements) -> Elements:
+def core_of(oracle: FailingStates, kind: FailingKind, state: State, among: Elements) -> Elements:
     """A minimal set of elements, out of some that suffice, because of which a state fails in one way."""
-    question = Question.of(plans, kind)
-    items = [each for each in plans.demands.elements if each in among]
+    question = Question.of(oracle, kind)
+    items = [each for each in oracle.requirements.elements if each in among]
     return minimal(items, lambda kept: question.fails(state, kept))
 
 
 def more_cores(
-    demands: Demands, first: Elements, wanted: int, find: Callable[[Elements], Elements | None]
+    requirements: Requirements, first: Elements, wanted: int, find: Callable[[Elements], Elements | None]
 ) -> tuple[Elements, ...]:
     """Up to `wanted` cores, `first` among them: one element of a known core after another is dropped.
 
@@ -137,11 +137,11 @@ def more_cores(
         dropped = waiting.pop(0)
         core = next((core for core in found if not core & dropped), None)
         if core is None:
-            core = find(demands.everything - dropped)
+            core = find(requirements.everything - dropped)
             if core is None:
                 continue
             found.append(core)
-        for element in sorted(core, key=demands.elements.index):
+        for element in sorted(core, key=requirements.elements.index):
             following = dropped | {element}
             if following not in seen:
                 seen.add(following)
@@ -149,23 +149,23 @@ def more_cores(
     return tuple(found)
 
 
-def core_finder(plans: FailingStates, cause: Cause) -> Callable[[Elements], Elements | None]:
+def core_finder(oracle: FailingStates, cause: Cause) -> Callable[[Elements], Elements | None]:
     """A core of a cause's example among some elements, None where these do not suffice."""
-    question, example = Question.of(plans, cause.kind), cause.example
+    question, example = Question.of(oracle, cause.kind), cause.example
 
     def find(among: Elements) -> Elements | None:
-        return core_of(plans, cause.kind, example, among) if question.fails(example, among) else None
+        return core_of(oracle, cause.kind, example, among) if question.fails(example, among) else None
 
     return find
 
 
-def typical_state(demands: Demands, states: Bdd) -> State:
+def typical_state(requirements: Requirements, states: Bdd) -> State:
     """A state of the largest cube of a set, preferably one like most others: the first one there."""
-    encoding = demands.encoding
-    cover = disjoint_cubes(encoding, states, encoding.domain() & ~demands.valid, 1)
+    encoding = requirements.encoding
+    cover = disjoint_cubes(encoding, states, encoding.domain() & ~requirements.valid, 1)
     return encoding.first_state(states & set_of(encoding, cover.cubes[0]))
 
 
-def element_list(demands: Demands, core: Elements) -> tuple[Element, ...]:
+def element_list(requirements: Requirements, core: Elements) -> tuple[Element, ...]:
     """A core in the order of the specification's elements."""
-    return tuple(each for each in demands.elements if each in core)
+    return tuple(each for each in requirements.elements if each in core)

@@ -27,7 +27,7 @@ PREFERENCE: Final[tuple[ElementKind, ...]] = (
 
 @dataclass(frozen=True, slots=True)
 class Element:
-    """One thing that a specification demands.
+    """One thing that a specification requires.
 
     `number` is that of the rule, the assumption or the action (0 for the plan bound). Of an action, `part` is the
     position of the precondition or the alternative entry, or the number of the resource.

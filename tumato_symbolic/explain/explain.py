@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Final, TypeAlias
 
-from tumato_symbolic.explain.demands import Demands
 from tumato_symbolic.explain.explanation import (
     STAGES,
     Explanation,
@@ -25,6 +24,7 @@ from tumato_symbolic.explain.predicates import predicate_text
 from tumato_symbolic.explain.realizable_part import largest_part
 from tumato_symbolic.explain.reasons import reasons_found
 from tumato_symbolic.explain.repairs import repairs_found
+from tumato_symbolic.explain.requirements import Requirements
 from tumato_symbolic.explain.work import Work
 from tumato_symbolic.limits import Context, LimitReachedError
 from tumato_symbolic.spec import Ordering, Spec
@@ -94,12 +94,12 @@ def explained(
     known = _verdict(spec, ordering, outcome)
     yield known
     try:
-        context.tell("encoding what every line demands")
-        demands = Demands(spec, ordering, backend, context)
+        context.tell("encoding what every line requirements")
+        requirements = Requirements(spec, ordering, backend, context)
     except LimitReachedError as limit:
         yield stopped(known, str(limit))
         return
-    work = Work(demands, context, outcome, max_cubes, cores, wanted_repairs)
+    work = Work(requirements, context, outcome, max_cubes, cores, wanted_repairs)
     for stage in STAGES:
         for more in _within_its_share(work, known, stage):
             known = more
@@ -150,12 +150,12 @@ def _states(work: Work, found: Explanation) -> Iterator[Explanation]:
 
 def _part(work: Work, found: Explanation) -> Iterator[Explanation]:
     """The largest realizable part."""
-    demands = work.demands
+    requirements = work.requirements
     work.context.tell("looking for the largest realizable part")
-    part = largest_part(demands)
+    part = largest_part(requirements)
     if part is not None:
-        given_up = work.count(demands.valid) - part.count
-        text = predicate_text(demands.spec, part.formula)
+        given_up = work.count(requirements.valid) - part.count
+        text = predicate_text(requirements.spec, part.formula)
         known = RealizablePart(part.count, given_up, part.formula, text, part.unique, part.largest)
         yield replace(found, part=known)
 
@@ -166,7 +166,7 @@ def _near(work: Work, found: Explanation) -> Iterator[Explanation]:
     stuck = [number for number, reason in enumerate(reasons) if reason.kind == "no-allowed-set"]
     for place, number in enumerate(stuck):
         work.context.tell(f"looking for what comes near: reason {place + 1} of {len(stuck)}")
-        work.demands.manager.context.check()
+        work.requirements.manager.context.check()
         nearest = near_misses(found.spec, reasons[number].example, found.ordering, NEAR_MISSES)
         passed_over += nearest.passed_over
         reasons[number] = replace(reasons[number], near=nearest.misses)

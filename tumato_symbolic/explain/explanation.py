@@ -127,7 +127,7 @@ class Explanation:
 
     Every stage adds its part: `groups` (`states`), `part`, `reasons` with `omitted` (the failing states whose reason is
     not among them), what comes near (`near`), and `repairs`. `repairs_complete`: there are no other ways to drop.
-    `hopeless` says why there is none. `finished` are the stages that have said all they can, `left_out` those that
+    `unavoidable` says why there is none. `finished` are the stages that have said all they can, `left_out` those that
     were cut short; while work goes on, some are neither. `restorability` tells what would restore the states that one
     step does not restore.
     """
@@ -142,7 +142,7 @@ class Explanation:
     omitted: int = 0
     repairs: tuple[Repair, ...] = ()
     repairs_complete: bool = False
-    hopeless: str | None = None
+    unavoidable: str | None = None
     finished: tuple[Stage, ...] = ()
     left_out: tuple[LeftOut, ...] = ()
     restorability: Restorability | None = None

@@ -4,25 +4,25 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from tumato_symbolic.explain.demands import Demands
 from tumato_symbolic.explain.elements import Element, Elements
+from tumato_symbolic.explain.requirements import Requirements
 from tumato_symbolic.game import Problem, chances, way_of, winning_alone
 from tumato_symbolic.semantics import ActiveGoals, State
 from tumato_symbolic.symbolic import Bdd, Regions, targets
 
 
-def build_kept_problem(demands: Demands, kept: Elements, regions: Regions) -> Problem:
+def build_kept_problem(requirements: Requirements, kept: Elements, regions: Regions) -> Problem:
     """The synthesis problem when only these elements are kept, for the states of `regions`."""
-    steps = demands.steps(kept)
-    bound = demands.spec.max_plan_length if Element("plan-bound") in kept else None
+    steps = requirements.steps(kept)
+    bound = requirements.spec.max_plan_length if Element("plan-bound") in kept else None
     spec = replace(steps.encoding.spec, max_plan_length=bound)
     return Problem(spec, steps, regions, tuple(targets(steps, regions)))
 
 
-def failing(demands: Demands, kept: Elements, states: Bdd) -> Bdd:
+def failing(requirements: Requirements, kept: Elements, states: Bdd) -> Bdd:
     """Those of some valid states that fail, either way, when only these elements are kept."""
-    problem = build_kept_problem(demands, kept, restricted(demands.regions, states, demands.false))
-    return states & ~winning_alone(problem, demands.compatible)
+    problem = build_kept_problem(requirements, kept, restricted(requirements.regions, states, requirements.false))
+    return states & ~winning_alone(problem, requirements.compatible)
 
 
 class FailingStates:
@@ -32,44 +32,44 @@ class FailingStates:
     several severities that is not so: without a severe rule, milder ones have to be kept.
     """
 
-    def __init__(self, demands: Demands) -> None:
-        self.demands = demands
+    def __init__(self, requirements: Requirements) -> None:
+        self.requirements = requirements
         self._known: dict[ActiveGoals, list[tuple[Elements, Bdd]]] = {}
         self._lost: dict[Elements, Bdd] = {}
-        self._monotone = len(demands.spec.tiers) == 1
+        self._monotone = len(requirements.spec.tiers) == 1
 
     def fails(self, state: State, kept: Elements) -> bool:
         """Whether one valid state fails."""
-        return self.failing(kept, self.demands.encoding.state_cube(state)) != self.demands.false
+        return self.failing(kept, self.requirements.encoding.state_cube(state)) != self.requirements.false
 
     def lost(self, kept: Elements) -> Bdd:
         """The valid states that are unsafe and cannot be restored, where that may take several steps."""
         if kept not in self._lost:
-            problem = build_kept_problem(self.demands, kept, self.demands.regions)
-            way = way_of(problem, self.demands.compatible) if problem.spec.restoration != "one_step" else None
+            problem = build_kept_problem(self.requirements, kept, self.requirements.regions)
+            way = way_of(problem, self.requirements.compatible) if problem.spec.restoration != "one_step" else None
             restorable = problem.steps.valid if way is None else way.restorable
-            self._lost[kept] = self.demands.valid & problem.steps.unsafe & ~restorable
+            self._lost[kept] = self.requirements.valid & problem.steps.unsafe & ~restorable
         return self._lost[kept]
 
     def failing(self, kept: Elements, states: Bdd) -> Bdd:
         """Those of some valid states that fail. What is not known is asked once, for all its regions."""
-        demands, false, union = self.demands, self.demands.false, self.demands.manager.union
+        requirements, false, union = self.requirements, self.requirements.false, self.requirements.manager.union
         sure, unknown = [], {}
-        for active, part in restricted(demands.regions, states, false).items():
+        for active, part in restricted(requirements.regions, states, false).items():
             surely, left = self._remembered(active, kept, part)
             sure.append(surely)
             if left != false:
                 unknown[active] = left
         if not unknown:
             return union(sure)
-        found = failing(demands, kept, union(demands.regions[active] for active in unknown))
+        found = failing(requirements, kept, union(requirements.regions[active] for active in unknown))
         for active in unknown:
-            self._known[active].append((kept, found & demands.regions[active]))
+            self._known[active].append((kept, found & requirements.regions[active]))
         return union([*sure, found & union(unknown.values())])
 
     def _remembered(self, active: ActiveGoals, kept: Elements, states: Bdd) -> tuple[Bdd, Bdd]:
         """Of some states of a region, those that are known to fail, and those of which it is not known."""
-        surely, left = self.demands.false, states
+        surely, left = self.requirements.false, states
         for asked, found in reversed(self._known.setdefault(active, [])):
             if asked != kept and not self._monotone:
                 continue
@@ -77,7 +77,7 @@ class FailingStates:
                 surely, left = surely | (left & found), left & ~found
             if asked >= kept:
                 left = left & found
-            if left == self.demands.false:
+            if left == self.requirements.false:
                 break
         return surely, left
 
@@ -87,15 +87,15 @@ def restricted(regions: Regions, states: Bdd, false: Bdd) -> Regions:
     return {active: part for active, region in regions.items() if (part := region & states) != false}
 
 
-def shortest_plan(demands: Demands, state: Bdd) -> int | None:
+def shortest_plan(requirements: Requirements, state: Bdd) -> int | None:
     """The fewest steps in which a state reaches its goal without a plan bound; None where it never does."""
-    kept = demands.everything - {Element("plan-bound")}
-    problem = build_kept_problem(demands, kept, restricted(demands.regions, state, demands.false))
-    apart, pairs = chances(problem, way_of(problem, demands.compatible))
+    kept = requirements.everything - {Element("plan-bound")}
+    problem = build_kept_problem(requirements, kept, restricted(requirements.regions, state, requirements.false))
+    apart, pairs = chances(problem, way_of(problem, requirements.compatible))
     found = [
         rank + 1
         for target, layers in zip(problem.targets, apart, strict=True)
         for rank, layer in enumerate(layers)
-        if (problem.steps.predecessor(target.pending & pairs, layer) & state) != demands.false
+        if (problem.steps.predecessor(target.pending & pairs, layer) & state) != requirements.false
     ]
     return min(found, default=None)

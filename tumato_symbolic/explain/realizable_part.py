@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from tumato_symbolic.diagnostics import Span
-from tumato_symbolic.explain.demands import Demands
 from tumato_symbolic.explain.failing_states import restricted
 from tumato_symbolic.explain.predicates import predicate_text, shortest_formula
+from tumato_symbolic.explain.requirements import Requirements
 from tumato_symbolic.explain.trial import trial
 from tumato_symbolic.game import Problem, winning_alone
 from tumato_symbolic.semantics import State
@@ -36,74 +36,74 @@ class Part:
     largest: bool
 
 
-def largest_part(demands: Demands) -> Part | None:
+def largest_part(requirements: Requirements) -> Part | None:
     """The largest realizable part, None where nothing remains.
 
     Every realizable part lies in the greatest set in which no state fails. Where goals conflict there, every one leaves
     out a state of the conflict: the larger sets are tried first, so the first realizable one is the largest.
     """
-    count = demands.encoding.count_states
-    whole = _without_failing(demands, demands.valid)
+    count = requirements.encoding.count_states
+    whole = _without_failing(requirements, requirements.valid)
     waiting: list[tuple[int, int, Bdd]] = [(-count(whole), 0, whole)]
     seen, tried, largest = {whole}, 0, True
     while waiting:
         states = heapq.heappop(waiting)[2]
-        if states == demands.false:
+        if states == requirements.false:
             return None
         tried += 1
-        formula = assumption(demands, states)
-        blamed = _conflict(demands, formula)
+        formula = assumption(requirements, states)
+        blamed = _conflict(requirements, formula)
         if blamed is None:
             return Part(states, count(states), formula, states == whole, largest)
         if tried >= CHOICES:
             waiting, largest = [], False
         for state in blamed:
-            smaller = _without_failing(demands, states & ~demands.encoding.state_cube(state))
+            smaller = _without_failing(requirements, states & ~requirements.encoding.state_cube(state))
             if smaller not in seen:
                 seen.add(smaller)
                 heapq.heappush(waiting, (-count(smaller), len(seen), smaller))
     return None
 
 
-def _without_failing(demands: Demands, states: Bdd) -> Bdd:
+def _without_failing(requirements: Requirements, states: Bdd) -> Bdd:
     """`ν X. {s ∈ states ∩ X : s does not fail when outcomes have to stay in X}`."""
-    while states != demands.false:
-        problem = _within(demands, states)
-        kept = states & winning_alone(problem, demands.compatible)
+    while states != requirements.false:
+        problem = _within(requirements, states)
+        kept = states & winning_alone(problem, requirements.compatible)
         if kept == states:
             break
         states = kept
     return states
 
 
-def _within(demands: Demands, states: Bdd) -> Problem:
+def _within(requirements: Requirements, states: Bdd) -> Problem:
     """The problem with these states as an assumption."""
-    steps = demands.steps_within(states)
-    regions = restricted(demands.regions, states, demands.false)
-    spec = replace(steps.encoding.spec, max_plan_length=demands.spec.max_plan_length)
+    steps = requirements.steps_within(states)
+    regions = restricted(requirements.regions, states, requirements.false)
+    spec = replace(steps.encoding.spec, max_plan_length=requirements.spec.max_plan_length)
     return Problem(spec, steps, regions, tuple(targets(steps, regions)))
 
 
-def _conflict(demands: Demands, formula: Formula) -> tuple[State, ...] | None:
+def _conflict(requirements: Requirements, formula: Formula) -> tuple[State, ...] | None:
     """States that no policy serves together under an assumption; None where it makes the specification realizable.
 
     Where synthesis gives up, any state may be to blame, and the first few are.
     """
-    outcome = trial(demands, assuming(demands.spec, formula))
+    outcome = trial(requirements, assuming(requirements.spec, formula))
     if isinstance(outcome, Realizable):
         return None
     if isinstance(outcome, Unrealizable):
         return outcome.failures[0].states
-    return tuple(_first(demands.encoding.states_in(demands.formula(formula)), 3))
+    return tuple(_first(requirements.encoding.states_in(requirements.formula(formula)), 3))
 
 
 def _first(states: Iterator[State], count: int) -> Iterator[State]:
     yield from (state for _, state in zip(range(count), states, strict=False))
 
 
-def assumption(demands: Demands, states: Bdd) -> Formula:
+def assumption(requirements: Requirements, states: Bdd) -> Formula:
     """What to assume beside the assumptions so that exactly these states are valid."""
-    return shortest_formula(demands.encoding, states, demands.encoding.domain() & ~demands.valid)
+    return shortest_formula(requirements.encoding, states, requirements.encoding.domain() & ~requirements.valid)
 
 
 def assuming(spec: Spec, formula: Formula) -> Spec:

@@ -25,7 +25,7 @@ def reasons_found(work: Work, found: Explanation) -> Iterator[Explanation]:
         return
     found, left = replace(found, omitted=found.failing_states), work.max_cubes
     _tell(work, found)
-    for cause in causes(work.plans, work.failing):
+    for cause in causes(work.oracle, work.failing):
         reason = _reason(work, cause, left)
         left -= len(reason.cubes)
         found = replace(found, reasons=(*found.reasons, reason), omitted=found.omitted - reason.count)
@@ -41,8 +41,8 @@ def _tell(work: Work, found: Explanation) -> None:
 
 
 def _reason(work: Work, cause: Cause, limit: int) -> Reason:
-    demands, example = work.demands, cause.example
-    shown = more_cores(demands, cause.core, work.cores, core_finder(work.plans, cause))
+    requirements, example = work.requirements, cause.example
+    shown = more_cores(requirements, cause.core, work.cores, core_finder(work.oracle, cause))
     bounded = Element("plan-bound") in cause.core
     cover = work.cubes(cause.states, limit)
     return Reason(
@@ -51,24 +51,24 @@ def _reason(work: Work, cause: Cause, limit: int) -> Reason:
         cover.cubes,
         work.count(cover.rest),
         example,
-        tuple(element_list(demands, core) for core in shown),
-        () if cause.kind != "no-plan" else own_goals(demands, example),
-        shortest_plan=shortest_plan(demands, demands.encoding.state_cube(example)) if bounded else None,
+        tuple(element_list(requirements, core) for core in shown),
+        () if cause.kind != "no-plan" else own_goals(requirements, example),
+        shortest_plan=shortest_plan(requirements, requirements.encoding.state_cube(example)) if bounded else None,
     )
 
 
 def _conflict(work: Work, found: Explanation) -> Reason:
     group = found.groups[0]
-    cores = tuple(element_list(work.demands, core) for core in _conflict_cores(work))
+    cores = tuple(element_list(work.requirements, core) for core in _conflict_cores(work))
     return Reason(group.kind, group.count, group.cubes, group.omitted, group.example, cores, together=group.together)
 
 
 def _conflict_cores(work: Work) -> tuple[Elements, ...]:
-    demands, states = work.demands, work.states_of("conflict")
+    requirements, states = work.requirements, work.states_of("conflict")
     together = work.outcome.failures[0].states
 
     def find(among: Elements) -> Elements | None:
-        return conflict_core(demands, together, among) if conflicting(demands, states, among) else None
+        return conflict_core(requirements, together, among) if conflicting(requirements, states, among) else None
 
-    first = conflict_core(demands, together, demands.everything)
-    return more_cores(demands, first, work.cores, find)
+    first = conflict_core(requirements, together, requirements.everything)
+    return more_cores(requirements, first, work.cores, find)

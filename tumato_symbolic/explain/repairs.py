@@ -8,10 +8,10 @@ from typing import Literal, TypeAlias
 
 from tumato_symbolic.explain.conflicts import conflict_core
 from tumato_symbolic.explain.cores import core_of, element_list, typical_state
-from tumato_symbolic.explain.demands import Demands
 from tumato_symbolic.explain.elements import Element, ElementKind, Elements, without
 from tumato_symbolic.explain.explanation import Change, Explanation, Repair
 from tumato_symbolic.explain.failing_states import FailingStates
+from tumato_symbolic.explain.requirements import Requirements
 from tumato_symbolic.explain.trial import trial
 from tumato_symbolic.explain.weaken import weakening
 from tumato_symbolic.explain.work import Work
@@ -32,7 +32,7 @@ _PENALTIES: dict[ElementKind, int] = {
 }
 """Of repairs of one size, those come first that do not pretend that the robot can do what it cannot."""
 
-Hopeless: TypeAlias = Literal["failing", "conflict"]
+Unavoidable: TypeAlias = Literal["failing", "conflict"]
 """Why nothing helps: with everything dropped but the assumptions, states still fail, or goals conflict."""
 
 MOST_WEAKENED = 3
@@ -45,24 +45,24 @@ def repairs_found(work: Work, found: Explanation) -> Iterator[Explanation]:
     A repair hits every core. Smallest sets that hit all known cores are tried; one that does not do shows a new core.
     Single elements, and the first repair where it is small, are weakened as well.
     """
-    demands, wanted = work.demands, work.wanted_repairs
+    requirements, wanted = work.requirements, work.wanted_repairs
     work.context.tell("repairs: finding out whether there is one")
-    hopeless = _hopeless(demands)
-    if hopeless is not None or wanted < 1:
-        yield replace(found, hopeless=hopeless, repairs_complete=hopeless is not None)
+    unavoidable = _unavoidable(requirements)
+    if unavoidable is not None or wanted < 1:
+        yield replace(found, unavoidable=unavoidable, repairs_complete=unavoidable is not None)
         return
-    search = _Search(work.plans, (frozenset(reason.core) for reason in found.reasons))
+    search = _Search(work.oracle, (frozenset(reason.core) for reason in found.reasons))
     for number in range(wanted):
         work.context.tell(f"repairs: {number + 1} of {wanted}")
         dropped = search.next()
         if dropped is None:
             yield replace(found, repairs_complete=search.complete)
             return
-        elements = element_list(demands, dropped)
+        elements = element_list(requirements, dropped)
         found = replace(found, repairs=(*found.repairs, Repair(tuple(Change(each, None) for each in elements))))
         yield found
         worth_it = len(dropped) <= (MOST_WEAKENED if number == 0 else 1)
-        weaker = weakening(demands, dropped) if worth_it else None
+        weaker = weakening(requirements, dropped) if worth_it else None
         if weaker is not None:
             texts: dict[Element, str | None] = {edit.element: edit.text for edit in weaker.edits}
             changes = tuple(Change(each, texts.get(each)) for each in elements)
@@ -75,8 +75,8 @@ def _droppable(elements: Iterable[Element]) -> list[Element]:
     return [each for each in elements if each.kind != "assumption"]
 
 
-def _hopeless(demands: Demands) -> Hopeless | None:
-    outcome = trial(demands, without(demands.spec, _droppable(demands.elements)))
+def _unavoidable(requirements: Requirements) -> Unavoidable | None:
+    outcome = trial(requirements, without(requirements.spec, _droppable(requirements.elements)))
     if isinstance(outcome, Realizable):
         return None
     conflicts = not isinstance(outcome, Unrealizable) or outcome.failures[0].kind == "conflict"
@@ -86,12 +86,12 @@ def _hopeless(demands: Demands) -> Hopeless | None:
 class _Search:
     """Implicit hitting sets: candidates, and the cores that they miss."""
 
-    def __init__(self, plans: FailingStates, cores: Iterable[Elements]) -> None:
-        self._plans = plans
-        demands = plans.demands
-        self._numbers = {element: number for number, element in enumerate(_droppable(demands.elements))}
+    def __init__(self, oracle: FailingStates, cores: Iterable[Elements]) -> None:
+        self._oracle = oracle
+        requirements = oracle.requirements
+        self._numbers = {element: number for number, element in enumerate(_droppable(requirements.elements))}
         penalties = [_PENALTIES[element.kind] for element in self._numbers]
-        self._hitting = HittingSets(penalties, demands.manager.context.seconds_left)
+        self._hitting = HittingSets(penalties, requirements.manager.context.seconds_left)
         self._rounds = ROUNDS
         self.complete = False
         """Whether there are no other repairs than those that were found."""
@@ -103,7 +103,7 @@ class _Search:
         elements = list(self._numbers)
         while self._rounds:
             self._rounds -= 1
-            self._plans.demands.manager.context.check()
+            self._oracle.requirements.manager.context.check()
             candidate = self._hitting.smallest()
             if candidate is None:
                 self.complete = True
@@ -121,17 +121,17 @@ class _Search:
 
     def _missed_core(self, dropped: Elements) -> Elements | None:
         """A core without any dropped element; None where the specification without them is realizable."""
-        demands = self._plans.demands
-        kept = demands.everything - dropped
-        stuck = demands.stuck(kept)
-        if stuck != demands.false:
-            return core_of(self._plans, "no-allowed-set", typical_state(demands, stuck), kept)
-        helpless = self._plans.failing(kept, demands.valid)
-        if helpless != demands.false:
-            return core_of(self._plans, "no-plan", typical_state(demands, helpless), kept)
-        outcome = trial(demands, without(demands.spec, dropped))
+        requirements = self._oracle.requirements
+        kept = requirements.everything - dropped
+        stuck = requirements.stuck(kept)
+        if stuck != requirements.false:
+            return core_of(self._oracle, "no-allowed-set", typical_state(requirements, stuck), kept)
+        failing = self._oracle.failing(kept, requirements.valid)
+        if failing != requirements.false:
+            return core_of(self._oracle, "no-plan", typical_state(requirements, failing), kept)
+        outcome = trial(requirements, without(requirements.spec, dropped))
         if isinstance(outcome, Realizable):
             return None
         if isinstance(outcome, Unrealizable):
-            return conflict_core(demands, outcome.failures[0].states, kept)
+            return conflict_core(requirements, outcome.failures[0].states, kept)
         return kept  # whatever is kept is to blame: the next candidate has to drop more

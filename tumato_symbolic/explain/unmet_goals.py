@@ -5,36 +5,36 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from tumato_symbolic.explain.demands import Demands
 from tumato_symbolic.explain.explanation import OwnGoal
 from tumato_symbolic.explain.minimize import minimal
 from tumato_symbolic.explain.predicates import conjunction
+from tumato_symbolic.explain.requirements import Requirements
 from tumato_symbolic.game import Problem, distances, winning
 from tumato_symbolic.semantics import State, active_goals
 from tumato_symbolic.spec import And, Formula, Not, Or, Rule
 from tumato_symbolic.symbolic import targets
 
 
-def own_goals(demands: Demands, state: State) -> tuple[OwnGoal, ...]:
+def own_goals(requirements: Requirements, state: State) -> tuple[OwnGoal, ...]:
     """The active goals of a state, each with the parts that no run of nominal effects makes true."""
-    bodies = sorted(active_goals(demands.spec, state))
-    never = {body: tuple(_never(demands, state, body)) for body in bodies}
+    bodies = sorted(active_goals(requirements.spec, state))
+    never = {body: tuple(_never(requirements, state, body)) for body in bodies}
     clash = frozenset[int]()
-    if not any(never.values()) and not _together(demands, state, frozenset(bodies)):
-        clash = minimal(bodies, lambda some: not _together(demands, state, some))
+    if not any(never.values()) and not _together(requirements, state, frozenset(bodies)):
+        clash = minimal(bodies, lambda some: not _together(requirements, state, some))
     return tuple(OwnGoal(body, never[body], body in clash) for body in bodies)
 
 
-def _together(demands: Demands, state: State, bodies: frozenset[int]) -> bool:
+def _together(requirements: Requirements, state: State, bodies: frozenset[int]) -> bool:
     """Whether some run meets these goals at once."""
-    rules = [demands.spec.bodies[body] for body in sorted(bodies)]
+    rules = [requirements.spec.bodies[body] for body in sorted(bodies)]
     whole = conjunction([rule.formula for rule in rules])
-    return not rules or _can_be_met(demands, state, rules[0], whole)
+    return not rules or _can_be_met(requirements, state, rules[0], whole)
 
 
-def _never(demands: Demands, state: State, body: int) -> Iterator[Formula]:
-    rule = demands.spec.bodies[body]
-    return (part for part in _conjuncts(rule.formula) if not _can_be_met(demands, state, rule, part))
+def _never(requirements: Requirements, state: State, body: int) -> Iterator[Formula]:
+    rule = requirements.spec.bodies[body]
+    return (part for part in _conjuncts(rule.formula) if not _can_be_met(requirements, state, rule, part))
 
 
 def _conjuncts(formula: Formula) -> Iterator[Formula]:
@@ -52,10 +52,10 @@ def _conjuncts(formula: Formula) -> Iterator[Formula]:
             yield formula
 
 
-def _can_be_met(demands: Demands, state: State, rule: Rule, part: Formula) -> bool:
+def _can_be_met(requirements: Requirements, state: State, rule: Rule, part: Formula) -> bool:
     """Whether some run from a state meets one part of a goal, with every element dropped."""
-    spec = replace(demands.encoding.spec, bodies=(replace(rule, formula=part),), max_plan_length=None)
-    steps = replace(demands.steps(frozenset()), encoding=replace(demands.encoding, spec=spec))
-    region = {frozenset((0,)): demands.encoding.state_cube(state)}
+    spec = replace(requirements.encoding.spec, bodies=(replace(rule, formula=part),), max_plan_length=None)
+    steps = replace(requirements.steps(frozenset()), encoding=replace(requirements.encoding, spec=spec))
+    region = {frozenset((0,)): requirements.encoding.state_cube(state)}
     problem = Problem(spec, steps, region, tuple(targets(steps, region)))
-    return winning(problem, distances(problem), steps.allowed) != demands.false
+    return winning(problem, distances(problem), steps.allowed) != requirements.false

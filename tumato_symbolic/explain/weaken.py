@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 from tumato_symbolic.explain.cubes import StateCube
-from tumato_symbolic.explain.demands import Demands
 from tumato_symbolic.explain.elements import Element, Elements, rule_of, without
 from tumato_symbolic.explain.failing_states import failing
 from tumato_symbolic.explain.predicates import cube_formula, predicate_text
+from tumato_symbolic.explain.requirements import Requirements
 from tumato_symbolic.explain.trial import is_realizable, trial
 from tumato_symbolic.semantics import count_states
 from tumato_symbolic.spec import And, Or, Rule, Spec
@@ -22,7 +22,7 @@ TRIES = 400
 MOST_STATES = 10_000
 """In larger specifications no exceptions are looked for that settle conflicts of goals."""
 
-_Test: TypeAlias = Callable[[Demands, Elements], bool]
+_Test: TypeAlias = Callable[[Requirements, Elements], bool]
 """Whether the specification that is left when some elements are dropped will do."""
 
 
@@ -43,56 +43,58 @@ class Weakening:
     spec: Spec
 
 
-def weakening(demands: Demands, repair: Elements) -> Weakening | None:
+def weakening(requirements: Requirements, repair: Elements) -> Weakening | None:
     """A repair in which as much as possible is changed rather than dropped; None where nothing can be.
 
     A rule or a precondition gets the exception `OR c` for one cube `c`, which is as small as can be: with one value of
     one variable less it would not do. The plan bound is raised as little as possible. Verified by synthesis.
     """
     for suffices in (_no_state_fails, _is_realizable):
-        found = _weakened(demands, repair, suffices)
-        if found is None or is_realizable(demands, found.spec):
+        found = _weakened(requirements, repair, suffices)
+        if found is None or is_realizable(requirements, found.spec):
             return found
     return None
 
 
-def _weakened(demands: Demands, repair: Elements, suffices: _Test) -> Weakening | None:
+def _weakened(requirements: Requirements, repair: Elements, suffices: _Test) -> Weakening | None:
     """A weakening that passes a test, None where nothing can be changed."""
     edits: list[Edit] = []
     dropped = repair
-    for element in [each for each in demands.elements if each in repair]:
+    for element in [each for each in requirements.elements if each in repair]:
         others = dropped - {element}
         found = (
-            _raised(demands, element, others)
+            _raised(requirements, element, others)
             if element.kind == "plan-bound"
-            else _excepted(demands, element, others, suffices)
+            else _excepted(requirements, element, others, suffices)
         )
         if found is not None:
-            demands, edit = found
+            requirements, edit = found
             edits.append(edit)
             dropped = others
-    return Weakening(tuple(edits), dropped, without(demands.spec, dropped)) if edits else None
+    return Weakening(tuple(edits), dropped, without(requirements.spec, dropped)) if edits else None
 
 
-def _raised(demands: Demands, bound: Element, others: Elements) -> tuple[Demands, Edit] | None:
+def _raised(requirements: Requirements, bound: Element, others: Elements) -> tuple[Requirements, Edit] | None:
     """The smallest bound that suffices: realizability is monotone in it."""
-    base = without(demands.spec, others)
-    outcome = trial(demands, without(demands.spec, others | {bound}))
+    base = without(requirements.spec, others)
+    outcome = trial(requirements, without(requirements.spec, others | {bound}))
     if not isinstance(outcome, Realizable) or base.max_plan_length is None:
         return None
     too_small, enough = base.max_plan_length, outcome.statistics.longest_run or 1
     while enough - too_small > 1:
         middle = (too_small + enough) // 2
-        if is_realizable(demands, replace(base, max_plan_length=middle)):
+        if is_realizable(requirements, replace(base, max_plan_length=middle)):
             enough = middle
         else:
             too_small = middle
-    return demands.bounded(enough), Edit(bound, f"max_plan_length: {enough}")
+    return requirements.bounded(enough), Edit(bound, f"max_plan_length: {enough}")
 
 
-def _excepted(demands: Demands, element: Element, others: Elements, suffices: _Test) -> tuple[Demands, Edit] | None:
+def _excepted(
+    requirements: Requirements, element: Element, others: Elements, suffices: _Test
+) -> tuple[Requirements, Edit] | None:
     """The rule with the smallest exception that this search finds; None where it must be dropped whole."""
-    spec, rule = demands.spec, rule_of(demands.spec, element)
+    spec, rule = requirements.spec, rule_of(requirements.spec, element)
     if rule is None:
         return None
     everything: StateCube = tuple(tuple(range(len(variable.values))) for variable in spec.variables)
@@ -104,23 +106,25 @@ def _excepted(demands: Demands, element: Element, others: Elements, suffices: _T
             tries += 1
             if tries > TRIES:
                 return None
-            if smaller and suffices(demands.changed(element, _with_exception(spec, rule, candidate)), others):
+            if smaller and suffices(requirements.changed(element, _with_exception(spec, rule, candidate)), others):
                 cube = candidate
     if cube == everything:
         return None
     wider = _with_exception(spec, rule, cube)
-    return demands.changed(element, wider), Edit(element, wider.text)
+    return requirements.changed(element, wider), Edit(element, wider.text)
 
 
-def _is_realizable(demands: Demands, dropped: Elements) -> bool:
+def _is_realizable(requirements: Requirements, dropped: Elements) -> bool:
     """The exact test, for where goals conflict; it is too slow for large specifications."""
-    return count_states(demands.spec) <= MOST_STATES and is_realizable(demands, without(demands.spec, dropped))
+    return count_states(requirements.spec) <= MOST_STATES and is_realizable(
+        requirements, without(requirements.spec, dropped)
+    )
 
 
-def _no_state_fails(demands: Demands, dropped: Elements) -> bool:
-    kept = demands.everything - dropped
-    stuck = demands.stuck(kept)
-    return stuck == demands.false and failing(demands, kept, demands.valid) == demands.false
+def _no_state_fails(requirements: Requirements, dropped: Elements) -> bool:
+    kept = requirements.everything - dropped
+    stuck = requirements.stuck(kept)
+    return stuck == requirements.false and failing(requirements, kept, requirements.valid) == requirements.false
 
 
 def _with_exception(spec: Spec, rule: Rule, cube: StateCube) -> Rule:

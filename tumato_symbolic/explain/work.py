@@ -1,4 +1,4 @@
-"""What the stages of an explanation share: the demands, what was asked for, and how much time there is."""
+"""What the stages of an explanation share: the requirements, what was asked for, and how much time there is."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from functools import cached_property
 
 from tumato_symbolic.explain.cores import Failing, failing_states, typical_state
 from tumato_symbolic.explain.cubes import Cover, StateCube, disjoint_cubes, set_of
-from tumato_symbolic.explain.demands import Demands
 from tumato_symbolic.explain.failing_states import FailingStates
+from tumato_symbolic.explain.requirements import Requirements
 from tumato_symbolic.limits import Context
 from tumato_symbolic.semantics import State
 from tumato_symbolic.symbolic import Bdd
@@ -22,7 +22,7 @@ from tumato_symbolic.synthesis.result import FailureKind
 class Work:
     """What is asked about, and what was asked for; `context` is that of the whole explanation."""
 
-    demands: Demands
+    requirements: Requirements
     context: Context
     outcome: Unrealizable
     max_cubes: int
@@ -32,12 +32,12 @@ class Work:
     @cached_property
     def failing(self) -> Failing:
         """The valid states that fail."""
-        return failing_states(self.plans)
+        return failing_states(self.oracle)
 
     @cached_property
-    def plans(self) -> FailingStates:
+    def oracle(self) -> FailingStates:
         """What is known by now about which states fail when only some elements are kept."""
-        return FailingStates(self.demands)
+        return FailingStates(self.requirements)
 
     def states_of(self, kind: FailureKind) -> Bdd:
         """The states that fail in one way; of a conflict, those that no policy serves together."""
@@ -50,20 +50,20 @@ class Work:
                 return self.failing.no_plan
             case "conflict":
                 states = self.outcome.failures[0].states
-                return self.demands.manager.union(map(self.demands.encoding.state_cube, states))
+                return self.requirements.manager.union(map(self.requirements.encoding.state_cube, states))
 
     def count(self, states: Bdd) -> int:
         """How many states there are in a set."""
-        return self.demands.encoding.count_states(states)
+        return self.requirements.encoding.count_states(states)
 
     def typical(self, states: Bdd) -> State:
         """A state that is like most others of a set."""
-        return typical_state(self.demands, states)
+        return typical_state(self.requirements, states)
 
     def cubes(self, states: Bdd, limit: int) -> Cover:
         """Disjoint cubes of valid states, the largest first."""
-        encoding = self.demands.encoding
-        cover = disjoint_cubes(encoding, states, encoding.domain() & ~self.demands.valid, limit)
+        encoding = self.requirements.encoding
+        cover = disjoint_cubes(encoding, states, encoding.domain() & ~self.requirements.valid, limit)
 
         def size(cube: StateCube) -> int:
             return encoding.count_states(states & set_of(encoding, cube))
@@ -73,7 +73,7 @@ class Work:
     @contextmanager
     def within(self, share: float) -> Iterator[None]:
         """Let work take a share of the time that is left. Raises `LimitReachedError` when it is used up."""
-        left, manager = self.context.seconds_left(), self.demands.manager
+        left, manager = self.context.seconds_left(), self.requirements.manager
         manager.context = self.context.within(None if left is None else share * left)
         try:
             with manager.within_memory():

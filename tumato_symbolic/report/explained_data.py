@@ -63,7 +63,7 @@ def as_json(done: Explained) -> dict[str, object]:
             "omitted": found.omitted,
             "repairs": [_repair_json(done.spec, repair) for repair in found.repairs],
             "repairs_complete": found.repairs_complete,
-            "hopeless": found.hopeless,
+            "hopeless": found.unavoidable,
             "realizable_part": _part_json(found.part) if "part" in found.finished else None,
             "incomplete": [{"what": each.stage, "found": each.found, "why": each.why} for each in found.left_out],
         }

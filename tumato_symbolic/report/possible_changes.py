@@ -14,8 +14,8 @@ _LONGEST_ASSUMPTION = 1_500
 
 def repair_pieces(place: Place, found: Explanation) -> Iterator[str]:
     """Repairs, each as it is found."""
-    if found.hopeless is not None:
-        why = "states still fail" if found.hopeless == "failing" else "the goals still conflict"
+    if found.unavoidable is not None:
+        why = "states still fail" if found.unavoidable == "failing" else "the goals still conflict"
         yield (
             f"\nNo repair by dropping: with every rule, precondition, alternative, resource and bound dropped, {why}.\n"
             "The robot needs another action or effect, or other goals."

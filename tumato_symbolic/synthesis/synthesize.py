@@ -125,18 +125,18 @@ def _solve(problem: Problem, policy_format: PolicyFormat, certify: bool) -> Synt
         lost = problem.false
         if way is not None and problem.spec.restoration != "one_step":
             lost, stuck = problem.steps.unsafe & ~way.restorable, stuck & problem.steps.safe
-        helpless = problem.steps.valid & ~stuck & ~lost & ~winning(problem, apart, pairs)
-        if (stuck | lost | helpless) != problem.false:
+        without_plan = problem.steps.valid & ~stuck & ~lost & ~winning(problem, apart, pairs)
+        if (stuck | lost | without_plan) != problem.false:
             from tumato_symbolic.synthesis.unrealizability import certified
 
             failures = (
                 _failure(problem, "no-allowed-set", stuck),
                 _failure(problem, "no-restoration", lost),
-                _failure(problem, "no-plan", helpless),
+                _failure(problem, "no-plan", without_plan),
             )
             found = tuple(failure for failure in failures if failure is not None)
             answer = _unrealizable(problem, found, statistics, warnings)
-            reason = _reason(problem, apart, stuck, lost, helpless) if certify else None
+            reason = _reason(problem, apart, stuck, lost, without_plan) if certify else None
             if reason is None:
                 return answer
             return replace(answer, certificate=certified(problem, reason))
@@ -149,7 +149,7 @@ def _solve(problem: Problem, policy_format: PolicyFormat, certify: bool) -> Synt
 
 
 def _reason(
-    problem: Problem, apart: tuple[Layers, ...], stuck: Bdd, lost: Bdd, helpless: Bdd
+    problem: Problem, apart: tuple[Layers, ...], stuck: Bdd, lost: Bdd, without_plan: Bdd
 ) -> NoAllowedSet | NoRestoration | NoPlan | None:
     """What a certificate says of the first failing state; None where it has no form for any of them.
 
@@ -162,10 +162,10 @@ def _reason(
     if lost != problem.false:
         return no_restoration(problem, first(lost), lost)
     if problem.spec.restores_stepwise:
-        apart, stuck, helpless = distances(problem), stuck & problem.steps.safe, helpless & problem.steps.safe
+        apart, stuck, without_plan = distances(problem), stuck & problem.steps.safe, without_plan & problem.steps.safe
     if stuck != problem.false:
         return no_allowed_set(problem, first(stuck))
-    return no_plan(problem, first(helpless), apart) if helpless != problem.false else None
+    return no_plan(problem, first(without_plan), apart) if without_plan != problem.false else None
 
 
 def _unrealizable(

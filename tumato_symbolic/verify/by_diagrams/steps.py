@@ -72,7 +72,7 @@ class Steps:
             equivalence=lambda one, other: walk.select(one, (walk.negation(other), other)),
         )
 
-    # Demands 1 to 4
+    # Conditions 1 to 4
 
     def preconditions(self, action: int) -> Function:
         """Where an action may be executed, as far as it alone is concerned."""
@@ -106,7 +106,7 @@ class Steps:
         """No two actions of `A` exclude each other."""
         return self.walk.negation(self.together(self.exclusive, self.chosen))
 
-    # Demands 5 and 6
+    # Conditions 5 and 6
 
     def after(self, action: int, function: Function) -> Function:
         """`function` after every effect of `action`, which is then no longer to come."""
@@ -119,7 +119,7 @@ class Steps:
 
     @cached_property
     def requirements(self) -> list[tuple[Function, Function]]:
-        """Demands 5 and 6: where `s` is in the first, all of `Next(s, A)` has to be in the second.
+        """Conditions 5 and 6: where `s` is in the first, all of `Next(s, A)` has to be in the second.
 
         Where safety is restored in one step that is: all safe. In several, a rule counts where it holds, and only with
         those that are as severe as the severest broken ones, or more (sections 9 and 10).

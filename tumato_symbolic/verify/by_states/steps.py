@@ -142,7 +142,7 @@ class Steps:
         )
 
     def may_be_together(self, chosen: ActionSet) -> bool:
-        """Demands 2 and 3: no resource is controlled twice, and the nominal effects agree."""
+        """Conditions 2 and 3: no resource is controlled twice, and the nominal effects agree."""
         found = self._apart.get(chosen)
         if found is None:
             actions = [self._spec.actions[number] for number in chosen]

@@ -37,7 +37,7 @@ class Choice:
         self.after = Place([[_named(solver, bit) for bit in code] for code in bits])
 
     def conditions(self) -> list[Term]:
-        """Demands 1 to 4 and 6, and condition 5 for one effect alone: all of section 3 but outcomes of several.
+        """Conditions 1 to 4 and 6, and condition 5 for one effect alone: all of section 3 but outcomes of several.
 
         By condition 6, sets without an action that takes effect are chosen in safe states only.
         """

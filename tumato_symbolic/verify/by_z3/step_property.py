@@ -58,7 +58,7 @@ def prove_safe(problem: PolicyProblem, ordering: Ordering) -> PropertyResult:
 
 
 def _conditions(problem: PolicyProblem) -> Iterator[Obligation]:
-    """Demands 1 to 4 of section 3, and safety of the states where no action takes effect.
+    """Conditions 1 to 4 of section 3, and safety of the states where no action takes effect.
 
     In several steps, doing nothing breaks no rule, and restores nothing. Condition 6 follows from 5 under `any`: the
     nominal effects one after the other are an outcome.

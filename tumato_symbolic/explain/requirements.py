@@ -1,8 +1,8 @@
-"""What every element demands of a step, over one manager: dropping elements is leaving out conjuncts.
+"""What every element requires of a step, over one manager: dropping elements is leaving out conjuncts.
 
-`Ok` is a conjunction over elements, given which alternatives can happen: *every outcome keeps all rules* is *every
-outcome keeps this rule*, for each rule. Each part is computed once, so that hundreds of specifications that differ in
-what is dropped cost little more than one.
+`Ok` is a conjunction over elements, once it is known which alternatives can happen: *every outcome keeps all rules* is
+*every outcome keeps this rule*, for each rule. Each part is computed once, so that hundreds of specifications that
+differ in what is dropped cost little more than one.
 """
 
 from __future__ import annotations
@@ -30,14 +30,14 @@ from tumato_symbolic.symbolic import (
 
 
 @dataclass(frozen=True, slots=True)
-class Demand:
-    """What one element demands, given others: the alternatives that can happen, or the other users of a resource."""
+class Requirement:
+    """What one element requires beside others: the alternatives that can happen, or the other users of a resource."""
 
     element: Element
-    given: Elements = frozenset()
+    others: Elements = frozenset()
 
 
-class Demands:
+class Requirements:
     """The steps of a specification and of everything that dropping elements makes of it.
 
     `valid` are the states that satisfy *all* assumptions: whatever is dropped, only these are asked about. `compatible`
@@ -55,8 +55,8 @@ class Demands:
         self.regions = regions(self.encoding, self.valid)
         self.compatible: Bdd = self.encoding.domain() & compatible_sets(self.encoding)
         self._relevant = {rule: self._relevant_alternatives(rule) for rule in self.elements if self._is_lasting(rule)}
-        self._known: dict[Demand, Bdd] = {}
-        self._here: tuple[State, dict[Demand, Bdd]] | None = None
+        self._known: dict[Requirement, Bdd] = {}
+        self._here: tuple[State, dict[Requirement, Bdd]] | None = None
 
     @property
     def false(self) -> Bdd:
@@ -70,7 +70,7 @@ class Demands:
 
     def allowed(self, kept: Elements) -> Bdd:
         """`Ok(s, A)` when only these elements are kept."""
-        return self.manager.intersection([self.compatible, *map(self._relation, self._demands(kept))])
+        return self.manager.intersection([self.compatible, *map(self._relation, self._of(kept))])
 
     def steps(self, kept: Elements) -> Steps:
         """The step relation when only these elements are kept."""
@@ -83,7 +83,7 @@ class Demands:
         tiers = tiers_within(encoding, valid)
         return Steps(encoding, self.ordering, valid, tiers[-1], allowed, allowed, tiers)
 
-    def changed(self, element: Element, rule: Rule) -> Demands:
+    def changed(self, element: Element, rule: Rule) -> Requirements:
         """The same with another predicate in the place of a rule or a precondition; the rest is not computed again."""
         other = self._with_spec(replace_rule(self.spec, element, rule))
         other.forget(element)
@@ -92,19 +92,19 @@ class Demands:
     def forget(self, element: Element) -> None:
         """Compute anew, when it is asked next, what was found about an element."""
         self._known = {
-            demand: found
-            for demand, found in self._known.items()
-            if element not in {demand.element, *(each for each in demand.given if each.kind == "state-rule")}
+            requirement: found
+            for requirement, found in self._known.items()
+            if element not in {requirement.element, *(each for each in requirement.others if each.kind == "state-rule")}
         }
         self._here = None
         if self._is_lasting(element):
             self._relevant = self._relevant | {element: self._relevant_alternatives(element)}
 
-    def bounded(self, bound: int) -> Demands:
+    def bounded(self, bound: int) -> Requirements:
         """The same with another plan bound."""
         return self._with_spec(replace(self.spec, max_plan_length=bound))
 
-    def _with_spec(self, spec: Spec) -> Demands:
+    def _with_spec(self, spec: Spec) -> Requirements:
         other = copy(self)
         other.spec = spec
         return other
@@ -123,10 +123,10 @@ class Demands:
             self._here = (state, {})
         known = self._here[1]
         left = self.encoding.at(self.compatible, state)
-        for demand in self._demands(kept):
-            if demand not in known:
-                known[demand] = self.encoding.at(self._relation(demand), state)
-            left = left & known[demand]
+        for requirement in self._of(kept):
+            if requirement not in known:
+                known[requirement] = self.encoding.at(self._relation(requirement), state)
+            left = left & known[requirement]
             if left == self.false:
                 return True
         return False
@@ -137,28 +137,28 @@ class Demands:
     def _sorted(self, kept: Elements) -> list[Element]:
         return [each for each in self.elements if each in kept]
 
-    def _demands(self, kept: Elements) -> Iterator[Demand]:
-        """What the elements that are kept demand together; a resource demands something of all its users."""
+    def _of(self, kept: Elements) -> Iterator[Requirement]:
+        """What the elements that are kept require together; a resource requires something of all its users."""
         users: dict[int, list[Element]] = {}
         for element in self._sorted(kept):
             if self._is_lasting(element):
-                yield Demand(element, kept & (self._relevant[element] | self._severer(element)))
+                yield Requirement(element, kept & (self._relevant[element] | self._severer(element)))
             elif element.kind in ("precondition", "reaction-rule"):
-                yield Demand(element)
+                yield Requirement(element)
             elif element.kind == "resource":
                 users.setdefault(element.part, []).append(element)
-        yield from (Demand(first, frozenset(rest)) for first, *rest in users.values() if rest)
+        yield from (Requirement(first, frozenset(rest)) for first, *rest in users.values() if rest)
 
-    def _relation(self, demand: Demand) -> Bdd:
-        """The pairs of state and set that meet a demand."""
-        if demand not in self._known:
-            self._known[demand] = self._computed(demand)
-        return self._known[demand]
+    def _relation(self, requirement: Requirement) -> Bdd:
+        """The pairs of state and set that meet a requirement."""
+        if requirement not in self._known:
+            self._known[requirement] = self._computed(requirement)
+        return self._known[requirement]
 
-    def _computed(self, demand: Demand) -> Bdd:
-        element = demand.element
+    def _computed(self, requirement: Requirement) -> Bdd:
+        element = requirement.element
         if element.kind == "resource":
-            return self._at_most_one([element.number, *(each.number for each in demand.given)])
+            return self._at_most_one([element.number, *(each.number for each in requirement.others)])
         holds = self.encoding.formula(_rule(self.spec, element).formula)
         if element.kind == "reaction-rule":
             return holds
@@ -166,13 +166,13 @@ class Demands:
             holds = ~self.encoding.executing(element.number) | holds
         if not self._is_lasting(element):
             return holds
-        encoding, domain = replace(self.encoding, spec=keep_only(self.spec, demand.given)), self.encoding.domain()
+        encoding, domain = replace(self.encoding, spec=keep_only(self.spec, requirement.others)), self.encoding.domain()
         if element.kind == "precondition":
             return holds & staying_in(encoding, self.ordering, domain, holds)
         kept = staying_in(encoding, self.ordering, domain & holds, self.manager.true)
         if element.kind == "assumption" or not self.spec.restores_stepwise:
             return kept
-        concerned = self._all_of(demand.given, "state-rule")
+        concerned = self._all_of(requirement.others, "state-rule")
         if self.spec.restoration != "one_step":
             concerned = concerned & holds
         return ~concerned | kept
@@ -190,23 +190,23 @@ class Demands:
         return element.kind in ("state-rule", "assumption") or (throughout and element.kind == "precondition")
 
     def _at_most_one(self, actions: list[int]) -> Bdd:
-        nobody, somebody = self.manager.true, self.manager.false
+        none, one = self.manager.true, self.manager.false
         for action in actions:
             runs = self.encoding.executing(action)
-            nobody, somebody = nobody & ~runs, (somebody & ~runs) | (nobody & runs)
-        return nobody | somebody
+            none, one = none & ~runs, (one & ~runs) | (none & runs)
+        return none | one
 
     def _relevant_alternatives(self, element: Element) -> Elements:
-        """The alternatives that do something else than the nominal effect to what a rule speaks of.
+        """The alternatives that do something else than the nominal effect to what a rule mentions.
 
         Without nominal effects also those that write anything: it is by them that the action has effects.
         """
-        speaks_of = variables_of(_rule(self.spec, element).formula)
+        mentioned = variables_of(_rule(self.spec, element).formula)
         return frozenset(
             Element("alternative", number, part)
             for number, action in enumerate(self.spec.actions)
             for part, entry in enumerate(action.alternatives)
-            if any(_on(outcome, speaks_of) != _on(action.nominal, speaks_of) for outcome in entry.outcomes)
+            if any(_on(outcome, mentioned) != _on(action.nominal, mentioned) for outcome in entry.outcomes)
             or (not action.nominal and any(entry.outcomes))
         )
 

@@ -6,8 +6,8 @@ from random import Random
 import pytest
 
 from tests.generate import ALL_PROFILES, random_spec
-from tumato_symbolic.explain.demands import Demands
 from tumato_symbolic.explain.elements import elements_of, keep_only, without
+from tumato_symbolic.explain.requirements import Requirements
 from tumato_symbolic.spec import Ordering
 from tumato_symbolic.symbolic import build_steps
 
@@ -19,13 +19,13 @@ def test_allowed_steps_are_a_conjunction_over_elements(profile: str, ordering: O
     random = Random(profile)
     for seed in range(12):
         spec = random_spec(seed, ALL_PROFILES[profile])
-        demands = Demands(spec, ordering, "autoref")
+        requirements = Requirements(spec, ordering, "autoref")
         for share in (0.3, 0.7, 1.0):
             kept = frozenset(each for each in elements_of(spec) if random.random() < share)
-            encoding = replace(demands.encoding, spec=keep_only(spec, kept))
-            expected, found = build_steps(encoding, ordering), demands.steps(kept)
+            encoding = replace(requirements.encoding, spec=keep_only(spec, kept))
+            expected, found = build_steps(encoding, ordering), requirements.steps(kept)
             assert (found.valid, found.safe) == (expected.valid, expected.safe)
-            assert found.allowed & demands.valid == expected.allowed & demands.valid
+            assert found.allowed & requirements.valid == expected.allowed & requirements.valid
 
 
 def test_dropping_nothing_changes_nothing() -> None:
