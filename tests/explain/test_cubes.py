@@ -5,8 +5,8 @@ from random import Random
 
 from tests.explain.judge import read_predicate
 from tests.generate import random_spec
+from tumato_symbolic.explain.as_predicates import predicate_text, shortest_formula
 from tumato_symbolic.explain.cubes import disjoint_cubes, set_of, shortest_cubes
-from tumato_symbolic.explain.predicates import predicate_text, shortest_formula
 from tumato_symbolic.semantics import all_states
 from tumato_symbolic.symbolic import Bdd, Encoding, encode
 

@@ -8,10 +8,10 @@ import sys
 from collections.abc import Callable, Sequence
 from functools import partial
 
+from tumato_symbolic.cli.command_line import CommandLine, parse
 from tumato_symbolic.cli.console import close_quietly, flush, note, prepare_streams
 from tumato_symbolic.cli.exits import BROKEN_PIPE, BUG, INTERRUPTED, TERMINATED, UNDECIDED, USAGE
 from tumato_symbolic.cli.options import CommandOptions
-from tumato_symbolic.cli.parser import CommandLine, parse
 from tumato_symbolic.diagnostics import UserError, render
 from tumato_symbolic.limits import NO_LIMITS, Context, LimitReachedError, Limits
 from tumato_symbolic.limits.processes import age, can_fork

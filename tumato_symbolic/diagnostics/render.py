@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from tumato_symbolic.diagnostics.model import Diagnostic, Source, Span
+from tumato_symbolic.diagnostics.diagnostic import Diagnostic, Source, Span
 
 MAX_SHOWN = 20
 """The most diagnostics that are written out; the rest is counted."""

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Final, TypeAlias
 
+from tumato_symbolic.explain.as_predicates import predicate_text
 from tumato_symbolic.explain.explanation import (
     STAGES,
     Explanation,
@@ -20,7 +21,6 @@ from tumato_symbolic.explain.explanation import (
     stopped,
 )
 from tumato_symbolic.explain.near_misses import near_misses
-from tumato_symbolic.explain.predicates import predicate_text
 from tumato_symbolic.explain.realizable_part import largest_part
 from tumato_symbolic.explain.reasons import reasons_found
 from tumato_symbolic.explain.repairs import repairs_found

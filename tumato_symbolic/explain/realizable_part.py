@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from tumato_symbolic.diagnostics import Span
+from tumato_symbolic.explain.as_predicates import predicate_text, shortest_formula
 from tumato_symbolic.explain.failing_states import restricted
-from tumato_symbolic.explain.predicates import predicate_text, shortest_formula
 from tumato_symbolic.explain.requirements import Requirements
 from tumato_symbolic.explain.trial import trial
 from tumato_symbolic.game import Problem, winning_alone

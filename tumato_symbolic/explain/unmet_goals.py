@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
+from tumato_symbolic.explain.as_predicates import conjunction
 from tumato_symbolic.explain.explanation import OwnGoal
 from tumato_symbolic.explain.minimize import minimal
-from tumato_symbolic.explain.predicates import conjunction
 from tumato_symbolic.explain.requirements import Requirements
 from tumato_symbolic.game import Problem, distances, winning
 from tumato_symbolic.semantics import State, active_goals

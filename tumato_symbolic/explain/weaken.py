@@ -6,10 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
+from tumato_symbolic.explain.as_predicates import cube_formula, predicate_text
 from tumato_symbolic.explain.cubes import StateCube
 from tumato_symbolic.explain.elements import Element, Elements, rule_of, without
 from tumato_symbolic.explain.failing_states import failing
-from tumato_symbolic.explain.predicates import cube_formula, predicate_text
 from tumato_symbolic.explain.requirements import Requirements
 from tumato_symbolic.explain.trial import is_realizable, trial
 from tumato_symbolic.semantics import count_states

@@ -6,10 +6,10 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
 
+from tumato_symbolic.explain.as_predicates import predicate_text
 from tumato_symbolic.explain.elements import Element, span_of
 from tumato_symbolic.explain.explanation import Explanation, FailingGroup, Reason
 from tumato_symbolic.explain.near_misses import NearMiss, applicable
-from tumato_symbolic.explain.predicates import predicate_text
 from tumato_symbolic.report.cubes import cube_text
 from tumato_symbolic.report.element_roles import KINDS, declared, role, where
 from tumato_symbolic.report.failures import FAILURE_CODES

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Code, Span
+from tumato_symbolic.explain.as_predicates import predicate_text
 from tumato_symbolic.explain.elements import Element, span_of, text_of
 from tumato_symbolic.explain.explanation import (
     Explanation,
@@ -17,7 +18,6 @@ from tumato_symbolic.explain.explanation import (
     Repair,
     Unexplained,
 )
-from tumato_symbolic.explain.predicates import predicate_text
 from tumato_symbolic.report.blame import goal_sentences, headline, near_story
 from tumato_symbolic.report.cubes import cube_json, cube_text
 from tumato_symbolic.report.element_roles import role

@@ -20,7 +20,7 @@ from tumato_symbolic.spec.formula import (
     executing_atoms,
     variables_of,
 )
-from tumato_symbolic.spec.model import (
+from tumato_symbolic.spec.specification import (
     Action,
     Alternative,
     Assignment,

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 
 from tumato_symbolic.diagnostics import Code, Note, Span
 from tumato_symbolic.diagnostics.wording import quoted
+from tumato_symbolic.spec.collector import Findings
 from tumato_symbolic.spec.effects import Effects
-from tumato_symbolic.spec.findings import Findings
-from tumato_symbolic.spec.model import Action, Alternative, Assignment, Rule
 from tumato_symbolic.spec.names import Names
 from tumato_symbolic.spec.predicates import Predicates
+from tumato_symbolic.spec.specification import Action, Alternative, Assignment, Rule
 from tumato_symbolic.syntax import ast
 from tumato_symbolic.syntax.excerpts import Excerpts
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from tumato_symbolic.spec.fold import Connectives, fold, fold_goal
 from tumato_symbolic.spec.formula import Executing, Formula, Is
-from tumato_symbolic.spec.model import Action, Assignment, Goal, Rule, Spec
+from tumato_symbolic.spec.specification import Action, Assignment, Goal, Rule, Spec
 
 _VERSION = 1
 """Part of every digest; changes when the same meaning would be digested differently."""

@@ -7,10 +7,10 @@ from itertools import islice
 
 from tumato_symbolic.diagnostics import Code, Span
 from tumato_symbolic.diagnostics.wording import quoted
-from tumato_symbolic.spec.decision import Budget, OutOfBudgetError, models
-from tumato_symbolic.spec.findings import Findings
+from tumato_symbolic.spec.collector import Findings
 from tumato_symbolic.spec.formula import TRUE, And, Formula
-from tumato_symbolic.spec.model import Assignment, Rule, Variable
+from tumato_symbolic.spec.satisfiability import Budget, OutOfBudgetError, models
+from tumato_symbolic.spec.specification import Assignment, Rule, Variable
 
 MAX_OUTCOMES = 10_000
 """The most assignments that one entry of alternative effects may denote."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 from tumato_symbolic.spec.formula import And, Constant, Executing, Formula, Iff, Is, Not, Or
-from tumato_symbolic.spec.model import ConditionalGoal, Goal, GoalList, SimpleGoal
+from tumato_symbolic.spec.specification import ConditionalGoal, Goal, GoalList, SimpleGoal
 
 Value = TypeVar("Value")
 

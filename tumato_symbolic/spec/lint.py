@@ -7,11 +7,11 @@ from math import prod
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Span
 from tumato_symbolic.diagnostics.wording import quoted
-from tumato_symbolic.spec.decision import Budget, OutOfBudgetError, models, unknowns
 from tumato_symbolic.spec.fold import subgoals
 from tumato_symbolic.spec.formula import And, Constant, Formula, Not
-from tumato_symbolic.spec.model import ConditionalGoal, Rule, Spec
 from tumato_symbolic.spec.resolve import Resolution, heading
+from tumato_symbolic.spec.satisfiability import Budget, OutOfBudgetError, models, unknowns
+from tumato_symbolic.spec.specification import ConditionalGoal, Rule, Spec
 from tumato_symbolic.syntax import ast
 
 MAX_DECIDED = 100_000

@@ -6,10 +6,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Diagnostic, Source
-from tumato_symbolic.spec.findings import MAX_FINDINGS
+from tumato_symbolic.spec.collector import MAX_FINDINGS
 from tumato_symbolic.spec.lint import lint
-from tumato_symbolic.spec.model import Spec
 from tumato_symbolic.spec.resolve import resolve
+from tumato_symbolic.spec.specification import Spec
 from tumato_symbolic.syntax import parse
 
 

@@ -8,8 +8,8 @@ from typing import Literal, TypeAlias
 
 from tumato_symbolic.diagnostics import Code, Note, Span
 from tumato_symbolic.diagnostics.wording import quoted
-from tumato_symbolic.spec.findings import Findings
-from tumato_symbolic.spec.model import Variable
+from tumato_symbolic.spec.collector import Findings
+from tumato_symbolic.spec.specification import Variable
 from tumato_symbolic.syntax import ast
 
 MAX_VARIABLES = 1_000

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Code, Note, Span
 from tumato_symbolic.diagnostics.wording import listed, quoted
-from tumato_symbolic.spec.findings import Findings
+from tumato_symbolic.spec.collector import Findings
 from tumato_symbolic.spec.formula import FALSE, TRUE, And, Executing, Formula, Iff, Is, Not, Or
-from tumato_symbolic.spec.model import Rule
 from tumato_symbolic.spec.names import Declared, Kind, Names, article
+from tumato_symbolic.spec.specification import Rule
 from tumato_symbolic.syntax import ast
 from tumato_symbolic.syntax.excerpts import Excerpts
 

@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 from tumato_symbolic.diagnostics import Code, Diagnostic, Note, Source, Span
 from tumato_symbolic.diagnostics.wording import quoted
 from tumato_symbolic.spec.actions import Actions
-from tumato_symbolic.spec.findings import Findings
+from tumato_symbolic.spec.collector import Findings
 from tumato_symbolic.spec.formula import Formula
-from tumato_symbolic.spec.model import ConditionalGoal, Goal, GoalList, Rule, SimpleGoal, Spec
 from tumato_symbolic.spec.names import Names, collect
 from tumato_symbolic.spec.predicates import Predicates
+from tumato_symbolic.spec.specification import ConditionalGoal, Goal, GoalList, Rule, SimpleGoal, Spec
 from tumato_symbolic.syntax import Parsed, ast
 from tumato_symbolic.syntax.excerpts import Excerpts
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
-from tumato_symbolic.spec.model import Spec
+from tumato_symbolic.spec.specification import Spec
 
 
 def require_one_step(spec: Spec, who: str) -> None:

@@ -1,7 +1,7 @@
 """Text to tree and back; the only room that knows lark."""
 
 from tumato_symbolic.diagnostics import Source
-from tumato_symbolic.syntax.model import Parsed
+from tumato_symbolic.syntax.parsed import Parsed
 from tumato_symbolic.syntax.printer import print_specification
 from tumato_symbolic.syntax.reading import read_source
 

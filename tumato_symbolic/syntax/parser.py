@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source, Span
 from tumato_symbolic.syntax import ast
 from tumato_symbolic.syntax.grammar import Grammar, grammar
-from tumato_symbolic.syntax.model import Parsed
 from tumato_symbolic.syntax.nesting import MAX_NESTING, deepest
+from tumato_symbolic.syntax.parsed import Parsed
 from tumato_symbolic.syntax.stack import Row, Stack
 from tumato_symbolic.syntax.tokens import BLOCKS, HARD, TITLES, Token, tokenize
 

@@ -19,7 +19,7 @@ from tumato_symbolic.verify.decisions import Decisions
 from tumato_symbolic.verify.guarantees.certifying import certificate_of
 from tumato_symbolic.verify.guarantees.prospects import WalkProspects
 from tumato_symbolic.verify.guarantees.result import Guarantees, Level
-from tumato_symbolic.verify.guarantees.sets import StateSets
+from tumato_symbolic.verify.guarantees.state_sets import StateSets
 
 BUDGET = 300.0
 """How many seconds the walk may take, where nothing else is said."""
