@@ -51,7 +51,7 @@ def certified(spec: Spec, ordering: Ordering) -> Unrealizability | None:
     return outcome.certificate if isinstance(outcome, Unrealizable) else None
 
 
-def refused(spec: Spec, kind: type[ReasonKind]) -> tuple[Unrealizability, ReasonKind]:
+def unrealizable(spec: Spec, kind: type[ReasonKind]) -> tuple[Unrealizability, ReasonKind]:
     """The certificate of a specification that has no policy, and its reason, which is of this kind."""
     certificate = certified(spec, "any")
     assert certificate is not None

@@ -1,4 +1,4 @@
-"""Certificates of no of which one part does not fit: the stand-alone checker refuses to judge them, and says which."""
+"""Certificates of unrealizability with a part that does not fit: the checker refuses to judge them, and says which."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from typing import Any
 
 import pytest
 
-from tests.checker.refusals import certificate
 from tests.checker.standalone import ask
-from tests.checker.test_refusals import CASES
+from tests.checker.test_unrealizable import CASES
+from tests.checker.unrealizable import certificate
 
 GONE = object()
 BROKEN: list[tuple[str, str, object, str]] = [

@@ -10,8 +10,8 @@ from typing import Any
 
 import pytest
 
-from tests.checker.refusals import Document, assert_proved, assert_refuted, judged, spec_text
 from tests.checker.standalone import checker
+from tests.checker.unrealizable import Document, assert_proved, assert_refuted, judged, spec_text
 
 PLACES = "lmrLR"
 STEPS = {"l": "lm", "m": "mLR", "r": "rm", "L": "L", "R": "R"}

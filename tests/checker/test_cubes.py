@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from tests.checker.refusals import Document, assert_proved, assert_refuted, judged, spec_text
 from tests.checker.standalone import Answer
+from tests.checker.unrealizable import Document, assert_proved, assert_refuted, judged, spec_text
 
 RULES = """
 BEGIN STATE RULES rule: P is a END STATE RULES

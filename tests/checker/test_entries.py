@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.checker.refusals import spec_text
 from tests.checker.standalone import ask, checker
+from tests.checker.unrealizable import spec_text
 from tests.verify.policies import certified
 from tumato_symbolic import parse
 from tumato_symbolic.diagnostics import UserError

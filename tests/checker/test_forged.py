@@ -13,12 +13,12 @@ from tests.printing import formula_text, print_spec
 from tests.semantics import literal
 from tests.unrealizability import certified as certificate_of
 from tests.verify.forgeries import forged
-from tests.verify.literal_refusals import Meaning, is_proof
+from tests.verify.literal_unrealizable import Meaning, is_proof
 from tests.verify.policies import certified
 from tests.verify.test_forged_ranks import along, decrease, exact
 from tests.verify.test_forged_ranks import forged as forged_ranks
-from tests.verify.test_forged_refusals import CONFLICTS, knotted
 from tests.verify.test_forged_steps import SPECS, compatible, forbidding, writers
+from tests.verify.test_forged_unrealizable import CONFLICTS, knotted
 from tests.verify.test_unrealizable_by_hand import line, stuck
 from tumato_symbolic.policy import dumps, policy_from_rows
 from tumato_symbolic.policy.unrealizable_file import bind
@@ -43,7 +43,7 @@ def text_of(spec: Spec) -> str:
     return print_spec(replace(spec, actions=tuple(actions)), Random(0))
 
 
-REFUSALS: dict[str, tuple[Spec, Ordering]] = {
+UNREALIZABLE: dict[str, tuple[Spec, Ordering]] = {
     **{name: (spec, "any") for name, (spec, _) in CONFLICTS.items()},
     "one step too far": (line(1), "any"),
     "two steps too far": (line(2), "any"),
@@ -54,10 +54,10 @@ REFUSALS: dict[str, tuple[Spec, Ordering]] = {
 }
 
 
-@pytest.mark.parametrize("name", REFUSALS)
+@pytest.mark.parametrize("name", UNREALIZABLE)
 def test_forged_certificates_of_no(name: str, tmp_path: Path) -> None:
     """A certificate that was changed by one thing holds exactly where all its claims do."""
-    spec, ordering = REFUSALS[name]
+    spec, ordering = UNREALIZABLE[name]
     certificate = certificate_of(spec, ordering)
     assert certificate is not None
     meaning, text = Meaning(spec, ordering), text_of(spec)

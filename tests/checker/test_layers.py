@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.checker.refusals import Document, assert_proved, assert_refuted, judged, spec_text
+from tests.checker.unrealizable import Document, assert_proved, assert_refuted, judged, spec_text
 
 
 def line(bound: int | None, steps: str = "ab bc cd") -> str:

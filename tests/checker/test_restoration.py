@@ -11,9 +11,9 @@ from typing import Any
 
 import pytest
 
-from tests.checker.refusals import assert_proved, assert_refuted, certificate, spec_text
 from tests.checker.standalone import Answer, ask, checker
 from tests.checker.stepwise import claiming, stepwise_spec, true_claims
+from tests.checker.unrealizable import assert_proved, assert_refuted, certificate, spec_text
 from tests.printing import print_spec
 from tests.semantics.test_restoration import EDGE, OVERRIDE, RETRY, VALVES
 from tumato_symbolic import parse

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.checker.refusals import spec_text
 from tests.checker.standalone import CHECKER, ask
+from tests.checker.unrealizable import spec_text
 from tumato_symbolic import parse
 from tumato_symbolic.policy import dumps, policy_from_rows
 

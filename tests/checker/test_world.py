@@ -9,10 +9,10 @@ from typing import Any
 
 import pytest
 
-from tests.checker.refusals import spec_text
 from tests.checker.standalone import checker
 from tests.checker.test_forged import text_of
 from tests.checker.test_witnesses import TWO
+from tests.checker.unrealizable import spec_text
 from tests.generate import ALL_PROFILES, random_text
 from tests.semantics import literal
 from tests.verify.test_forged_ranks import restoring

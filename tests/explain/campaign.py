@@ -12,7 +12,7 @@ from collections import Counter
 from collections.abc import Sequence
 from multiprocessing import Pool
 
-from tests.explain.judge import complaints
+from tests.explain.oracle import complaints
 from tests.generate import PROFILES, random_spec
 from tumato_symbolic.explain.explain import explain
 from tumato_symbolic.explain.explanation import Explanation

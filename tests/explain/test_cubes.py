@@ -3,7 +3,7 @@
 from itertools import product
 from random import Random
 
-from tests.explain.judge import read_predicate
+from tests.explain.oracle import read_predicate
 from tests.generate import random_spec
 from tumato_symbolic.explain.as_predicates import predicate_text, shortest_formula
 from tumato_symbolic.explain.cubes import disjoint_cubes, set_of, shortest_cubes

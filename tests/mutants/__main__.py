@@ -16,8 +16,8 @@ from pathlib import Path
 
 from tests.conformance.by_coq import compiled
 from tests.mutants.campaign import Tally, examine
-from tests.mutants.refusals import examine_conflict, examine_refusal
 from tests.mutants.stepwise import examine_stepwise
+from tests.mutants.unrealizable import examine_conflict, examine_unrealizable
 from tests.profiles import ALL_PROFILES
 
 CONFLICT, RESTORATION = "conflict", "restoration"
@@ -34,7 +34,7 @@ def run(job: Job) -> Tally:
             if profile == RESTORATION:
                 return examine_stepwise(seed, each, Path(folder), coq=coq)
             tally = examine(profile, seed, each, Path(folder))
-            tally.add(examine_refusal(profile, seed, each // 4, Path(folder)))
+            tally.add(examine_unrealizable(profile, seed, each // 4, Path(folder)))
             return tally
     except Exception:
         return Tally(complaints=[f"{profile} {seed}: {traceback.format_exc()}"])

@@ -8,8 +8,8 @@ import pytest
 
 from tests.export.compiler import COQC
 from tests.mutants.campaign import Tally, examine
-from tests.mutants.refusals import examine_conflict, examine_refusal
 from tests.mutants.stepwise import examine_stepwise
+from tests.mutants.unrealizable import examine_conflict, examine_unrealizable
 from tests.profiles import ALL_PROFILES
 
 
@@ -28,7 +28,7 @@ def test_both_judges_accept_the_same_answers_no(profile: str, tmp_path: Path) ->
     """What `verify` or the checker accepts has no policy, and is accepted by both; a new layout loses nothing."""
     total = Tally()
     for seed in range(100, 118):
-        total.add(examine_refusal(profile, seed, 3, tmp_path))
+        total.add(examine_unrealizable(profile, seed, 3, tmp_path))
     assert not total.complaints
     assert 0 < total.right < total.mutants
 

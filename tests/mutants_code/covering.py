@@ -19,7 +19,7 @@ BINDING = (
     "tests/policy/test_bind.py",
     "tests/verify/test_verify.py::test_a_policy_for_first_where_any_is_meant",
 )
-JUDGED = "tests/verify/test_against_the_judge.py"
+JUDGED = "tests/verify/test_against_semantics.py"
 STRANGERS = tuple(
     f"{JUDGED}::test_strangers_are_judged_as_by_the_explicit_meaning[{case}-auto]"
     for case in ("any-restoring", "first-interacting")
@@ -82,9 +82,9 @@ Z3 = (
 )
 NO_POLICY = (
     "tests/verify/test_false_answers.py",
-    "tests/verify/test_refusal_parts.py",
+    "tests/verify/test_unrealizable_parts.py",
     "tests/verify/test_unrealizable_by_hand.py",
-    "tests/verify/test_forged_refusals.py",
+    "tests/verify/test_forged_unrealizable.py",
 )
 VERIFY = (
     "tests/verify/test_effort.py",
@@ -114,7 +114,7 @@ CHECKER = (
     "tests/checker/test_cubes.py",
     "tests/checker/test_layers.py",
     "tests/checker/test_conflicts.py",
-    "tests/checker/test_refusals.py",
+    "tests/checker/test_unrealizable.py",
     "tests/checker/test_forged.py",
     "tests/checker/test_restoration.py",
     "tests/checker/test_stepwise.py",

@@ -15,7 +15,7 @@ from itertools import count, islice
 from multiprocessing import Pool
 from pathlib import Path
 
-from tests.ranks import campaign, refusals
+from tests.ranks import campaign, unrealizable
 from tests.ranks.campaign import Tally
 
 Examine = Callable[[int, int, Path], Tally]
@@ -39,7 +39,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--answer", choices=("policy", "no"), default="policy", help="certificates of which answer")
     parser.add_argument("--processes", type=int, default=1)
     options = parser.parse_args(arguments)
-    examine: Examine = campaign.examine if options.answer == "policy" else refusals.examine
+    examine: Examine = campaign.examine if options.answer == "policy" else unrealizable.examine
     total, started = Tally(), time.monotonic()
     with Pool(options.processes) as pool:
         seeds = count(options.seed)

@@ -8,7 +8,7 @@ from typing import get_args
 
 import pytest
 
-from tests.ranks import campaign, refusals
+from tests.ranks import campaign, unrealizable
 from tests.ranks.campaign import Tally
 from tumato_symbolic import parse
 from tumato_symbolic.diagrams import DiagramBuilder
@@ -68,7 +68,7 @@ def test_counts_are_compared_as_numbers_with_infinity(largest: int) -> None:
             assert z3.is_true(z3.simplify(term)) == truth
 
 
-@pytest.mark.parametrize("examine", [campaign.examine, refusals.examine])
+@pytest.mark.parametrize("examine", [campaign.examine, unrealizable.examine])
 def test_every_judge_tells_right_numbers_from_wrong_ones(
     examine: Callable[[int, int, Path], Tally], tmp_path: Path
 ) -> None:

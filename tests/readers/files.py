@@ -86,7 +86,7 @@ def bases() -> tuple[tuple[Base, ...], ...]:
     """Tables, diagrams, and certificates of unrealizability."""
     tables: list[Base] = []
     diagrams: list[Base] = []
-    refusals: list[Base] = []
+    unrealizable: list[Base] = []
     for name, profile in PROFILES.items():
         for seed in range(20):
             spec, text = random_spec(seed, profile), random_text(seed, profile)
@@ -99,8 +99,8 @@ def bases() -> tuple[tuple[Base, ...], ...]:
                 assert isinstance(other, Realizable), (name, seed)
                 diagrams.append(Base(dumps(other.policy), text))
             elif isinstance(outcome, Unrealizable) and outcome.certificate is not None:
-                refusals.append(Base(certificate_text(outcome.certificate), text))
-    return tuple(tables), tuple(diagrams), tuple(refusals)
+                unrealizable.append(Base(certificate_text(outcome.certificate), text))
+    return tuple(tables), tuple(diagrams), tuple(unrealizable)
 
 
 def damaged(seed: int) -> tuple[bytes, str]:

@@ -93,7 +93,7 @@ def test_a_set_that_is_not_better_is_no_witness(monkeypatch: pytest.MonkeyPatch)
 # Certificates of no
 
 
-def _refused(spec: Spec) -> Unrealizability:
+def _unrealizable(spec: Spec) -> Unrealizability:
     certificate = certificate_of(spec, "any")
     assert certificate is not None
     return certificate
@@ -168,7 +168,7 @@ LIES: dict[str, tuple[Spec, str, Lie, str]] = {
 def test_a_false_refutation_of_a_certificate(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """A step or a state that does not show the claim to be false."""
     spec, claim, lie, told = LIES[name]
-    certificate = _refused(spec)
+    certificate = _unrealizable(spec)
     _lying(monkeypatch, claim, lie)
     with pytest.raises(RuntimeError, match=f"{told}.*, against the solver"):
         verify_unrealizable(certificate, spec)
@@ -178,7 +178,7 @@ def test_doing_nothing_has_no_unsafe_outcome_of_several_effects(monkeypatch: pyt
     """There is nothing to learn where the empty set is refused."""
     monkeypatch.setattr(allowed_step, "objections_to", lambda *_: [object()])
     spec = line(2)
-    certificate = _refused(spec)
+    certificate = _unrealizable(spec)
     _lying(
         monkeypatch,
         "no other residual goal is possible in the state",

@@ -14,7 +14,7 @@ from tests.unrealizability import (
     assert_never_wrong,
     certified,
     changed,
-    refused,
+    unrealizable,
 )
 from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.policy.unrealizable import Conflict, Cube, Cut, NoAllowedSet, NoPlan, Violation
@@ -67,7 +67,7 @@ def stuck(actions: int = 3, reaction_rules: Sequence[Formula] = ()) -> tuple[Bui
 @pytest.mark.parametrize("spec", [conflicting(), replace(conflicting(), max_plan_length=3), self_conflicting()])
 def test_conflicts_by_hand(spec: Spec) -> None:
     """Both kinds of cut, with and without a plan bound; every change of one part is judged by what is true."""
-    certificate, _ = refused(spec, Conflict)
+    certificate, _ = unrealizable(spec, Conflict)
     assert verify_unrealizable(certificate, spec).verdict == "proved"
     world = World(spec, "any")
     for seed in range(40):
@@ -77,7 +77,7 @@ def test_conflicts_by_hand(spec: Spec) -> None:
 def test_every_part_of_a_conflict_is_needed() -> None:
     """Without an option, with a distance too large, without a cut, or with another start, the proof fails there."""
     spec = conflicting()
-    certificate, reason = refused(spec, Conflict)
+    certificate, reason = unrealizable(spec, Conflict)
 
     def refuted(**parts: Any) -> str:
         verdict = verify_unrealizable(replace(certificate, reason=replace(reason, **parts)), spec)
@@ -106,7 +106,7 @@ def test_every_part_of_a_conflict_is_needed() -> None:
 def test_layers_end_at_the_bound(bound: int, layers: int) -> None:
     """As many layers as the bound allows are a proof, one less is none, and neither is one with a state less."""
     spec = line(bound)
-    certificate, reason = refused(spec, NoPlan)
+    certificate, reason = unrealizable(spec, NoPlan)
     goal = reason.goals[0]
     assert len(goal.roots) == layers
     assert verify_unrealizable(certificate, spec).verdict == "proved"
@@ -123,7 +123,7 @@ def test_layers_end_at_the_bound(bound: int, layers: int) -> None:
 def test_a_run_that_meets_the_goal_is_found() -> None:
     """A layer with a state that meets the goal is named with the state."""
     spec = line(2)
-    certificate, reason = refused(spec, NoPlan)
+    certificate, reason = unrealizable(spec, NoPlan)
     everything = replace(reason.goals[0], roots=(1, 1))
     verdict = verify_unrealizable(replace(certificate, reason=replace(reason, goals=(everything,))), spec)
     assert "the state x=d of layer 1 meets" in str(verdict.reason)
@@ -150,7 +150,7 @@ BAD = [
 def test_violations_are_checked_by_their_meaning(violation: Violation, why: str) -> None:
     """A cube whose violation is none refutes the certificate, with the reason."""
     _, spec = stuck()
-    certificate, reason = refused(spec, NoAllowedSet)
+    certificate, reason = unrealizable(spec, NoAllowedSet)
     assert verify_unrealizable(certificate, spec).verdict == "proved"
     cubes = reason.cubes
     assert cubes is not None
@@ -164,7 +164,7 @@ def test_violations_are_checked_by_their_meaning(violation: Violation, why: str)
 def test_cubes_must_hold_every_set_once() -> None:
     """A cube too few, one too many, and one that contradicts itself are told apart."""
     _, spec = stuck()
-    certificate, reason = refused(spec, NoAllowedSet)
+    certificate, reason = unrealizable(spec, NoAllowedSet)
     cubes = reason.cubes
     assert cubes is not None
 
@@ -186,7 +186,7 @@ def test_many_actions_are_left_to_the_prover() -> None:
         build.action("z=b", ["y=b"])
     bad, loud = build.atom("x=a"), And((build.atom("y=b"), build.atom("z=b")))
     spec = build.spec(state_rules=[Not(bad), Not(loud)])
-    certificate = replace(refused(spec, NoAllowedSet)[0], reason=NoAllowedSet(build.state("aaa"), None))
+    certificate = replace(unrealizable(spec, NoAllowedSet)[0], reason=NoAllowedSet(build.state("aaa"), None))
     assert verify_unrealizable(certificate, spec).verdict == "proved"
     fine = replace(certificate, reason=NoAllowedSet(build.state("baa"), None))
     verdict = verify_unrealizable(fine, spec)
@@ -200,7 +200,7 @@ def test_an_open_action_may_keep_a_reaction_rule() -> None:
     first, second = build.action("x=b"), build.action("x=b")
     never = And((Or((first, second)), Or((first, Not(second))), Or((Not(first), second)), Not(And((first, second)))))
     spec = build.spec(state_rules=[Not(build.atom("x=a"))], reaction_rules=[never])
-    certificate, reason = refused(spec, NoAllowedSet)
+    certificate, reason = unrealizable(spec, NoAllowedSet)
     assert reason.cubes is not None
     rule = next(cube.violation.rule for cube in reason.cubes if cube.violation.rule)
     whole = NoAllowedSet(reason.state, (Cube(frozenset(), frozenset(), Violation("reaction-rule", rule=rule)),))
@@ -213,13 +213,13 @@ def test_a_state_that_is_not_valid_proves_nothing() -> None:
     """Certificates about states outside the assumptions are refuted, whatever their kind."""
     spec = line(1)
     excluded = replace(spec, assumptions=rules(Not(Build({"x": "abcd"}).atom("x=a"))))
-    certificate, no_plan = refused(spec, NoPlan)
+    certificate, no_plan = unrealizable(spec, NoPlan)
     for reason in (no_plan, NoAllowedSet((0,), None)):
         assert reason.state == (0,)
         verdict = verify_unrealizable(replace(certificate, reason=reason), excluded)
         assert (verdict.verdict, verdict.stale) == ("refuted", True)
         assert "not valid" in str(verdict.reason)
-    conflict, _ = refused(conflicting(), Conflict)
+    conflict, _ = unrealizable(conflicting(), Conflict)
     left = Not(Build({"x": "lmrLR"}).atom("x=l"))
     verdict = verify_unrealizable(conflict, replace(conflicting(), assumptions=rules(left)))
     assert "not valid" in str(verdict.reason)
@@ -228,7 +228,7 @@ def test_a_state_that_is_not_valid_proves_nothing() -> None:
 def test_the_ordering_that_counts() -> None:
     """The certificate's ordering, unless another is asked for; `any` proves nothing where `first` is written."""
     spec = line(1)
-    certificate, _ = refused(spec, NoPlan)
+    certificate, _ = unrealizable(spec, NoPlan)
     assert verify_unrealizable(certificate, spec).ordering_source == "certificate"
     writes_first = replace(spec, effect_ordering="first")
     verdict = verify_unrealizable(certificate, writes_first)
@@ -253,7 +253,7 @@ def test_time_that_runs_out_is_no_verdict(spec: Spec) -> None:
 def test_names_that_do_not_fit_are_an_error() -> None:
     """A certificate about another vocabulary is unreadable for this specification, not refuted."""
     with pytest.raises(UserError, match="TUM503"):
-        verify_unrealizable(refused(line(1), NoPlan)[0], stuck()[1])
+        verify_unrealizable(unrealizable(line(1), NoPlan)[0], stuck()[1])
 
 
 @pytest.mark.parametrize("spec", [stuck()[1], line(2), conflicting()])

@@ -17,7 +17,7 @@ from random import Random
 
 from tests.checker.standalone import ask
 from tests.generate import random_spec, random_text
-from tests.mutants import denials, specs
+from tests.mutants import cubes_and_layers, specs
 from tests.mutants.campaign import LARGEST, Tally
 from tests.mutants.changes import Document
 from tests.oracle import World, decide_world
@@ -35,7 +35,7 @@ from tumato_symbolic.verify import verify_unrealizable
 WAYS = ("layout", "meaning", "file", "both", "certificate", "certificate", "certificate", "certificate")
 
 
-def examine_refusal(profile: str, seed: int, count: int, folder: Path) -> Tally:
+def examine_unrealizable(profile: str, seed: int, count: int, folder: Path) -> Tally:
     """Up to `count` mutants of one specification, none where it is too large or has a policy."""
     text = random_text(seed, ALL_PROFILES[profile])
     if count_states(parse(text)) > LARGEST:
@@ -58,7 +58,7 @@ def examine_text(text: str, name: str, count: int, folder: Path) -> Tally:
     if not isinstance(outcome, Unrealizable) or outcome.certificate is None:
         return tally
     document = json.loads(dumps(outcome.certificate))
-    kinds = denials.BY_KIND[document["Reason"]["Kind"]]
+    kinds = cubes_and_layers.BY_KIND[document["Reason"]["Kind"]]
     for _ in range(count):
         which, changed, lines = random.choice(WAYS), deepcopy(document), text.splitlines()
         if which in ("layout", "meaning", "both"):

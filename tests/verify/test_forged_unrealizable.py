@@ -12,8 +12,8 @@ from tests.semantics import literal
 from tests.semantics.build import Build, constraint, priority, when
 from tests.unrealizability import certified
 from tests.verify.forgeries import cuts, forged, violations
-from tests.verify.literal_refusals import Meaning, distance, is_proof, violated
-from tests.verify.literal_refusals import clause as literal_clause
+from tests.verify.literal_unrealizable import Meaning, distance, is_proof, violated
+from tests.verify.literal_unrealizable import clause as literal_clause
 from tests.verify.test_unrealizable_by_hand import conflicting, line, self_conflicting, stuck
 from tumato_symbolic.limits import Budget
 from tumato_symbolic.policy.unrealizable import Conflict, Cut, NoAllowedSet, NoPlan, Unrealizability

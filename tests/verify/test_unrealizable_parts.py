@@ -1,4 +1,4 @@
-"""What is said of a certificate of no beside its verdict, and states and goals that a proof does not speak of."""
+"""What is said of a certificate of unrealizability beside its verdict, and states and goals that it leaves out."""
 
 from __future__ import annotations
 

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from tests.checker import test_conflicts, test_cubes, test_layers
-from tests.checker.refusals import Document, assert_proved, certificate
 from tests.checker.standalone import CHECKER, ask
+from tests.checker.unrealizable import Document, assert_proved, certificate
 from tests.policy.mutations import mutations
 
 EXAMPLES = CHECKER.parents[1] / "examples"

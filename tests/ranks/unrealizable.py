@@ -11,7 +11,7 @@ from tests.oracle import World
 from tests.ranks.campaign import Tally
 from tests.ranks.lines import LENGTHS
 from tests.ranks.numbers import CHANGES, KINDS
-from tests.ranks.refusal_truth import first_layers, is_proof
+from tests.ranks.unrealizable_truth import first_layers, is_proof
 from tests.unrealizability import claim_is_true
 from tumato_symbolic import Unrealizable, parse, synthesize
 from tumato_symbolic.diagrams import DiagramBuilder
