@@ -57,7 +57,7 @@ def _assert_witness(spec: Spec, rows: Rows, ordering: Ordering, refutation: Refu
 def test_strangers_are_judged_as_by_the_explicit_meaning(profile: str, ordering: Ordering, prover: ProverName) -> None:
     """Every verdict is the judge's, and every witness is one: the first state for total and minimal, the best set."""
     met = set()
-    for seed in range(7):
+    for seed in range(4):
         spec, random = random_spec(seed, ALL_PROFILES[profile]), Random(seed)
         for rows in near_policies(spec, ordering, random):
             answer = _assert_as_judged(spec, rows, ordering, dressed(spec, rows, random), prover)
