@@ -8,8 +8,9 @@ import pytest
 
 from tests.semantics.test_restoration import EDGE, RETRY, VALVES
 from tests.verify.several_steps import Rows, certified, exact
-from tests.verify.test_several_steps import PROVERS
+from tests.verify.test_several_steps import PROVERS, judged_by
 from tumato_symbolic import parse
+from tumato_symbolic.policy import policy_from_rows
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Restoration
 from tumato_symbolic.verify import ProverName, verify
@@ -64,6 +65,29 @@ def test_policies(text: str, restoration: Restoration, rows: Rows, refuted: list
     assert set(refuted) <= set(found)
     assert bool(found) == bool(refuted)
     assert answer.verdict == ("refuted" if refuted else "proved")
+
+
+DESCENT = """
+BEGIN STATE VECTOR state P can be a, b, c, d END STATE VECTOR
+BEGIN ACTIONS
+action ab duration: 1 preconditions: P is a nominal effects: P is b alternative effects: none
+action bc duration: 1 preconditions: P is b nominal effects: P is c alternative effects: none
+action cd duration: 1 preconditions: P is c nominal effects: P is d alternative effects: none
+END ACTIONS
+BEGIN STATE RULES severity: 1 rule: NOT P is b severity: 2 rule: P is d END STATE RULES
+"""
+
+
+@pytest.mark.parametrize("prover", PROVERS)
+@pytest.mark.parametrize(("last", "refuted"), [(2, {"safe"}), (None, {"safe", "restoring", "goals", "minimal"})])
+def test_runs_through_a_lower_level(last: int | None, refuted: set[str], prover: ProverName) -> None:
+    """From a to b a severer rule breaks; what is restored all the same, and what is not, is known."""
+    spec = replace(parse(DESCENT), restoration="fair")
+    rows = {(place,): frozenset((place,)) for place in range(2)}
+    rows |= {(2,): NOTHING if last is None else frozenset((last,)), (3,): NOTHING}
+    for said in (policy_from_rows(spec, rows), certified(spec, rows, exact(spec, rows, "any"))):
+        answer = judged_by(spec, rows, "any", said, prover)
+        assert {result.name for result in answer.properties if result.verdict == "refuted"} == refuted
 
 
 @pytest.mark.parametrize("prover", PROVERS)

@@ -173,7 +173,7 @@ class _Search:
         problem, efforts, after = self._problem, self._efforts, self._choice.after
         if not efforts.fair:
             return False
-        if not efforts.nominal_is_exact() or not self._source.policy_is_safe:
+        if not self._source.policy_is_safe or not efforts.nominal_is_exact():
             return negation(finite)
         codes, nominal = efforts.codes, efforts.nominal(after)
         restored = problem.tiers.restored(after)

@@ -57,17 +57,16 @@ class EffortSource:
             found = self.recomputed
         except UndecidedError:
             return claimed
-        self._compare(claimed.record, found.record)
+        self._compare(claimed.record)
         return found
 
-    def _compare(self, claimed: Restoring, found: Restoring) -> None:
+    def _compare(self, claimed: Restoring) -> None:
         """Heed where nominal efforts of the certificate are not those that the policy has."""
         for state in self._unsafe or ():
-            if claimed.efforts.evaluate(claimed.worst, state) is None:
-                exact = found.efforts.evaluate(found.nominal, state)
-                if claimed.efforts.evaluate(claimed.nominal, state) != exact:
-                    self.ranks.inexact_effort(state)
-                    return
+            worst, nominal = (claimed.efforts.evaluate(root, state) for root in (claimed.worst, claimed.nominal))
+            if worst is None and nominal != self._nominal(state):
+                self.ranks.inexact_effort(state)
+                return
 
     @cached_property
     def _unsafe(self) -> list[State] | None:
@@ -80,15 +79,34 @@ class EffortSource:
 
     @cached_property
     def recomputed(self) -> Efforts:
-        """Those that the policy has, wherever it restores safety. Raises `UndecidedError`."""
-        efforts = Efforts(self._problem, self._restoring(), self._ordering, conflicting=not self.policy_is_safe)
-        if efforts.first_false() is not None or efforts.too_large() is not None:
+        """Those that the policy has, wherever it restores safety. Raises `UndecidedError`.
+
+        Without nominal ones where these do not fall: where a step leads to a lower level, which no safe policy allows.
+        """
+        efforts = self._exact_ones(nominal=self._problem.spec.restoration == "fair")
+        if efforts is None and not self.policy_is_safe:
+            efforts = self._exact_ones(nominal=False)
+        if efforts is None:
             if self.policy_is_safe:
                 raise RuntimeError("the efforts of a policy are no efforts")
             raise UndecidedError("safety is restored", "the policy is not safe")
         return efforts
 
-    def _restoring(self) -> Restoring:
+    def first_lost(self) -> State | None:
+        """An unsafe state that the policy does not restore, if there is one. Raises `UndecidedError`."""
+        without = self.recomputed.first_without()
+        if without is None or not self.recomputed.fair or self._nominal(without) is None:
+            return without
+        worst_of, unsafe = self.recomputed.worst_of, self._unsafe or ()
+        return next((each for each in unsafe if worst_of(each) is None and self._nominal(each) is None), None)
+
+    def _exact_ones(self, *, nominal: bool) -> Efforts | None:
+        """Efforts by the explicit meaning, `nominal` ones too, if the solver finds them exact."""
+        record = self._restoring(nominal=nominal)
+        efforts = Efforts(self._problem, record, self._ordering, conflicting=not self.policy_is_safe)
+        return efforts if efforts.first_false() is None and efforts.too_large() is None else None
+
+    def _restoring(self, *, nominal: bool) -> Restoring:
         spec, decisions = self._problem.spec, self.ranks.decisions
         unsafe = self._unsafe
         if unsafe is None:
@@ -96,13 +114,12 @@ class EffortSource:
             raise UndecidedError("safety is restored", why)
         rows = {state: decisions[state] for state in unsafe}
         worst = Restorations(spec, rows, self._ordering).worst
-        nominal = {state: effort for state in unsafe if (effort := self._nominal(state)) is not None}
-        along = nominal if spec.restoration == "fair" else {}
+        runs = {state: effort for state in unsafe if (effort := self._nominal(state)) is not None} if nominal else {}
         builder = DiagramBuilder[Effort | None](
-            range(len(spec.variables)), [None, *sorted({*worst.values(), *along.values()})]
+            range(len(spec.variables)), [None, *sorted({*worst.values(), *runs.values()})]
         )
         sizes = [len(variable.values) for variable in spec.variables]
-        worst_root, nominal_root = (builder.from_table(sizes, table, None) for table in (worst, along))
+        worst_root, nominal_root = (builder.from_table(sizes, table, None) for table in (worst, runs))
         return Restoring(builder.finish(), worst_root, nominal_root)
 
     def _nominal(self, state: State) -> Effort | None:

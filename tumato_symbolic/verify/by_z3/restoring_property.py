@@ -30,7 +30,7 @@ def prove_restoring(problem: PolicyProblem, source: EffortSource, ordering: Orde
             return refuted
     elif source.ranks.roots:
         source.ranks.tells_nothing_of_restoring()
-    without = source.recomputed.first_without()
+    without = source.first_lost()
     if without is None:
         return _proved()
     return RestoringWitnesses(problem.spec, source.ranks.decisions, ordering).not_restored(without)
