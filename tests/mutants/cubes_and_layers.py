@@ -1,4 +1,4 @@
-"""Mutations of a certificate of unrealizability, as a JSON object, by its kind; here its cubes and its layers."""
+"""Mutations of a certificate of unrealizability, as a JSON object, by its kind; here its cubes, layers and traps."""
 
 from __future__ import annotations
 
@@ -187,8 +187,29 @@ LAYERS: dict[str, Mutation] = {
 }
 
 
+# Traps.
+
+
+def _root(document: Document, random: Random) -> None:
+    reason(document)["Root"] = some_reference(reason(document), random)
+
+
+def _restoration(document: Document, random: Random) -> None:
+    """What is recorded, which proves nothing."""
+    document["Restoration"] = random.choice(("bounded", "fair"))
+
+
+TRAP: dict[str, Mutation] = {
+    "another state": another_state,
+    "the root": _root,
+    "a node's child": another_child,
+    "another restoration": _restoration,
+}
+
+
 BY_KIND: dict[str, dict[str, Mutation]] = {
     "no-allowed-set": {**ANY, **CUBES},
+    "no-restoration": {**ANY, **TRAP},
     "no-plan": {**ANY, **LAYERS},
     "conflict": {**ANY, **CONFLICT},
 }

@@ -12,6 +12,7 @@ from tests.checker.stepwise import MODES, stepwise_spec, ways
 from tests.mutants import by_coq, policies, restoring, specs
 from tests.mutants.by_coq import Question
 from tests.mutants.campaign import Mutant, Tally, bases_of, judge, renew_digest
+from tests.mutants.unrealizable import examine_text
 from tests.printing import print_spec
 from tests.restoration.campaign import specifications
 from tests.restoration.test_repair import LOOP, crossing
@@ -47,11 +48,14 @@ def _numbered(spec: Spec) -> Spec:
 def examine_stepwise(seed: int, count: int, folder: Path, *, coq: bool = False) -> Tally:
     """Up to `count` mutants of each specification of a seed that has a policy that says how it restores.
 
-    With `coq`, through the checker in Coq as well.
+    Of those without a policy, as many of certificates that there is none. With `coq`, policies go through the checker
+    in Coq as well.
     """
     tally, for_coq = Tally(), list[tuple[str, Question]]()
     for name, text in texts(seed):
         bases = bases_of(text)
+        if not bases:
+            tally.add(examine_text(text, f"restoration, seed {seed}, {name}", count, folder))
         if not bases or "Restoring" not in bases[0].get("Certificate", {}):
             continue
         for mutant in _mutants(bases, text, Random(f"{name} {seed}"), count):

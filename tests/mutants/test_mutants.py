@@ -45,10 +45,11 @@ def test_both_judges_accept_the_same_conflicts(tmp_path: Path) -> None:
 def test_every_tier_tells_how_safety_is_restored(tmp_path: Path) -> None:
     """So it is where safety takes several steps to restore, and where some rules are more severe than others.
 
-    Where Coq is installed, its checker says the same of the decisions, and of efforts that are not theirs.
+    Also of certificates that there is no policy. Where Coq is installed, its checker says the same of the decisions,
+    and of efforts that are not theirs.
     """
-    total = examine_stepwise(0, 2, tmp_path, coq=COQC is not None)
+    total = examine_stepwise(0, 1, tmp_path, coq=COQC is not None)
     assert not total.complaints
     assert 0 < total.right < total.mutants
-    assert len(total.modes) > 5
+    assert len(total.modes) > 10
     assert COQC is None or all(total.by_coq[each] for each in ("policy, right", "policy, wrong", "efforts, wrong"))

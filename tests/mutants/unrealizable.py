@@ -24,10 +24,13 @@ from tests.oracle import World, decide_world
 from tests.policy.mutations import mutate
 from tests.printing import print_spec
 from tests.profiles import ALL_PROFILES
+from tests.restoration.oracle import decide_stepwise
 from tests.unrealizability import CONFLICTS
+from tests.verify.test_no_restoration import holds_fast
 from tumato_symbolic import Unrealizable, parse, synthesize
-from tumato_symbolic.diagnostics import UserError
-from tumato_symbolic.policy.unrealizable_file import dumps, loads
+from tumato_symbolic.diagnostics import Code, UserError
+from tumato_symbolic.policy.unrealizable import NoRestoration
+from tumato_symbolic.policy.unrealizable_file import bind, dumps, loads
 from tumato_symbolic.semantics import all_states, count_states, is_valid
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify import verify_unrealizable
@@ -59,10 +62,11 @@ def examine_text(text: str, name: str, count: int, folder: Path) -> Tally:
         return tally
     document = json.loads(dumps(outcome.certificate))
     kinds = cubes_and_layers.BY_KIND[document["Reason"]["Kind"]]
+    meant = {**specs.MEANT, **specs.RESTORING} if parse(text).restores_stepwise else specs.MEANT
     for _ in range(count):
         which, changed, lines = random.choice(WAYS), deepcopy(document), text.splitlines()
         if which in ("layout", "meaning", "both"):
-            random.choice([*(specs.LAYOUT if which == "layout" else specs.MEANT).values()])(lines, random)
+            random.choice([*(specs.LAYOUT if which == "layout" else meant).values()])(lines, random)
         if which in ("certificate", "both"):
             for _ in range(random.choice((1, 1, 1, 2, 3))):
                 kind, change = random.choice([*kinds.items()])
@@ -85,12 +89,16 @@ def _judge(document: Document, text: str, which: str, tally: Tally, folder: Path
     answer = ask(folder, written, text)
     if answer.code == 70:
         yield f"the checker breaks: {answer.err}"
+    if spec.restores_stepwise:
+        tally.modes[f"no, {spec.restoration}, {len(spec.tiers)} tiers"] += 1
     try:
-        found = verify_unrealizable(loads(written), spec)
+        certificate = loads(written)
+        found = verify_unrealizable(certificate, spec)
     except UserError as error:
-        tally.unreadable += 1
-        if answer.code == 0:
-            yield f"the checker accepts what cannot be read: {error}"
+        unsupported = error.diagnostics[0].code == Code.TUM313
+        tally.unreadable += not unsupported
+        if answer.code == 0 and (not unsupported or _realizable(text, certificate.ordering)):
+            yield f"the checker accepts it: {error}"
         return
     proved = found.verdict == "proved"
     tally.right += proved
@@ -102,6 +110,12 @@ def _judge(document: Document, text: str, which: str, tally: Tally, folder: Path
         yield "the checker and `verify` disagree on whether it is stale"
     if (proved or answer.code == 0) and _realizable(text, found.ordering):
         yield "proved unrealizable, but there is a policy"
+    reason = bind(certificate, spec).reason
+    if isinstance(reason, NoRestoration) and (found.ordering, spec.ordering) != ("any", "first"):
+        trap = {state for state in all_states(spec) if reason.diagram.evaluate(reason.root, state)}
+        held = spec.restoration != "one_step" and holds_fast(spec, reason.state, trap, found.ordering)
+        if proved != held:
+            yield f"{found.verdict} ({found.reason}), and it is {'' if held else 'no '}trap"
     if which == "layout" and (not proved or found.stale):
         yield f"{found.verdict}, stale: {found.stale}, for the same meaning"
 
@@ -118,4 +132,7 @@ def _read(text: str) -> Spec | None:
 
 @lru_cache
 def _realizable(text: str, ordering: Ordering) -> bool:
-    return decide_world(World(parse(text), ordering)).kind == "realizable"
+    spec = parse(text)
+    if spec.restores_stepwise:
+        return decide_stepwise(spec, ordering).policy is not None
+    return decide_world(World(spec, ordering)).kind == "realizable"
