@@ -23,7 +23,7 @@ def vocabularies(names=NAMES):
 
 
 @st.composite
-def tables(draw, vocabulary):
+def tables(draw: st.DrawFn, vocabulary: Vocabulary):
     """Some states with some actions."""
     state = st.tuples(*(st.integers(0, size - 1) for size in vocabulary.sizes))
     numbers = range(len(vocabulary.actions))
@@ -32,7 +32,7 @@ def tables(draw, vocabulary):
 
 
 @st.composite
-def certificates(draw, vocabulary):
+def certificates(draw: st.DrawFn, vocabulary: Vocabulary):
     """Ranks of some states for up to three goals, in canonical form."""
     order = draw(st.permutations(range(len(vocabulary.variables))))
     builder = DiagramBuilder(order, (None, 0, 1, 2))
@@ -46,7 +46,7 @@ def certificates(draw, vocabulary):
 
 
 @st.composite
-def restorings(draw, vocabulary):
+def restorings(draw: st.DrawFn, vocabulary: Vocabulary):
     """Efforts of some states, and some deviations, in canonical form."""
     state = st.tuples(*(st.integers(0, size - 1) for size in vocabulary.sizes))
     builder = DiagramBuilder(draw(st.permutations(range(len(vocabulary.variables)))), (None, *EFFORTS))
@@ -76,7 +76,7 @@ def policies(draw, forms=("table", "diagram"), names=NAMES):
     )
 
 
-def reordered(draw, policy) -> DecisionDiagram:
+def reordered(draw: st.DrawFn, policy: Policy) -> DecisionDiagram:
     """The decisions as a diagram that tests the variables in a random order."""
     order = draw(st.permutations(range(len(policy.vocabulary.variables))))
     builder = DiagramBuilder(order, (False, True))
@@ -90,7 +90,7 @@ def reordered(draw, policy) -> DecisionDiagram:
     return DecisionDiagram(diagram, kept[:-1], kept[-1])
 
 
-def spec_of(vocabulary) -> Spec:
+def spec_of(vocabulary: Vocabulary) -> Spec:
     """A specification with these names and nothing else."""
     return Spec(
         tuple(Variable(name, values, HERE) for name, values in vocabulary.variables),
@@ -106,7 +106,7 @@ def spec_of(vocabulary) -> Spec:
     )
 
 
-def amr_like(diagram=False) -> Policy:
+def amr_like(diagram: bool = False) -> Policy:
     """A small policy with every section, the same every time."""
     vocabulary = Vocabulary(
         (("S_Place", ("dock", "hall")), ("S_Load", ("free", "full", "odd"))), ("go", "load", "stop")

@@ -1,5 +1,7 @@
 """Binding gives a policy the numbers of a specification and changes nothing else."""
 
+from random import Random
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -9,7 +11,7 @@ from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.policy import Certificate, Policy, RankedGoal, Table, Vocabulary, as_table, bind
 
 
-def shuffled(vocabulary, random):
+def shuffled(vocabulary: Vocabulary, random: Random):
     """The same names in another order."""
     variables = [(name, tuple(random.sample(values, len(values)))) for name, values in vocabulary.variables]
     actions = random.sample(vocabulary.actions, len(vocabulary.actions))
@@ -17,7 +19,7 @@ def shuffled(vocabulary, random):
     return Vocabulary(tuple(variables), tuple(actions))
 
 
-def meaning(policy):
+def meaning(policy: Policy):
     """The decisions by names alone."""
     return {
         frozenset(
@@ -27,7 +29,7 @@ def meaning(policy):
     }
 
 
-def ranks(policy):
+def ranks(policy: Policy):
     """The certificate by names alone."""
     certificate, variables = policy.certificate, policy.vocabulary.variables
     everything = as_table(Policy(policy.vocabulary, as_everything(policy.vocabulary)), 1000)
@@ -42,7 +44,7 @@ def ranks(policy):
     ]
 
 
-def as_everything(vocabulary):
+def as_everything(vocabulary: Vocabulary):
     """A table with every state."""
     from itertools import product
 
@@ -51,7 +53,7 @@ def as_everything(vocabulary):
 
 @QUICK
 @given(policies(), st.randoms(use_true_random=False))
-def test_order_never_matters(policy, random):
+def test_order_never_matters(policy: Policy, random: Random) -> None:
     """Variables, values and actions of the specification may come in any order."""
     target = shuffled(policy.vocabulary, random)
     bound = bind(policy, spec_of(target))
@@ -64,7 +66,7 @@ def test_order_never_matters(policy, random):
 
 @QUICK
 @given(policies(), st.randoms(use_true_random=False))
-def test_binding_back_gives_the_policy(policy, random):
+def test_binding_back_gives_the_policy(policy: Policy, random: Random) -> None:
     """Binding to a permuted specification and back is the identity."""
     target = shuffled(policy.vocabulary, random)
     assert bind(bind(policy, spec_of(target)), spec_of(policy.vocabulary)) == policy
@@ -86,7 +88,7 @@ PLACE, LOAD = AMR.variables
     ],
 )
 @pytest.mark.parametrize("diagram", [False, True])
-def test_what_only_one_side_has_is_an_error(vocabulary, code, message, diagram):
+def test_what_only_one_side_has_is_an_error(vocabulary: Vocabulary, code: str, message: str, diagram: bool) -> None:
     """Unknown and missing variables, values and actions are refused, with the name."""
     with pytest.raises(UserError) as raised:
         bind(amr_like(diagram), spec_of(vocabulary))
@@ -94,7 +96,7 @@ def test_what_only_one_side_has_is_an_error(vocabulary, code, message, diagram):
     assert message in raised.value.diagnostics[0].message
 
 
-def test_all_differences_are_reported_with_a_way_out():
+def test_all_differences_are_reported_with_a_way_out() -> None:
     """Several differences are reported in one run, the nearest name as help."""
     target = Vocabulary((("S_Plaze", PLACE[1]), LOAD), ("go", "lode", "stop"))
     with pytest.raises(UserError) as raised:
@@ -105,7 +107,7 @@ def test_all_differences_are_reported_with_a_way_out():
     assert helps[2] == "did you mean `lode`?"
 
 
-def test_all_known_names_are_told_where_none_is_near():
+def test_all_known_names_are_told_where_none_is_near() -> None:
     """Of variables, of the values of the same variable, and of actions."""
     target = Vocabulary((("Q", ("u", "v")), ("S_Load", ("full", "empty"))), ("wave",))
     source = Vocabulary((("Zebra", ("u", "v")), ("S_Load", ("full", "empty", "xyzzy"))), ("wave", "jump"))
@@ -119,7 +121,7 @@ def test_all_known_names_are_told_where_none_is_near():
     assert helps[3] == "actions of the specification: `wave`"
 
 
-def test_a_certificate_of_unknown_actions_is_set_aside():
+def test_a_certificate_of_unknown_actions_is_set_aside() -> None:
     """The policy stays usable when its certificate speaks of an action that nobody has."""
     policy = amr_like()
     goal = policy.certificate.goals[0]

@@ -2,6 +2,7 @@
 
 from itertools import product
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -21,7 +22,7 @@ from tumato_symbolic.policy import (
 
 @QUICK
 @given(policies(forms=("table",)))
-def test_table_to_diagram_to_table(policy):
+def test_table_to_diagram_to_table(policy: Policy) -> None:
     """A table comes back from its diagram, and both count the same states."""
     diagram = Policy(policy.vocabulary, as_diagram(policy))
     assert count_defined(diagram) == count_defined(policy) == len(policy.decisions.rows)
@@ -30,7 +31,7 @@ def test_table_to_diagram_to_table(policy):
 
 @QUICK
 @given(policies(forms=("diagram",)))
-def test_diagram_to_table_state_by_state(policy):
+def test_diagram_to_table_state_by_state(policy: Policy) -> None:
     """The table of a diagram has exactly the defined states, with the actions whose roots lead to True."""
     diagram, roots = policy.decisions.diagram, policy.decisions.roots
     expected = {
@@ -45,7 +46,7 @@ def test_diagram_to_table_state_by_state(policy):
 
 @QUICK
 @given(policies())
-def test_the_limit_is_exact(policy):
+def test_the_limit_is_exact(policy: Policy) -> None:
     """As many rows as allowed are given, one more is refused."""
     count = count_defined(policy)
     assert as_table(policy, count) is not None
@@ -54,7 +55,7 @@ def test_the_limit_is_exact(policy):
 
 @QUICK
 @given(policies(forms=("diagram",)))
-def test_canonical_is_canonical(policy):
+def test_canonical_is_canonical(policy: Policy) -> None:
     """Rebuilding a rebuilt diagram changes nothing: no two equal nodes, none superfluous, children first."""
     decisions = policy.decisions
     roots = (*decisions.roots, decisions.defined)
@@ -66,7 +67,7 @@ def test_canonical_is_canonical(policy):
 
 @QUICK
 @given(st.data())
-def test_from_table_is_the_function(data):
+def test_from_table_is_the_function(data: st.DataObject) -> None:
     """A diagram built from a table evaluates to the table, and to the default elsewhere."""
     vocabulary = data.draw(vocabularies())
     table = {state: len(chosen) for state, chosen in data.draw(tables(vocabulary)).rows.items()}
@@ -77,7 +78,7 @@ def test_from_table_is_the_function(data):
         assert builder.finish().evaluate(root, state) == table.get(state, -1)
 
 
-def test_counting_does_not_enumerate():
+def test_counting_does_not_enumerate() -> None:
     """2^200 states are counted exactly, and are too many for a table; variables that no level tests count too."""
     vocabulary = Vocabulary(tuple((f"S{number}", ("a", "b")) for number in range(201)), ())
     diagram = Diagram((0, 5), (False, True), ((1, (0, 1)), (0, (2, 1))))
@@ -86,7 +87,7 @@ def test_counting_does_not_enumerate():
     assert as_table(policy, 10**6) is None
 
 
-def test_many_variables_need_no_deep_stack():
+def test_many_variables_need_no_deep_stack() -> None:
     """Tables over 5,000 variables become diagrams."""
     count = 5000
     vocabulary = Vocabulary(tuple((f"S{number}", ("a", "b")) for number in range(count)), ("go",))
@@ -97,7 +98,7 @@ def test_many_variables_need_no_deep_stack():
     assert as_table(Policy(vocabulary, diagram), 2).rows == rows
 
 
-def test_rows_become_a_policy():
+def test_rows_become_a_policy() -> None:
     """`policy_from_rows` takes its names from the specification and puts rows in row-major order."""
     vocabulary = Vocabulary((("S", ("a", "b")),), ("go",))
     policy = policy_from_rows(spec_of(vocabulary), {(1,): frozenset(), (0,): frozenset({0})}, "first", "d", None)
@@ -105,7 +106,7 @@ def test_rows_become_a_policy():
     assert list(policy.decisions.rows) == [(0,), (1,)]
 
 
-def test_a_table_takes_each_combination_of_nodes_once(monkeypatch):
+def test_a_table_takes_each_combination_of_nodes_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """A diagram that reads the same below many paths is looked at once there: here 2 nodes a variable, 2^12 states."""
     from tumato_symbolic.policy import convert
 

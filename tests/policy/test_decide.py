@@ -1,5 +1,6 @@
 """Looking up what to do."""
 
+from pathlib import Path
 from unittest.mock import patch
 
 import pytest
@@ -12,7 +13,7 @@ from tumato_symbolic.policy import Policy, UndecidedState, as_table, dumps, pars
 
 @QUICK
 @given(policies())
-def test_decide_is_the_row(policy):
+def test_decide_is_the_row(policy: Policy) -> None:
     """In every decided state: the actions of its row, by name, in the order of declaration."""
     variables, actions = policy.vocabulary.variables, policy.vocabulary.actions
     for state, chosen in as_table(policy, 1000).rows.items():
@@ -22,7 +23,7 @@ def test_decide_is_the_row(policy):
 
 @QUICK
 @given(policies(forms=("diagram",)))
-def test_what_is_forgotten_is_found_again(policy):
+def test_what_is_forgotten_is_found_again(policy: Policy) -> None:
     """Answers are the same when almost nothing is remembered, in whatever order states are asked."""
     variables, actions = policy.vocabulary.variables, policy.vocabulary.actions
     rows = list(as_table(policy, 1000).rows.items())
@@ -33,7 +34,7 @@ def test_what_is_forgotten_is_found_again(policy):
 
 
 @pytest.mark.parametrize("diagram", [False, True])
-def test_an_undecided_state_has_its_own_error(diagram):
+def test_an_undecided_state_has_its_own_error(diagram: bool) -> None:
     """A state of the policy that it does not decide is a ValueError that carries the state."""
     state = {"S_Load": "odd", "S_Place": "hall"}
     with pytest.raises(UndecidedState, match="S_Load is odd") as raised:
@@ -62,7 +63,7 @@ WRONG = [
 
 @pytest.mark.parametrize(("state", "code", "message"), WRONG)
 @pytest.mark.parametrize("diagram", [False, True])
-def test_what_is_no_state_is_a_user_error(state, code, message, diagram):
+def test_what_is_no_state_is_a_user_error(state, code: str, message: str, diagram: bool) -> None:
     """Unknown variables, unknown values and missing variables are told apart from undecided states."""
     with pytest.raises(UserError) as raised:
         amr_like(diagram).decide(state)
@@ -70,7 +71,7 @@ def test_what_is_no_state_is_a_user_error(state, code, message, diagram):
     assert message in raised.value.diagnostics[0].message
 
 
-def test_words_describe_a_state():
+def test_words_describe_a_state() -> None:
     """`VARIABLE=VALUE` words in any order give a state; the same word twice is harmless."""
     words = ["S_Load=free", "S_Place=hall", "S_Load=free"]
     assert amr_like().decide(parse_assignments(amr_like().vocabulary, words)) == ("go", "stop")
@@ -87,7 +88,7 @@ def test_words_describe_a_state():
         (["S_Place=hall"], "TUM503", "`S_Load` has no value", "its values: `free`, `full` and `odd`"),
     ],
 )
-def test_wrong_words_have_a_way_out(words, code, message, way_out):
+def test_wrong_words_have_a_way_out(words, code: str, message: str, way_out: str) -> None:
     """Every mistake on the command line names the word and what could be meant."""
     with pytest.raises(UserError) as raised:
         parse_assignments(amr_like().vocabulary, words)
@@ -96,7 +97,7 @@ def test_wrong_words_have_a_way_out(words, code, message, way_out):
     assert message in first.message
 
 
-def test_a_line_describes_a_state():
+def test_a_line_describes_a_state() -> None:
     """One JSON object per line gives a state."""
     assert parse_state(amr_like().vocabulary, '{"S_Load": "free", "S_Place": "dock"}\n') == {
         "S_Load": "free",
@@ -118,14 +119,14 @@ def test_a_line_describes_a_state():
         '{"a": "\\ud800"}',
     ],
 )
-def test_a_wrong_line_is_a_user_error(line):
+def test_a_wrong_line_is_a_user_error(line: str) -> None:
     """What is no JSON object of strings is TUM509, whatever it is."""
     with pytest.raises(UserError) as raised:
         parse_state(amr_like().vocabulary, line)
     assert raised.value.diagnostics[0].code.name == "TUM509"
 
 
-def test_load_and_decide(tmp_path):
+def test_load_and_decide(tmp_path: Path) -> None:
     """`Policy.load(path).decide({...})` is all that a controller needs."""
     path = tmp_path / "policy.json"
     path.write_text(dumps(amr_like()))

@@ -6,6 +6,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from tumato_symbolic.diagnostics import Code
 from tumato_symbolic.policy import Policy, as_diagram, as_table, dumps, json_shape, loads
 
@@ -13,7 +15,7 @@ DOCUMENT = Path(__file__).parents[2] / "docs" / "policy.md"
 TABLE, DIAGRAM = re.findall(r"```json\n(.*?)```", DOCUMENT.read_text(encoding="utf-8"), re.DOTALL)
 
 
-def test_the_examples_are_what_is_written():
+def test_the_examples_are_what_is_written() -> None:
     """Both examples are read, and written again character by character; they are the same policy."""
     table, diagram = loads(TABLE), loads(DIAGRAM)
     assert dumps(table) == TABLE
@@ -23,14 +25,14 @@ def test_the_examples_are_what_is_written():
     assert dumps(Policy(table.vocabulary, as_diagram(table), table.ordering)) == DIAGRAM
 
 
-def test_the_python_example_runs(tmp_path, monkeypatch):
+def test_the_python_example_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The session prints what the document says."""
     monkeypatch.chdir(tmp_path)
     Path("policy.json").write_text(TABLE, encoding="utf-8")
     assert doctest.testfile(str(DOCUMENT), module_relative=False, encoding="utf-8") == (0, 9)
 
 
-def test_the_codes_and_the_limit_are_named():
+def test_the_codes_and_the_limit_are_named() -> None:
     """Every error code of policies stands in the document, and the size limit is the true one."""
     text = DOCUMENT.read_text(encoding="utf-8")
     errors = [code.name for code in Code if code.name.startswith("TUM5") and code.severity == "error"]
@@ -38,7 +40,7 @@ def test_the_codes_and_the_limit_are_named():
     assert f"more than {json_shape.MAX_BYTES // 1024**2} MiB" in text
 
 
-def test_asking_a_policy_loads_no_engine():
+def test_asking_a_policy_loads_no_engine() -> None:
     """Importing the room and asking a policy imports neither lark nor dd nor z3."""
     script = (
         "import sys; from tumato_symbolic.policy import loads;"

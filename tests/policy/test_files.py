@@ -15,12 +15,12 @@ from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.policy import dumps, json_shape, load, loads, save
 
 
-def names(folder):
+def names(folder: Path):
     """What is in a folder."""
     return sorted(path.name for path in folder.iterdir())
 
 
-def test_saved_is_loaded(tmp_path):
+def test_saved_is_loaded(tmp_path: Path) -> None:
     """`load` gives what `save` was given, and nothing else is left in the folder."""
     path = tmp_path / "policy.json"
     save(amr_like(), path)
@@ -31,7 +31,9 @@ def test_saved_is_loaded(tmp_path):
 
 @pytest.mark.parametrize("failure", [OSError(28, "No space left on device"), KeyboardInterrupt(), MemoryError()])
 @pytest.mark.parametrize("step", ["fsync", "replace"])
-def test_a_failing_write_changes_nothing(tmp_path, monkeypatch, failure, step):
+def test_a_failing_write_changes_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, failure: BaseException, step: str
+) -> None:
     """When writing fails or is interrupted, the old file is whole and the temporary one is gone."""
     path = tmp_path / "policy.json"
     path.write_text("old")
@@ -50,7 +52,7 @@ def test_a_failing_write_changes_nothing(tmp_path, monkeypatch, failure, step):
 
 @pytest.mark.skipif(os.name != "posix", reason="Windows ends processes in another way")
 @pytest.mark.parametrize("number", ["SIGTERM", "SIGHUP", "SIGINT"])
-def test_a_process_that_is_ended_leaves_nothing(tmp_path, number):
+def test_a_process_that_is_ended_leaves_nothing(tmp_path: Path, number: str) -> None:
     """A signal that ends the process while it writes ends it, with that signal; the old file is whole and alone."""
     path = tmp_path / "policy.json"
     path.write_text("old")
@@ -68,7 +70,7 @@ def test_a_process_that_is_ended_leaves_nothing(tmp_path, number):
     assert (path.read_text(), names(tmp_path)) == ("old", ["policy.json"])
 
 
-def test_saving_leaves_signals_as_they_were(tmp_path, monkeypatch):
+def test_saving_leaves_signals_as_they_were(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Afterwards all is as before; what somebody else does with a signal is not touched meanwhile."""
     before = signal.signal(signal.SIGTERM, signal.SIG_IGN)
     try:
@@ -87,7 +89,7 @@ def test_saving_leaves_signals_as_they_were(tmp_path, monkeypatch):
         signal.signal(signal.SIGTERM, before)
 
 
-def test_a_folder_is_not_overwritten(tmp_path):
+def test_a_folder_is_not_overwritten(tmp_path: Path) -> None:
     """A folder, or a folder that does not exist, is a coded error and leaves no file behind."""
     for path in (tmp_path, tmp_path / "missing" / "policy.json"):
         with pytest.raises(UserError, match="TUM510"):
@@ -95,7 +97,7 @@ def test_a_folder_is_not_overwritten(tmp_path):
     assert names(tmp_path) == []
 
 
-def test_a_device_is_written_to(tmp_path):
+def test_a_device_is_written_to(tmp_path: Path) -> None:
     """A pipe or device stays what it is; a link keeps pointing to the file that is replaced."""
     null = Path(os.devnull).stat()
     save(amr_like(), tmp_path.joinpath(os.devnull))
@@ -108,14 +110,14 @@ def test_a_device_is_written_to(tmp_path):
     assert load(str(target)) == amr_like()
 
 
-def test_standard_input_is_read(monkeypatch):
+def test_standard_input_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
     """`-` reads standard input as UTF-8, a byte-order mark included."""
     data = b"\xef\xbb\xbf" + dumps(amr_like()).encode()
     monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(data), "ascii"))
     assert load("-") == amr_like()
 
 
-def test_what_cannot_be_read_is_said(tmp_path):
+def test_what_cannot_be_read_is_said(tmp_path: Path) -> None:
     """A missing file, a folder, empty, binary, UTF-16, truncated, an impossible name: TUM501 with the name as typed."""
     (tmp_path / "empty").write_bytes(b"")
     (tmp_path / "binary").write_bytes(bytes(range(256)))
@@ -128,7 +130,7 @@ def test_what_cannot_be_read_is_said(tmp_path):
         assert raised.value.source.name == path
 
 
-def test_an_endless_file_is_too_large(monkeypatch):
+def test_an_endless_file_is_too_large(monkeypatch: pytest.MonkeyPatch) -> None:
     """Reading stops at the limit, and texts beyond it are neither read nor written."""
     monkeypatch.setattr(json_shape, "MAX_BYTES", 100)
     monkeypatch.setattr("tumato_symbolic.policy.text_input.MAX_BYTES", 100)
@@ -141,7 +143,7 @@ def test_an_endless_file_is_too_large(monkeypatch):
         dumps(amr_like())
 
 
-def test_a_syntax_error_has_a_place():
+def test_a_syntax_error_has_a_place() -> None:
     """Text that is no JSON is shown with line and column."""
     with pytest.raises(UserError) as raised:
         loads('{\n  "Type": policy\n}', "p.json")

@@ -2,19 +2,20 @@
 
 import json
 import random
+from pathlib import Path
 
 import pytest
 
 from tests.policy.mutations import mutate, mutations
 from tests.policy.strategies import amr_like, spec_of
 from tumato_symbolic.diagnostics import UserError
-from tumato_symbolic.policy import UndecidedState, as_diagram, as_table, bind, count_defined, dumps, load, loads
+from tumato_symbolic.policy import Policy, UndecidedState, as_diagram, as_table, bind, count_defined, dumps, load, loads
 
 TEXTS = [dumps(amr_like()), dumps(amr_like(diagram=True))]
 SPEC = spec_of(amr_like().vocabulary)
 
 
-def use(policy):
+def use(policy: Policy):
     """Everything that is done with a policy that was read."""
     assert loads(dumps(policy)).decisions == policy.decisions
     as_diagram(policy)
@@ -30,7 +31,7 @@ def use(policy):
 
 @pytest.mark.parametrize("text", TEXTS, ids=["table", "diagram"])
 @pytest.mark.parametrize("block", range(10))
-def test_mutants_end_in_a_policy_or_a_coded_error(text, block, tmp_path):
+def test_mutants_end_in_a_policy_or_a_coded_error(text: str, block: int, tmp_path: Path) -> None:
     """300 mutants of each form: read, written, converted, asked and bound, or refused with TUM501 to TUM508."""
     path = tmp_path / "policy.json"
     for seed in range(block * 30, block * 30 + 30):
@@ -46,7 +47,7 @@ def test_mutants_end_in_a_policy_or_a_coded_error(text, block, tmp_path):
 
 
 @pytest.mark.parametrize("text", TEXTS, ids=["table", "diagram"])
-def test_a_broken_certificate_leaves_the_policy(text):
+def test_a_broken_certificate_leaves_the_policy(text: str) -> None:
     """Whatever stands in `Certificate`: the decisions are read, and what cannot be used is set aside with a reason."""
     good = json.loads(text)
     reasons = set()

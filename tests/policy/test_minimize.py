@@ -14,7 +14,7 @@ from tumato_symbolic.policy.unrealizable import Layers, NoPlan
 
 @QUICK
 @given(policies(forms=("diagram",)))
-def test_decisions_stay_and_nothing_grows(policy):
+def test_decisions_stay_and_nothing_grows(policy: Policy) -> None:
     """Every defined state keeps its decision, no other becomes defined, and there are no more nodes."""
     found = minimized_decisions(policy.decisions, policy.vocabulary.sizes)
     assert as_table(Policy(policy.vocabulary, found), 10_000) == as_table(policy, 10_000)
@@ -23,7 +23,7 @@ def test_decisions_stay_and_nothing_grows(policy):
 
 @QUICK
 @given(policies(forms=("diagram",)), st.data())
-def test_ranks_stay_where_they_matter(policy, data):
+def test_ranks_stay_where_they_matter(policy: Policy, data: st.DataObject) -> None:
     """Every state of the given set keeps the rank of every goal, and there are no more nodes."""
     sizes, order = policy.vocabulary.sizes, policy.decisions.diagram.order
     states = list(product(*map(range, sizes)))
@@ -42,7 +42,7 @@ def test_ranks_stay_where_they_matter(policy, data):
 
 @QUICK
 @given(st.lists(st.frozensets(st.sampled_from(list(product(range(2), range(3), range(2))))), min_size=2, max_size=5))
-def test_layers_stay_where_they_matter(sets):
+def test_layers_stay_where_they_matter(sets: list[frozenset[tuple[int, ...]]]) -> None:
     """Every layer keeps the states of the first set that it has, and there are no more nodes."""
     sizes, builder = (2, 3, 2), DiagramBuilder((2, 0, 1), (False, True))
     care, *roots = [builder.from_table(sizes, dict.fromkeys(sorted(each), True), False) for each in sets]
@@ -55,7 +55,7 @@ def test_layers_stay_where_they_matter(sets):
     assert len(found.diagram.nodes) <= len(reason.diagram.nodes)
 
 
-def test_undefined_states_are_used():
+def test_undefined_states_are_used() -> None:
     """An action that is executed in every state that is defined needs no node, whatever it looked like elsewhere."""
     builder = DiagramBuilder((0, 1), (False, True))
     executed = builder.from_table((2, 2), dict.fromkeys([(0, 0), (0, 1), (1, 1)], True), False)
@@ -64,7 +64,7 @@ def test_undefined_states_are_used():
     assert minimized_decisions(decisions, (2, 2)).roots == (1,)
 
 
-def test_values_with_compatible_rests_share_one():
+def test_values_with_compatible_rests_share_one() -> None:
     """A variable is not tested when its values do not contradict each other where it matters."""
     builder = DiagramBuilder((0, 1, 2), (False, True))
     executed = builder.from_table((2, 2, 2), {(0, 0, 0): True}, False)

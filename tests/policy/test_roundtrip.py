@@ -3,6 +3,7 @@
 import json
 from dataclasses import replace
 from pathlib import Path
+from random import Random
 
 import jsonschema
 import pytest
@@ -18,14 +19,14 @@ SCHEMA = json.loads(Path(__file__).parents[2].joinpath("tumato_symbolic/policy/p
 
 @QUICK
 @given(policies())
-def test_a_policy_survives_its_text(policy):
+def test_a_policy_survives_its_text(policy: Policy) -> None:
     """`loads(dumps(p)) == p` for every policy, table or diagram, with every section or none."""
     assert loads(dumps(policy)) == policy
 
 
 @QUICK
 @given(policies())
-def test_equal_policies_have_equal_text(policy):
+def test_equal_policies_have_equal_text(policy: Policy) -> None:
     """The text depends on the policy alone, not on the order in which it was made."""
     again = loads(dumps(policy))
     if isinstance(again.decisions, Table):
@@ -35,19 +36,19 @@ def test_equal_policies_have_equal_text(policy):
 
 @QUICK
 @given(policies())
-def test_every_text_satisfies_the_schema(policy):
+def test_every_text_satisfies_the_schema(policy: Policy) -> None:
     """`policy.schema.json` accepts whatever `dumps` writes."""
     jsonschema.Draft202012Validator(SCHEMA).validate(json.loads(dumps(policy)))
 
 
-def test_the_schema_is_a_schema():
+def test_the_schema_is_a_schema() -> None:
     """`policy.schema.json` is valid JSON Schema 2020-12."""
     jsonschema.Draft202012Validator.check_schema(SCHEMA)
 
 
 @QUICK
 @given(policies(forms=("table",)), st.randoms(use_true_random=False))
-def test_order_in_the_file_means_nothing(policy, random):
+def test_order_in_the_file_means_nothing(policy: Policy, random: Random) -> None:
     """Rows, actions, variables of a row, values and sections may come in any order, rows and actions repeatedly."""
     document = json.loads(dumps(policy))
     shuffled = dict(random.sample(sorted(document.items()), len(document)))
@@ -63,7 +64,7 @@ def test_order_in_the_file_means_nothing(policy, random):
     assert loads(json.dumps(shuffled)) == policy
 
 
-def test_the_table_of_tumato_2_is_read():
+def test_the_table_of_tumato_2_is_read() -> None:
     """A table without any of our sections, and with sections that nobody knows, is a policy."""
     text = """{"PolicyFrameworkVersion": "0.0.0", "Type": "policy", "Actions": ["b", "a"],
       "States": {"S": {"on": 0, "off": 1}}, "Whatever": {"a": [1.5, {}]},
@@ -72,7 +73,7 @@ def test_the_table_of_tumato_2_is_read():
     assert loads(text) == Policy(vocabulary, Table({(0,): frozenset({0, 1}), (1,): frozenset()}))
 
 
-def test_a_reader_of_tumato_2_finds_its_table():
+def test_a_reader_of_tumato_2_finds_its_table() -> None:
     """The envelope has the old keys with the old shapes, one row per line, in row-major order."""
     text = dumps(amr_like())
     document = json.loads(text)
@@ -85,7 +86,7 @@ def test_a_reader_of_tumato_2_finds_its_table():
     assert text.endswith("}\n")
 
 
-def test_a_variable_named_actions_is_written_as_a_diagram():
+def test_a_variable_named_actions_is_written_as_a_diagram() -> None:
     """The table cannot hold a variable called `Actions`; the diagram can, and decides the same."""
     policy = Policy(Vocabulary((("Actions", ("x", "y")),), ("a",)), Table({(1,): frozenset({0})}))
     assert not fits_table(policy.vocabulary)
@@ -94,7 +95,7 @@ def test_a_variable_named_actions_is_written_as_a_diagram():
     assert as_table(read, 10) == policy.decisions
 
 
-def test_a_diagram_that_is_not_reduced_is_reduced():
+def test_a_diagram_that_is_not_reduced_is_reduced() -> None:
     """Repeated and superfluous nodes and nodes that nobody needs are accepted, and gone afterwards."""
     document = json.loads(dumps(amr_like(diagram=True)))
     clean = document["Diagram"]
@@ -107,7 +108,7 @@ def test_a_diagram_that_is_not_reduced_is_reduced():
 
 
 @pytest.mark.parametrize("version", [0, 2, -1, 1.0, True, "1", None])
-def test_another_version_is_refused(version):
+def test_another_version_is_refused(version: object) -> None:
     """`FormatVersion`, where there is one, is the number 1."""
     document = {**json.loads(dumps(amr_like())), "FormatVersion": version}
     with pytest.raises(UserError, match="TUM502: `FormatVersion` is"):

@@ -3,6 +3,7 @@
 import inspect
 import subprocess
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from unittest.mock import patch
 
@@ -18,13 +19,13 @@ from tumato_symbolic.policy.rules import Rule, minimal_rules
 PROOFS = Path(__file__).parents[2] / "proofs"
 
 
-def decide(rules, state):
+def decide(rules: Sequence[Rule], state):
     """What the first rule that matches says; None where there is none."""
     matching = (rule for rule in rules if all(state[name] in values for name, values in rule.condition))
     return next((rule.actions for rule in matching), None)
 
 
-def named_rows(policy):
+def named_rows(policy: Policy):
     """Every decided state by names, and what is done there."""
     variables = policy.vocabulary.variables
     for state in as_table(policy, 10_000).rows:
@@ -34,7 +35,7 @@ def named_rows(policy):
 
 @QUICK
 @given(policies())
-def test_rules_decide_like_the_policy(policy):
+def test_rules_decide_like_the_policy(policy: Policy) -> None:
     """In every decided state the first rule that matches has the actions of the policy."""
     rules = minimal_rules(policy)
     assert all(decide(rules, state) == actions for state, actions in named_rows(policy))
@@ -42,7 +43,7 @@ def test_rules_decide_like_the_policy(policy):
 
 @QUICK
 @given(policies())
-def test_every_rule_is_needed(policy):
+def test_every_rule_is_needed(policy: Policy) -> None:
     """Without any one of the rules, some decided state is decided otherwise; only the last has no condition."""
     rules, rows = minimal_rules(policy), list(named_rows(policy))
     for place, rule in enumerate(rules):
@@ -53,7 +54,7 @@ def test_every_rule_is_needed(policy):
 
 @QUICK
 @given(policies())
-def test_every_value_is_needed(policy):
+def test_every_value_is_needed(policy: Policy) -> None:
     """No rule names a value with which it decides no state, nor all values of a variable."""
     rules, rows = minimal_rules(policy), list(named_rows(policy))
     known = dict(policy.vocabulary.variables)
@@ -67,19 +68,19 @@ def test_every_value_is_needed(policy):
 
 @QUICK
 @given(policies())
-def test_the_rules_depend_on_the_policy_alone(policy):
+def test_the_rules_depend_on_the_policy_alone(policy: Policy) -> None:
     """Its text, read again, gives the same rules."""
     assert minimal_rules(loads(dumps(policy))) == minimal_rules(policy)
 
 
 @pytest.mark.parametrize("name", ["amr", "amr_reaction_rules", "amr_two_loads", "coin", "concurrent", "grid3"])
-def test_the_examples_need_one_rule_for_every_decision(name):
+def test_the_examples_need_one_rule_for_every_decision(name: str) -> None:
     """No list can be shorter: as many rules as there are different sets of actions (the AMR: 8 for 32 states)."""
     policy = Policy.load(PROOFS / f"{name}.policy.json")
     assert len(minimal_rules(policy)) == len({actions for _, actions in named_rows(policy)})
 
 
-def tasks(number):
+def tasks(number: int):
     """`number` tasks, of which the first that is still to do is done: 2^number states, and some that never occur."""
     variables = tuple((f"T{place}", ("todo", "done", "void")) for place in range(number))
     builder = DiagramBuilder(range(number), (False, True))
@@ -94,7 +95,7 @@ def tasks(number):
     return Policy(vocabulary, DecisionDiagram(builder.finish(), roots, defined))
 
 
-def test_very_many_states_take_few_rules():
+def test_very_many_states_take_few_rules() -> None:
     """Forty tasks, 10^12 states, are forty-one rules, each of one condition."""
     policy = tasks(40)
     assert count_defined(policy) == 2**40
@@ -104,7 +105,7 @@ def test_very_many_states_take_few_rules():
     assert last == Rule((), ("do39",))
 
 
-def test_many_variables_are_no_difficulty():
+def test_many_variables_are_no_difficulty() -> None:
     """Recursion is as deep as there are variables, which may be more than Python's limit."""
     number = 150
     builder = DiagramBuilder(range(number), (False, True))
@@ -124,7 +125,7 @@ def test_many_variables_are_no_difficulty():
     assert rules == (Rule(tuple((name, ("yes",)) for name, _ in vocabulary.variables), ("go",)), Rule((), ()))
 
 
-def parity(number):
+def parity(number: int):
     """One action where an odd number of variables is `yes`, another elsewhere."""
     builder = DiagramBuilder(range(number), (False, True))
     even, odd = 1, 0
@@ -134,14 +135,14 @@ def parity(number):
     return Policy(vocabulary, DecisionDiagram(builder.finish(), (even, odd), 1))
 
 
-def test_what_has_no_short_list_is_refused():
+def test_what_has_no_short_list_is_refused() -> None:
     """A decision that needs too many rules is an error of the user's, with a reason, and soon."""
     assert len(minimal_rules(parity(4))) == 9
     with pytest.raises(UserError, match=r"TUM508.*needs more than 2,000 rules"):
         minimal_rules(parity(40))
 
 
-def test_too_many_decisions_are_refused():
+def test_too_many_decisions_are_refused() -> None:
     """So are more different sets of actions than anybody would read."""
     number = 13
     builder = DiagramBuilder(range(number), (False, True))
@@ -153,19 +154,19 @@ def test_too_many_decisions_are_refused():
         minimal_rules(Policy(vocabulary, DecisionDiagram(builder.finish(), roots, 1)))
 
 
-def test_wrong_rules_are_never_given():
+def test_wrong_rules_are_never_given() -> None:
     """Rules are compared with the policy; a difference is a bug, not an answer."""
     policy = Policy(Vocabulary((("S", ("x", "y", "z")),), ("a",)), Table({(0,): frozenset({0}), (1,): frozenset()}))
     with patch.object(Coverer, "cover", lambda *_: (((0, (0,)),),)), pytest.raises(RuntimeError, match="do not say"):
         minimal_rules(policy)
 
 
-def test_a_policy_without_states_has_no_rules():
+def test_a_policy_without_states_has_no_rules() -> None:
     """Where nothing is decided there is nothing to say."""
     assert minimal_rules(Policy(Vocabulary((("S", ("x",)),), ("a",)), Table({}))) == ()
 
 
-def test_rules_load_no_engine():
+def test_rules_load_no_engine() -> None:
     """`tumato-sym rules` imports neither lark nor dd nor z3."""
     script = (
         "import sys; from tumato_symbolic.cli.main import main; code = main(sys.argv[1:]);"

@@ -11,7 +11,7 @@ from tumato_symbolic.policy.json_shape import parse_json
 from tumato_symbolic.policy.objects import Row
 
 
-def numbered(*firsts, diagram=False):
+def numbered(*firsts, diagram: bool = False):
     """The policy with the values of its variables numbered from these numbers on."""
     document = json.loads(dumps(amr_like(diagram=diagram)))
     for values, first in zip(document["States"].values(), firsts, strict=True):
@@ -20,13 +20,13 @@ def numbered(*firsts, diagram=False):
 
 
 @pytest.mark.parametrize("diagram", [False, True])
-def test_values_may_be_numbered_from_one(diagram):
+def test_values_may_be_numbered_from_one(diagram: bool) -> None:
     """Where no value of any variable has the number 0, counting begins with 1; the policy is the same."""
     assert loads(numbered(1, 1, diagram=diagram)) == amr_like(diagram=diagram)
 
 
 @pytest.mark.parametrize("firsts", [(0, 1), (1, 0), (2, 2), (1, 2), (-1, -1)])
-def test_other_numbers_are_refused(firsts):
+def test_other_numbers_are_refused(firsts: tuple[int, ...]) -> None:
     """All variables are numbered alike, from 0 or from 1."""
     with pytest.raises(UserError, match="TUM502: the index of"):
         loads(numbered(*firsts))
@@ -35,14 +35,14 @@ def test_other_numbers_are_refused(firsts):
 @pytest.mark.parametrize(
     "section", ['{"a": 1, "a": 1}', '[[{"Actions": [], "b": 0, "Actions": []}]]', '{"x": {"y": [{"z": 0, "z": 1}]}}']
 )
-def test_a_key_comes_once(section):
+def test_a_key_comes_once(section: str) -> None:
     """A key that comes twice spoils the file, also in a section that nobody knows."""
     with pytest.raises(UserError, match=r"TUM502: an object has the key `\w+` twice"):
         loads(dumps(amr_like()).replace('"Type"', f'"Remarks": {section}, "Type"'))
 
 
 @pytest.mark.parametrize(("start", "end"), [("[", "]"), ('{"a":', "}"), ('[{"Actions":', "}]")])
-def test_nesting_ends_at_a_hundred_levels(start, end):
+def test_nesting_ends_at_a_hundred_levels(start: str, end: str) -> None:
     """The object of the file is the first level."""
     levels = 99 // (start.count("[") + start.count("{"))
     for depth, fits in ((levels, True), (levels + 1, False), (5000, False)):
@@ -54,7 +54,7 @@ def test_nesting_ends_at_a_hundred_levels(start, end):
                 loads(text)
 
 
-def test_rows_share_what_is_equal():
+def test_rows_share_what_is_equal() -> None:
     """Equal names, texts and lists of rows are one object each; an object that is no row stays as it is."""
     rows = parse_json(
         '[{"S": "on", "Actions": ["a"]}, {"S": "on", "Actions": ["a"]}, {"S": 1, "Actions": ["a"]}]', "rows"
@@ -67,7 +67,7 @@ def test_rows_share_what_is_equal():
 
 
 @pytest.mark.parametrize("actions", ["", "a", {}, {"a": 1}, None, [["a"]], [1], 0])
-def test_what_is_no_list_of_actions_is_no_row(actions):
+def test_what_is_no_list_of_actions_is_no_row(actions: object) -> None:
     """Not even after rows whose actions would look alike as a sequence."""
     rows = [{"S": "on", "Actions": each} for each in ([], ["a"], actions)]
     assert parse_json(json.dumps(rows), "rows")[2] == rows[2]

@@ -4,6 +4,7 @@ import json
 import re
 from functools import cache
 from pathlib import Path
+from random import Random
 
 import jsonschema
 import pytest
@@ -36,7 +37,7 @@ SCHEMA = json.loads(Path(__file__).parents[2].joinpath("tumato_symbolic/policy/u
 
 
 @st.composite
-def cubes(draw, vocabulary):
+def cubes(draw: st.DrawFn, vocabulary: Vocabulary):
     """A cube with any violation that the format can hold."""
     numbers = range(len(vocabulary.actions))
     sets = st.frozensets(st.sampled_from(numbers)) if numbers else st.just(frozenset())
@@ -59,19 +60,19 @@ def cubes(draw, vocabulary):
     return Cube(draw(sets), draw(sets), violation)
 
 
-def pairs(vocabulary):
+def pairs(vocabulary: Vocabulary):
     """A variable and one of its values."""
     found = [(variable, value) for variable, size in enumerate(vocabulary.sizes) for value in range(size)]
     return st.sampled_from(found)
 
 
-def states(vocabulary):
+def states(vocabulary: Vocabulary):
     """Any state."""
     return st.tuples(*(st.integers(0, size - 1) for size in vocabulary.sizes))
 
 
 @st.composite
-def layers(draw, vocabulary):
+def layers(draw: st.DrawFn, vocabulary: Vocabulary):
     """No plan from a state, with any sets as layers."""
     builder = DiagramBuilder(draw(st.permutations(range(len(vocabulary.sizes)))), (False, True))
     goals = []
@@ -86,7 +87,7 @@ def layers(draw, vocabulary):
 
 
 @st.composite
-def traps(draw, vocabulary):
+def traps(draw: st.DrawFn, vocabulary: Vocabulary):
     """No restoration from a state, with any set as the trap."""
     builder = DiagramBuilder(draw(st.permutations(range(len(vocabulary.sizes)))), (False, True))
     held = draw(st.frozensets(states(vocabulary), max_size=5))
@@ -95,14 +96,14 @@ def traps(draw, vocabulary):
     return NoRestoration(draw(states(vocabulary)), diagram, kept)
 
 
-def names(draw, vocabulary):
+def names(draw: st.DrawFn, vocabulary: Vocabulary):
     """Some actions, by name."""
     some = st.lists(st.sampled_from(vocabulary.actions), unique=True) if vocabulary.actions else st.just([])
     return tuple(draw(some))
 
 
 @st.composite
-def conflicts(draw, vocabulary):
+def conflicts(draw: st.DrawFn, vocabulary: Vocabulary):
     """Any choices, cuts and distances."""
     builder = DiagramBuilder(draw(st.permutations(range(len(vocabulary.sizes)))), (None, 0, 1))
     tables = st.dictionaries(states(vocabulary), st.sampled_from([None, 0, 1]), max_size=6)
@@ -121,7 +122,7 @@ def conflicts(draw, vocabulary):
 
 
 @st.composite
-def certificates(draw):
+def certificates(draw: st.DrawFn):
     """A certificate of any kind, whatever it is worth."""
     vocabulary = draw(vocabularies())
     none = st.builds(NoAllowedSet, states(vocabulary), st.none() | st.lists(cubes(vocabulary), max_size=4).map(tuple))
@@ -131,7 +132,7 @@ def certificates(draw):
 
 
 @cache
-def example(kind):
+def example(kind: str):
     """A small certificate of one kind, the same every time."""
     vocabulary = Vocabulary((("S_Place", ("dock", "hall")), ("S_Load", ("free", "full"))), ("go", "load"))
     builder = DiagramBuilder((1, 0), (None, 0, 1) if kind == "conflict" else (False, True))
@@ -165,19 +166,19 @@ KINDS = pytest.mark.parametrize("kind", ["no-allowed-set", "no-restoration", "no
 
 @QUICK
 @given(certificates())
-def test_a_certificate_survives_its_text(certificate):
+def test_a_certificate_survives_its_text(certificate: Unrealizability) -> None:
     """`loads(dumps(c)) == c` for every certificate, and the schema accepts the text."""
     text = dumps(certificate)
     assert loads(text) == certificate
     jsonschema.Draft202012Validator(SCHEMA).validate(json.loads(text))
 
 
-def test_the_schema_is_a_schema():
+def test_the_schema_is_a_schema() -> None:
     """`unrealizable.schema.json` is valid JSON Schema 2020-12."""
     jsonschema.Draft202012Validator.check_schema(SCHEMA)
 
 
-def test_the_example_in_the_document_is_one():
+def test_the_example_in_the_document_is_one() -> None:
     """The certificate shown in `docs/certificate.md` is read, and satisfies the schema."""
     document = Path(__file__).parents[2].joinpath("docs/certificate.md").read_text(encoding="utf-8")
     (text,) = re.findall(r"```json\n(.*?)```", document, re.DOTALL)
@@ -187,7 +188,7 @@ def test_the_example_in_the_document_is_one():
 
 @QUICK
 @given(certificates(), st.randoms(use_true_random=False))
-def test_order_of_declaration_never_matters(certificate, random):
+def test_order_of_declaration_never_matters(certificate: Unrealizability, random: Random) -> None:
     """Bound to another order of the same names and back, a certificate says the same, by names and in its diagrams."""
     target = shuffled(certificate.vocabulary, random)
     bound = bind(certificate, spec_of(target))
@@ -201,13 +202,13 @@ def test_order_of_declaration_never_matters(certificate, random):
             assert theirs == [named(certificate.vocabulary, choice.state) for choice in choices]
 
 
-def named(vocabulary, state):
+def named(vocabulary: Vocabulary, state):
     """Value by variable."""
     return {name: values[value] for (name, values), value in zip(vocabulary.variables, state, strict=True)}
 
 
 @KINDS
-def test_a_file_holds_the_certificate(kind, tmp_path):
+def test_a_file_holds_the_certificate(kind: str, tmp_path: Path) -> None:
     """`save` and `load` are inverse; `load_claim` tells certificates from policies."""
     path = tmp_path / "c.unrealizable.json"
     save(example(kind), path)
@@ -217,7 +218,7 @@ def test_a_file_holds_the_certificate(kind, tmp_path):
     assert isinstance(load_claim(str(proof)), Policy)
 
 
-def test_a_certificate_is_no_policy(tmp_path):
+def test_a_certificate_is_no_policy(tmp_path: Path) -> None:
     """Whoever asks a certificate what to do is told what it is."""
     path = tmp_path / "c.json"
     save(example("no-plan"), path)
@@ -234,7 +235,7 @@ def test_a_certificate_is_no_policy(tmp_path):
         (lambda spec: spec_of(Vocabulary(spec.variables, ("go",))), "TUM505"),
     ],
 )
-def test_names_that_do_not_fit_are_refused(change, code):
+def test_names_that_do_not_fit_are_refused(change, code: str) -> None:
     """A certificate about other variables, values or actions cannot be bound."""
     certificate = example("conflict")
     with pytest.raises(UserError, match=f"{code}: the certificate"):
@@ -243,7 +244,7 @@ def test_names_that_do_not_fit_are_refused(change, code):
 
 @KINDS
 @pytest.mark.parametrize("block", range(5))
-def test_mutants_end_in_a_certificate_or_a_coded_error(kind, block, tmp_path):
+def test_mutants_end_in_a_certificate_or_a_coded_error(kind: str, block: int, tmp_path: Path) -> None:
     """200 mutants of each kind: read, written and bound, or refused with TUM501 to TUM508."""
     path = tmp_path / "c.json"
     text = dumps(example(kind))

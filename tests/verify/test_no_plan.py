@@ -82,7 +82,7 @@ def walk_first(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @ORDERINGS
 @pytest.mark.parametrize("profile", PROFILES)
-def test_several_proofs_by_both_provers(profile, ordering, monkeypatch):
+def test_several_proofs_by_both_provers(profile: str, ordering: Ordering, monkeypatch: pytest.MonkeyPatch) -> None:
     """What `synth` writes, what the runs reach, and the states that are too far: each is proved by Z3 and the walk."""
     bounds = set()
     for spec, certificate in without_plan(profile, 16, ordering):
@@ -103,7 +103,7 @@ def test_several_proofs_by_both_provers(profile, ordering, monkeypatch):
 
 @ORDERINGS
 @pytest.mark.parametrize("profile", PROFILES)
-def test_the_walk_and_z3_refute_the_same(profile, ordering, monkeypatch):
+def test_the_walk_and_z3_refute_the_same(profile: str, ordering: Ordering, monkeypatch: pytest.MonkeyPatch) -> None:
     """Of changed layers both say the same, and neither proves what is false."""
     met = set()
     for spec, certificate in without_plan(profile, 10, ordering):
@@ -128,7 +128,7 @@ def dead_end(bound: int | None = None) -> tuple[Build, Spec]:
 
 
 @pytest.mark.parametrize("bound", [None, 7])
-def test_one_closed_set_is_enough_where_no_run_is_long_enough(bound):
+def test_one_closed_set_is_enough_where_no_run_is_long_enough(bound: int | None) -> None:
     """Where no run of any length reaches the goal there is one layer, with a bound as without."""
     _, spec = dead_end(bound)
     certificate = certified(spec, "any")
@@ -139,7 +139,7 @@ def test_one_closed_set_is_enough_where_no_run_is_long_enough(bound):
 
 
 @pytest.mark.parametrize("walking", [False, True])
-def test_a_closed_set_must_be_closed(walking, monkeypatch):
+def test_a_closed_set_must_be_closed(walking: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     """A set that a step leaves, lacks a first successor or meets the goal is refuted, with the step or the state."""
     build, spec = dead_end()
     if walking:
@@ -160,7 +160,7 @@ def test_a_closed_set_must_be_closed(walking, monkeypatch):
 
 
 @pytest.mark.parametrize("walking", [False, True])
-def test_layers_come_one_after_the_other(walking, monkeypatch):
+def test_layers_come_one_after_the_other(walking: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     """Against a plan of three steps, layers that a step skips prove nothing, nor do those that meet the goal."""
     if walking:
         walk_first(monkeypatch)
@@ -184,7 +184,7 @@ def test_layers_come_one_after_the_other(walking, monkeypatch):
 
 
 @pytest.mark.parametrize("walking", [False, True])
-def test_what_layers_say_of_unsafe_states_means_nothing(walking, monkeypatch):
+def test_what_layers_say_of_unsafe_states_means_nothing(walking: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     """A layer may hold an unsafe state from where a step reaches the goal; so the diagram need not tell it apart."""
     if walking:
         walk_first(monkeypatch)
@@ -200,7 +200,7 @@ def test_what_layers_say_of_unsafe_states_means_nothing(walking, monkeypatch):
 
 @pytest.mark.parametrize("bound", [None, 2])
 @pytest.mark.parametrize("walking", [False, True])
-def test_a_state_with_several_residual_goals(bound, walking, monkeypatch):
+def test_a_state_with_several_residual_goals(bound: int | None, walking: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     """Where the first set decides which goal is pending, each goal has its own layers, and all are needed."""
     if walking:
         walk_first(monkeypatch)
@@ -232,7 +232,7 @@ def targets(count: int, bound: int, stranded: str = "") -> Spec:
     return build.spec(priority(build.goal(And((build.atom("x=a"), *done)))), bound=bound)
 
 
-def test_layers_that_count_are_left_to_the_walk(monkeypatch):
+def test_layers_that_count_are_left_to_the_walk(monkeypatch: pytest.MonkeyPatch) -> None:
     """A plan that is one step too long among many targets: the walk is asked, and one step more would be a plan."""
     monkeypatch.setattr(no_plan, "MANY_NODES", 100)
     count = 14
@@ -246,7 +246,7 @@ def test_layers_that_count_are_left_to_the_walk(monkeypatch):
     assert "the plan bound is not met" in longer.reason
 
 
-def test_what_the_runs_reach_is_written_where_it_is_smaller(monkeypatch):
+def test_what_the_runs_reach_is_written_where_it_is_smaller(monkeypatch: pytest.MonkeyPatch) -> None:
     """From where only three states can be reached, these are enough, whatever the way to the goal is elsewhere."""
     monkeypatch.setattr(unrealizability, "FEW_NODES", 50)
     spec = targets(10, 19, "zyx")
@@ -260,7 +260,7 @@ def test_what_the_runs_reach_is_written_where_it_is_smaller(monkeypatch):
 
 
 @pytest.mark.parametrize("over", [BudgetError("tired"), RecursionError()])
-def test_z3_has_the_last_word(over, monkeypatch):
+def test_z3_has_the_last_word(over: Exception, monkeypatch: pytest.MonkeyPatch) -> None:
     """The walk is asked where Z3 does not answer soon, and Z3 again where the walk gives up."""
     spec = targets(3, 5)
     certificate, asked = certified(spec, "any"), []
@@ -277,7 +277,7 @@ def test_z3_has_the_last_word(over, monkeypatch):
     assert (verdict.verdict, verdict.by_diagrams, asked) == ("proved", False, [True])
 
 
-def test_a_state_that_only_the_walk_finds_is_a_bug(monkeypatch):
+def test_a_state_that_only_the_walk_finds_is_a_bug(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where Z3 cannot follow the walk, there is no verdict."""
     spec = targets(3, 5)
     walk_first(monkeypatch)
