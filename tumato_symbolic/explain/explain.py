@@ -94,7 +94,7 @@ def explained(
     known = _verdict(spec, ordering, outcome)
     yield known
     try:
-        context.tell("encoding what every line requirements")
+        context.tell("encoding what every line requires")
         requirements = Requirements(spec, ordering, backend, context)
     except LimitReachedError as limit:
         yield stopped(known, str(limit))
@@ -156,7 +156,8 @@ def _part(work: Work, found: Explanation) -> Iterator[Explanation]:
     if part is not None:
         given_up = work.count(requirements.valid) - part.count
         text = predicate_text(requirements.spec, part.formula)
-        known = RealizablePart(part.count, given_up, part.formula, text, part.unique, part.largest)
+        numbers = part.count, given_up
+        known = RealizablePart(*numbers, part.formula, text, part.unique, part.largest, part.environment)
         yield replace(found, part=known)
 
 

@@ -7,6 +7,7 @@ from typing import Final, Literal, TypeAlias
 
 from tumato_symbolic.explain.cubes import StateCube
 from tumato_symbolic.explain.elements import Element
+from tumato_symbolic.explain.environment import Restriction
 from tumato_symbolic.explain.near_misses import NearMiss
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Formula, Ordering, Spec
@@ -79,7 +80,7 @@ class RealizablePart:
     """An assumption that makes the specification realizable, and how many states it keeps and gives up.
 
     `unique`: every other such set of states is a part of this one; else goals conflict, and `largest` tells whether
-    none has more states.
+    none has more states. `environment` is what it assumes of variables that no action controls.
     """
 
     states: int
@@ -88,6 +89,7 @@ class RealizablePart:
     text: str
     unique: bool
     largest: bool
+    environment: tuple[Restriction, ...] = ()
 
 
 Stage: TypeAlias = Literal["states", "part", "reasons", "near", "repairs"]

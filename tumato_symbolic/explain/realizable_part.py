@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 from tumato_symbolic.diagnostics import Span
 from tumato_symbolic.explain.as_predicates import predicate_text, shortest_formula
+from tumato_symbolic.explain.environment import Restriction, restrictions
 from tumato_symbolic.explain.failing_states import restricted
 from tumato_symbolic.explain.requirements import Requirements
 from tumato_symbolic.explain.trial import trial
@@ -26,7 +27,8 @@ class Part:
     """States which, taken as an assumption, make the specification realizable.
 
     `unique`: it is the greatest such set, and every other one is a part of it. Where goals conflict there may be
-    several maximal ones; `largest` then says that none has more states. `formula` is the assumption to add.
+    several maximal ones; `largest` then says that none has more states. `formula` is the assumption to add,
+    `environment` what it takes from variables that no action controls.
     """
 
     states: Bdd
@@ -34,6 +36,7 @@ class Part:
     formula: Formula
     unique: bool
     largest: bool
+    environment: tuple[Restriction, ...]
 
 
 def largest_part(requirements: Requirements) -> Part | None:
@@ -54,7 +57,8 @@ def largest_part(requirements: Requirements) -> Part | None:
         formula = assumption(requirements, states)
         blamed = _conflict(requirements, formula)
         if blamed is None:
-            return Part(states, count(states), formula, states == whole, largest)
+            assumed = restrictions(requirements, states)
+            return Part(states, count(states), formula, states == whole, largest, assumed)
         if tried >= CHOICES:
             waiting, largest = [], False
         for state in blamed:

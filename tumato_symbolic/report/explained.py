@@ -66,7 +66,7 @@ def _explanation(done: Explained, found: Explanation, paint: Paint) -> Iterator[
         if found.restorability is not None:
             yield "\n".join(["", *restorable_lines(done.place, found.restorability)])
     if found.is_over("part") and "part" not in [each.stage for each in found.left_out]:
-        yield "\n".join(["", *part_lines(found.part, done.written)])
+        yield "\n".join(["", *part_lines(done.spec, found.part, done.written)])
     yield from reason_pieces(done.place, found, done.every_cube)
     if found.is_over("near"):
         yield from near_pieces(done.place, found)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from tumato_symbolic.diagnostics import Code, Span
 from tumato_symbolic.explain.as_predicates import predicate_text
 from tumato_symbolic.explain.elements import Element, span_of, text_of
+from tumato_symbolic.explain.environment import Restriction
 from tumato_symbolic.explain.explanation import (
     Explanation,
     FailingGroup,
@@ -25,7 +26,7 @@ from tumato_symbolic.report.explained import Explained
 from tumato_symbolic.report.failures import FAILURE_CODES
 from tumato_symbolic.report.findings import finding_json, github_command, github_commands
 from tumato_symbolic.report.layout import count
-from tumato_symbolic.report.possible_changes import left_out_lines
+from tumato_symbolic.report.possible_changes import environment_text, left_out_lines
 from tumato_symbolic.report.restorable import restorable_json
 from tumato_symbolic.semantics import action_names, active_goals, named
 from tumato_symbolic.spec import Spec
@@ -64,7 +65,7 @@ def as_json(done: Explained) -> dict[str, object]:
             "repairs": [_repair_json(done.spec, repair) for repair in found.repairs],
             "repairs_complete": found.repairs_complete,
             "hopeless": found.unavoidable,
-            "realizable_part": _part_json(found.part) if "part" in found.finished else None,
+            "realizable_part": _part_json(done.spec, found.part) if "part" in found.finished else None,
             "incomplete": [{"what": each.stage, "found": each.found, "why": each.why} for each in found.left_out],
         }
     return report
@@ -164,15 +165,26 @@ def _repair_json(spec: Spec, repair: Repair) -> dict[str, object]:
     return report | ({"edit": edits} if edits else {}) | {"verified": True}
 
 
-def _part_json(part: RealizablePart | None) -> dict[str, object]:
+def _part_json(spec: Spec, part: RealizablePart | None) -> dict[str, object]:
     if part is None:
-        return {"states": 0, "given_up": None, "assumption": None, "unique": True, "largest": True}
+        nothing: dict[str, object] = {"states": 0, "given_up": None, "assumption": None, "environment": []}
+        return nothing | {"unique": True, "largest": True}
     return {
         "states": part.states,
         "given_up": part.given_up,
         "assumption": part.text,
+        "environment": [_restriction_json(spec, each) for each in part.environment],
         "unique": part.unique,
         "largest": part.largest,
+    }
+
+
+def _restriction_json(spec: Spec, taken: Restriction) -> dict[str, object]:
+    variable = spec.variables[taken.variable]
+    return {
+        "variable": variable.name,
+        "never": [variable.values[each] for each in taken.never],
+        "in_some_states_not": [variable.values[each] for each, _ in taken.partly],
     }
 
 
@@ -224,8 +236,9 @@ def as_github(done: Explained) -> str:
         case Explanation() as found:
             if found.part is not None:
                 valid = count(found.statistics.valid, "valid state")
-                message = f"realizable for {found.part.states:,} of {valid}, assuming: "
-                commands.append(github_command("notice", message + found.part.text, file))
+                assumed = environment_text(done.spec, found.part)
+                message = f"{f'this {assumed}: ' if assumed else ''}realizable for {found.part.states:,} of {valid}"
+                commands.append(github_command("notice", f"{message}, assuming: {found.part.text}", file))
             if found.left_out:
                 commands.append(github_command("warning", "\n".join(left_out_lines(found)), file))
     return "\n".join(commands)

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from tumato_symbolic.explain.environment import Restriction
 from tumato_symbolic.explain.explanation import Change, Explanation, RealizablePart, Repair, Stage
+from tumato_symbolic.report.cubes import cube_text
 from tumato_symbolic.report.element_roles import KINDS, declared, where
-from tumato_symbolic.report.layout import count
+from tumato_symbolic.report.layout import count, enumeration
 from tumato_symbolic.report.objections import Place
+from tumato_symbolic.spec import Spec
 
 _LONGEST_ASSUMPTION = 1_500
+_LONGEST_CONDITION = 80
 
 
 def repair_pieces(place: Place, found: Explanation) -> Iterator[str]:
@@ -64,14 +68,16 @@ def _change(place: Place, change: Change) -> Iterator[str]:
         yield f"{' ' * len(where(place, element))}  + {declared(place.spec, element, change.text)}"
 
 
-def part_lines(part: RealizablePart | None, written: str | None) -> Iterator[str]:
-    """The largest realizable part. `written` is the file with the assumption."""
+def part_lines(spec: Spec, part: RealizablePart | None, written: str | None) -> Iterator[str]:
+    """The largest realizable part, and first what it takes from the environment. `written` is the file with it."""
     if part is None:
         yield "No part of the states is realizable: no assumption would help."
         return
     kind = "The largest" if part.unique else "A largest" if part.largest else "A"
     total = count(part.states + part.given_up, "valid state")
-    yield f"{kind} realizable part: {part.states:,} of {total}, under this assumption:"
+    head = f"{kind} realizable part: {part.states:,} of {total}"
+    assumed = environment_text(spec, part)
+    yield f"{head}; it {assumed}:" if assumed else f"{head}, under this assumption:"
     text = part.text
     if len(text) > _LONGEST_ASSUMPTION and written is None:
         text = f"{text[:_LONGEST_ASSUMPTION]} … ({len(text):,} characters; --write FILE writes all of it)"
@@ -84,3 +90,25 @@ def part_lines(part: RealizablePart | None, written: str | None) -> Iterator[str
         yield "The specification with this assumption is on the standard output."
     else:
         yield f"{written} is written: the specification with this assumption."
+
+
+def environment_text(spec: Spec, part: RealizablePart) -> str:
+    """`assumes that S_Human is always clear; no action controls S_Human`; empty where it assumes nothing of it."""
+    told = [sentence for each in part.environment for sentence in _restriction(spec, each)]
+    names = enumeration([spec.variables[each.variable].name for each in part.environment], "or")
+    return f"assumes that {enumeration(told)}; no action controls {names}" if told else ""
+
+
+def _restriction(spec: Spec, taken: Restriction) -> Iterator[str]:
+    """What is assumed of one variable, a clause for each kind."""
+    name, values = spec.variables[taken.variable].name, spec.variables[taken.variable].values
+    if taken.never and taken.only is not None:
+        yield f"{name} is always {values[taken.only]}"
+    elif taken.never:
+        yield f"{name} is never {enumeration([values[each] for each in taken.never], 'or')}"
+    for value, cubes in taken.partly:
+        while_ = " or ".join(cube_text(spec, cube).replace(", ", " and ") for cube in cubes)
+        if while_ and len(while_) <= _LONGEST_CONDITION:
+            yield f"{name} is never {values[value]} while {while_}"
+        else:
+            yield f"{name} is not {values[value]} in some states"

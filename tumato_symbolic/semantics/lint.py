@@ -10,7 +10,18 @@ from typing import TypeAlias
 from tumato_symbolic.diagnostics import Code, Diagnostic, Note
 from tumato_symbolic.semantics.states import ActionSet, State, all_states, count_states, holds, is_valid
 from tumato_symbolic.semantics.step import allowed, nominal_agrees, takes_effect
-from tumato_symbolic.spec import Action, ConditionalGoal, Formula, Goal, GoalList, Rule, Spec, executing_atoms, subgoals
+from tumato_symbolic.spec import (
+    Action,
+    ConditionalGoal,
+    Formula,
+    Goal,
+    GoalList,
+    Rule,
+    Spec,
+    executing_atoms,
+    subgoals,
+    variables_of,
+)
 from tumato_symbolic.spec.formula import atoms
 
 MAX_STATES = 10_000
@@ -73,6 +84,15 @@ def idle_action(action: Action) -> Diagnostic:
     """The warning about an action that is allowed nowhere."""
     message = f"`{action.name}` is allowed in no valid state, alone or together with others"
     return Diagnostic(Code.TUM353, message, action.span, "check its preconditions, and what its effects break")
+
+
+def keeps_guard(spec: Spec, rule: Rule) -> bool:
+    """Whether a rule that nothing breaks ought to stay: it is about the environment, of which something is assumed.
+
+    A rule that only repeats an assumption need not.
+    """
+    assumed = [each.formula for each in spec.assumptions]
+    return bool(assumed) and rule.formula not in assumed and bool(spec.environment & variables_of(rule.formula))
 
 
 STATES, SETS = "valid state", "applicable set of actions in a valid state"
@@ -156,12 +176,16 @@ def _idle(goal: Goal, entered: set[int]) -> Iterator[Goal]:
 def _rules(spec: Spec, valid: States, work: _Work) -> Iterator[Diagnostic]:
     for rule in spec.state_rules:
         cost = _cost([rule])
+        if keeps_guard(spec, rule):
+            continue
         if all(work.holds(rule.formula, cost, state) for state in valid) and not all(
             work.holds(rule.formula, cost, state) for state in all_states(spec)
         ):
             yield idle_rule(rule, STATES)
     for rule in spec.reaction_rules:
         cost = _cost([rule])
+        if keeps_guard(spec, rule):
+            continue
         sets = list(_compatible(spec, executing_atoms(rule.formula), work))
         broken = (
             chosen

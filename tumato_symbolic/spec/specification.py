@@ -137,6 +137,12 @@ class Spec:
         object.__setattr__(self, "tiers", tiers)
 
     @property
+    def environment(self) -> frozenset[int]:
+        """The variables that no effect of any action writes: they change without the robot, if at all."""
+        effects = (effect for action in self.actions for effect in action.effects)
+        return frozenset(range(len(self.variables))) - {variable for effect in effects for variable, _ in effect}
+
+    @property
     def restores_stepwise(self) -> bool:
         """Whether the way back to safety may take more than one step: decisions in unsafe states then serve runs."""
         return self.restoration != "one_step" or len(self.tiers) > 1

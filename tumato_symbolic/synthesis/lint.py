@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from tumato_symbolic.diagnostics import Diagnostic
 from tumato_symbolic.game import Problem
-from tumato_symbolic.semantics.lint import SETS, STATES, idle_action, idle_goal, idle_rule, in_order
+from tumato_symbolic.semantics.lint import SETS, STATES, idle_action, idle_goal, idle_rule, in_order, keeps_guard
 from tumato_symbolic.spec import TRUE, ConditionalGoal
 from tumato_symbolic.symbolic import compatible_sets, never_entered
 
@@ -35,6 +35,8 @@ def _idle_rules(problem: Problem) -> Iterator[Diagnostic]:
         (problem.spec.reaction_rules, steps.candidates, SETS),
     ):
         for rule in rules:
+            if keeps_guard(problem.spec, rule):
+                continue
             broken = ~encoding.formula(rule.formula)
             if (broken & tried) == problem.false and (broken & everything) != problem.false:
                 yield idle_rule(rule, where)

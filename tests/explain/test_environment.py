@@ -1,0 +1,41 @@
+"""Tests of what the largest realizable part takes from the environment: it is said first, and guards are kept."""
+
+import pytest
+
+from tests.explain.robots import BRAKE, FORKLIFT, NEAR, TAUT
+from tumato_symbolic import parse
+from tumato_symbolic.diagnostics import Source
+from tumato_symbolic.explain.explain import explain
+from tumato_symbolic.explain.explanation import Explanation
+from tumato_symbolic.explain.writing import with_assumption
+from tumato_symbolic.report.explained import Explained, as_text
+from tumato_symbolic.semantics.lint import lint
+
+SAID = {
+    NEAR: "it assumes that B is always ok; no action controls B:",
+    TAUT: "it assumes that B is never low while P is in; no action controls B:",
+    BRAKE: "it assumes that Human is never here while Speed is fast; no action controls Human:",
+    FORKLIFT: "it assumes that S_Human is always clear and S_EStop is always released; "
+    "no action controls S_Human or S_EStop:",
+}
+
+
+@pytest.mark.parametrize("text", SAID)
+def test_what_is_assumed_of_the_environment_is_said_first(text: str) -> None:
+    """In the line above the assumption; and once it is written, nobody advises to remove the rules that guard it."""
+    spec = parse(text)
+    found = explain(spec, wanted_repairs=0)
+    assert isinstance(found, Explanation)
+    assert found.part is not None
+    report = as_text(Explained(Source("x.tum", text), spec, found, (), None, False), False).splitlines()
+    number = next(number for number, line in enumerate(report) if "realizable part" in line)
+    assert report[number].endswith(SAID[text])
+    assert report[number + 1].startswith("  assume: ")
+    assert lint(parse(with_assumption(Source("x.tum", text), found.part.text))) == ()
+
+
+def test_the_environment_is_what_no_effect_writes() -> None:
+    """Alternative effects count: what they write is no longer the environment's alone."""
+    text = NEAR.replace("nominal effects: L is on", "nominal effects: L is on alternative effects: B is critical")
+    assert parse(NEAR).environment == {0}
+    assert parse(text).environment == frozenset()
