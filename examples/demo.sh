@@ -22,7 +22,7 @@ show tumato-sym check amr.tum
 show tumato-sym synth amr.tum
 printf '\nWhat does the robot do with a workpiece and a low battery, in the corridor?\n'
 show tumato-sym decide policy.json S_Location=corridor S_Battery=low S_Load=loaded S_Conveyor=off
-printf '\nSomebody else may not believe us. The verifier believes nobody:\n'
+printf '\nSomebody else may not trust us. The verifier trusts nobody:\n'
 show tumato-sym verify policy.json amr.tum
 
 printf '\nNext: docs/tutorial.md writes a specification from scratch; examples/ has more of them.\n'

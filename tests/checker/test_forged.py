@@ -103,7 +103,7 @@ def test_every_decision_is_judged_as_written(ordering: Ordering, tmp_path: Path)
 
 @pytest.mark.parametrize("bound", [None, 3, 4])
 def test_forged_ranks(bound: int | None, tmp_path: Path) -> None:
-    """Strictly, ranks that do not go down to the goal or exceed the bound are wrong, though the policy is right."""
+    """Strictly, ranks that do not decrease to the goal or exceed the bound are wrong, though the policy is right."""
     spec, policy = along(3, bound)
     goal = Residual(frozenset((0,)), frozenset())
     met = set()

@@ -79,6 +79,6 @@ def test_a_profile_stands_beside_the_report(cli: Cli, command: tuple[str, ...], 
     """`--profile` lists the stages on the standard error stream, and leaves a report for a program as it is."""
     ran = cli(*command, "--profile", "--output-format", "json")
     assert json.loads(ran.out)["verdict"] in ("realizable", "proved")
-    assert "Where the time went:" in ran.err
+    assert "Time by stage:" in ran.err
     assert any(line.endswith(stage) for line in ran.err.splitlines())
-    assert "Where the time went:" not in cli(*command).err
+    assert "Time by stage:" not in cli(*command).err

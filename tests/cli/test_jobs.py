@@ -130,7 +130,7 @@ def test_a_folder_is_undecided_when_a_child_is_killed(
     monkeypatch.setattr(folder_command, "_part", lambda *_: os.kill(os.getpid(), signal.SIGKILL))
     ran = cli("verify", folder, "--jobs", "2")
     assert (ran.code, ran.out) == (3, "")
-    assert ran.err == "tumato-sym: undecided: a process that worked on it was ended, by signal 9\n"
+    assert ran.err == "tumato-sym: undecided: a worker process was ended by signal 9\n"
 
 
 def test_an_exception_in_a_child_is_a_bug(cli: Cli, forked: list[int], monkeypatch: pytest.MonkeyPatch) -> None:

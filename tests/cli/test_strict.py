@@ -216,7 +216,7 @@ def test_a_reason_is_given_once(cli: Cli, tmp_path: Path) -> None:
     ):
         _document(tmp_path, change)
         ran = cli("verify", "changed.json", "amr.tum")
-        assert f"  certificate: stale, and set aside (it was made for {reason})\n" in ran.out
+        assert f"  certificate: stale, and ignored (it was made for {reason})\n" in ran.out
 
 
 def test_certificates_with_a_policy_in_their_name(cli: Cli, folder: Path) -> None:

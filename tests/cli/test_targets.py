@@ -61,7 +61,7 @@ def test_a_certificate_is_not_written_over_the_input(cli: Cli, tmp_path: Path, o
 
 
 def test_every_option_that_names_an_output_is_covered(cli: Cli) -> None:
-    """An option whose help speaks of writing a file says with `writes=` what is written there."""
+    """An option whose help mentions writing a file says with `writes=` what is written there."""
     for name in COMMANDS:
         said = " ".join(cli(name, "--help").out.split())
         names_a_file = "--write" in said or "--output FILE" in said

@@ -80,11 +80,11 @@ PLACE, LOAD = AMR.variables
     ("vocabulary", "code", "message"),
     [
         (Vocabulary((PLACE,), AMR.actions), "TUM503", "variable `S_Load`, which the specification does not have"),
-        (Vocabulary((PLACE, LOAD, ("S_New", ("a",))), AMR.actions), "TUM503", "does not know the variable `S_New`"),
+        (Vocabulary((PLACE, LOAD, ("S_New", ("a",))), AMR.actions), "TUM503", "lacks the variable `S_New`"),
         (Vocabulary((PLACE, ("S_Load", ("free", "full"))), AMR.actions), "TUM504", "a value `odd` of `S_Load`"),
-        (Vocabulary((PLACE, ("S_Load", (*LOAD[1], "x"))), AMR.actions), "TUM504", "not know the value `x` of `S_Load`"),
+        (Vocabulary((PLACE, ("S_Load", (*LOAD[1], "x"))), AMR.actions), "TUM504", "lacks the value `x` of `S_Load`"),
         (Vocabulary(AMR.variables, ("go", "load")), "TUM505", "the action `stop`, which the specification does not"),
-        (Vocabulary(AMR.variables, (*AMR.actions, "fly")), "TUM505", "does not know the action `fly`"),
+        (Vocabulary(AMR.variables, (*AMR.actions, "fly")), "TUM505", "lacks the action `fly`"),
     ],
 )
 @pytest.mark.parametrize("diagram", [False, True])
@@ -122,7 +122,7 @@ def test_all_known_names_are_told_where_none_is_near() -> None:
 
 
 def test_a_certificate_of_unknown_actions_is_set_aside() -> None:
-    """The policy stays usable when its certificate speaks of an action that nobody has."""
+    """The policy stays usable when its certificate mentions an action that nobody has."""
     policy = amr_like()
     goal = policy.certificate.goals[0]
     strange = Certificate(policy.certificate.ranks, (RankedGoal(goal.bodies, ("fly",), goal.root),))

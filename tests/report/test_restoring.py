@@ -68,5 +68,5 @@ def test_made_for_a_weaker_restoration() -> None:
     """The policy is refuted for that alone."""
     text = shown(VALVES, "bounded", SINGLY, made_for="fair")
     assert "restoration refuted" in text
-    assert "say with --restoration which of them to judge it by" in text
+    assert "choose one of them with --restoration" in text
     assert "restoration refuted" not in shown(VALVES, "bounded", SINGLY, made_for="bounded")

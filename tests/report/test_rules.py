@@ -29,7 +29,7 @@ def test_the_text_shows_order_and_actions() -> None:
     rules = (Rule((("S_B", ("on",)),), ("go", "stop")), Rule((), ()))
     text = as_text("p.json", vocabulary, RuleList(rules), 8)
     assert text == (
-        "p.json decides 8 states; 2 rules decide the same. The first that matches counts.\n\n"
+        "p.json decides 8 states; 2 rules decide the same. The first that matches decides.\n\n"
         "1  S_B is on\n     go, stop\n2  otherwise\n     (nothing)"
     )
     assert as_text("p.json", vocabulary, RuleList(()), 0) == "p.json decides 0 states: there are no rules."

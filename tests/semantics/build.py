@@ -55,7 +55,7 @@ class Build:
         needs: Sequence[str] = (),
         duration: int = 0,
     ) -> Executing:
-        """Add an action; the result is the atom that speaks of it."""
+        """Add an action; the result is the atom that mentions it."""
         number = len(self._actions)
         entries = tuple(Alternative((self.effect(text),), text, NOWHERE) for text in alternatives)
         resources = frozenset(self._resources.index(name) for name in needs)

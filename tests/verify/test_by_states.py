@@ -116,7 +116,7 @@ def test_too_many_ways(monkeypatch: pytest.MonkeyPatch) -> None:
         work = _prover(spec, rows).work
         assert work is not None and (work == 17 if verdict == "proved" else work >= most * portfolio.LARGEST_TABLE)
         assert _prover(spec, rows, "first").prove("safe").verdict == "proved"
-    assert result.reason == "4 actions at a time take effect in too many ways to list"
+    assert result.reason == "4 actions at a time can interleave in too many ways to list"
 
 
 @pytest.mark.parametrize("most", [2, 3, 4])
@@ -139,7 +139,7 @@ def test_all_that_is_looked_at_is_accounted_for(name: Any, monkeypatch: pytest.M
     spec, rows = restoring(7, 7)
     needed = 0
     while (result := _prover(spec, rows).prove(name, needed)).verdict == "undecided":
-        assert result.reason == "there is more to look at than is worth while"
+        assert result.reason == "there are too many cases to check one by one"
         needed += 1
     # valid states; what sets write, and outcomes; starts of runs, and states that are passed for the first time; of the
     # cheaper set, what it writes, its outcome, twice, and its run

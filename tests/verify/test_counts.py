@@ -277,7 +277,7 @@ def test_the_reasons_why_a_certificate_is_not_used(prover: Name) -> None:
         (replace(nonsense, digest="other"), "stale", "it was made for another specification"),
         (replace(right, certificate=None, certificate_problem="torn"), "wrong", "torn"),
         (replace(right, certificate=None), "absent", None),
-        (certified(spec, policy, {GOAL: {**table, (0,): 1}}), "wrong", f"the ranks of {goal} do not go down to it"),
+        (certified(spec, policy, {GOAL: {**table, (0,): 1}}), "wrong", f"the ranks of {goal} do not decrease to it"),
         (
             certified(spec, policy, {GOAL: {state: 5 * rank for state, rank in table.items()}}),
             "wrong",
@@ -291,7 +291,7 @@ def test_the_reasons_why_a_certificate_is_not_used(prover: Name) -> None:
     low = certified(spec, unsafe, {GOAL: {**table, (0,): 1}})
     answer = verify(low, spec, prover=prover, properties=["safe", "goals"])
     assert (answer.properties[0].verdict, answer.certificate.status) == ("refuted", "set aside")
-    assert answer.certificate.reason == f"the ranks of {goal} do not go down to it"
+    assert answer.certificate.reason == f"the ranks of {goal} do not decrease to it"
 
 
 def test_decisions_are_those_for_valid_states() -> None:

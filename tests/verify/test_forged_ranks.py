@@ -117,7 +117,7 @@ def _status(spec: Spec, policy: Policy, table: Table, prover: Name, name: str) -
 @pytest.mark.parametrize("right", [True, False])
 @pytest.mark.parametrize(("length", "bound"), [(1, None), (2, None), (3, None), (3, 3), (3, 4), (4, 4), (3, 2), (4, 3)])
 def test_ranks_of_goals(length: int, bound: int | None, right: bool, prover: Name) -> None:
-    """The policy is right or wrong whatever the ranks say; they are *wrong* where they do not go down to the goal or
+    """The policy is right or wrong whatever the ranks say; they are *wrong* where they do not decrease to the goal or
     exceed the bound, *incomplete* where one is missing that is needed, and *used* otherwise.
 
     A wrong policy goes round at the beginning, or takes longer than is allowed.

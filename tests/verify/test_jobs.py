@@ -149,7 +149,7 @@ def test_a_killed_child_proves_nothing(asked: list[int], monkeypatch: pytest.Mon
     monkeypatch.setattr(WalkRanks, "decreases", _only_in_children(lambda: os.kill(os.getpid(), signal.SIGKILL)))
     answer = verify(*_amr(), prover="walk", jobs=2)
     assert [result.verdict for result in answer.properties] == ["proved", "proved", "undecided", "proved"]
-    assert answer.properties[2].reason == "a process that worked on it was ended, by signal 9"
+    assert answer.properties[2].reason == "a worker process was ended by signal 9"
 
 
 def test_an_exception_in_a_child_arrives(asked: list[int], monkeypatch: pytest.MonkeyPatch) -> None:

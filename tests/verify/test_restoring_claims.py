@@ -174,4 +174,4 @@ def test_a_certificate_for_one_step(prover: ProverName) -> None:
     bare = replace(policy, certificate=replace(policy.certificate, restoring=None))
     answer = verify(bare, spec, prover=prover)
     assert (answer.verdict, answer.certificate.status) == ("proved", "incomplete")
-    assert answer.certificate.reason == "it does not tell how safety is restored in several steps"
+    assert answer.certificate.reason == "it does not say how safety is restored in several steps"

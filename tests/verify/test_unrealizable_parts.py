@@ -186,7 +186,7 @@ def test_cubes_come_in_any_order() -> None:
 
 
 def test_goals_are_named_in_words() -> None:
-    """The goal that is pending: its bodies, the actions that it speaks of, or no goal at all."""
+    """The goal that is pending: its bodies, the actions that it mentions, or no goal at all."""
     build = Build({"x": "ab"})
     act = build.action("x=a")
     goal = And((build.atom("x=b"), act))

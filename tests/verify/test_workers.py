@@ -34,15 +34,15 @@ def _end_by(number: signal.Signals) -> None:
 @pytest.mark.parametrize(
     ("end", "how"),
     [
-        (partial(os._exit, 0), "exit 0"),
-        (partial(os._exit, 3), "exit 3"),
+        (partial(os._exit, 0), "exit code 0"),
+        (partial(os._exit, 3), "exit code 3"),
         (partial(_end_by, signal.SIGHUP), "signal 1"),
         (partial(_end_by, signal.SIGTERM), "signal 15"),
     ],
 )
 def test_how_a_child_ended_is_told(end: Callable[[], object], how: str) -> None:
     """Its exit code or its signal; also of the last one, where nobody else is waited for."""
-    assert in_workers([end], 1) == [Lost(f"a process that worked on it was ended, by {how}")]
+    assert in_workers([end], 1) == [Lost(f"a worker process was ended by {how}")]
 
 
 def test_answers_are_told_as_they_come() -> None:

@@ -43,7 +43,7 @@ def restoration() -> Any:  # noqa: ANN401
     return argument(
         "--restoration",
         choices=("one_step", "bounded", "fair"),
-        help="how unsafe states are left: in one step; in several, within a bound whatever happens; or in several, if "
+        help="how safety is restored: in one step; in several, within a bound whatever happens; or in several, if "
         "nominal effects happen again and again (default: the specification's, else one_step)",
     )
 
@@ -65,7 +65,7 @@ def memory() -> Any:  # noqa: ANN401
         "--memory",
         type=whole(1, "megabytes"),
         metavar="MB",
-        help="how much memory it may take before it ends so (default: no limit)",
+        help="how much memory the command may use before it ends in the same way (default: no limit)",
     )
 
 
@@ -75,10 +75,10 @@ def prover() -> Any:  # noqa: ANN401
         "--prover",
         choices=("auto", "z3", "walk", "explicit", "both"),
         default="auto",
-        help="who proves a policy: Z3; the walk, our own checker over decision diagrams, which does without Z3; "
-        "explicit-state checking, which looks at every decided state, up to 200,000; both Z3 and the walk, which must "
-        "agree; or Z3 for what it answers soon, the walk for the rest, and explicit-state checking for what they leave "
-        "open (default: auto). That there is no policy is proved by Z3",
+        help="what proves a policy: Z3 (z3); the walk, our own checker over decision diagrams, without Z3 (walk); "
+        "explicit-state checking of up to 200,000 decided states (explicit); both Z3 and the walk, which must agree "
+        "(both); or Z3 for what it answers soon, the walk for the rest, and explicit-state checking for what is left "
+        "(auto, the default). Unrealizability is always proved by Z3 or the walk",
     )
 
 
@@ -88,7 +88,7 @@ def jobs(what: str) -> Any:  # noqa: ANN401
         "--jobs",
         type=whole(1, "processes"),
         metavar="N",
-        help=f"how many processes may work at {what}; the answer is the same (default: one on every processor)",
+        help=f"how many processes may work on {what}; the answer does not depend on it (default: one per processor)",
     )
 
 
@@ -97,7 +97,7 @@ def profile() -> Any:  # noqa: ANN401
     return argument(
         "--profile",
         action="store_true",
-        help="show on the standard error stream where the time went, and how much memory was taken",
+        help="show on the standard error stream how long each stage took, and how much memory was used",
     )
 
 

@@ -29,10 +29,10 @@ every valid state, or says why there is no such policy; `verify` proves a policy
 
 _EXAMPLES = """\
 example:
-  tumato-sym check amr.tum                   # any mistakes?
+  tumato-sym check amr.tum                   # look for mistakes
   tumato-sym synth amr.tum                   # writes policy.json, proved
-  tumato-sym explain robots.tum              # why there is none, and possible changes
-  tumato-sym verify policy.json amr.tum      # proves it again, believing nobody
+  tumato-sym explain robots.tum              # if there is none: why, and possible changes
+  tumato-sym verify policy.json amr.tum      # proves it again, independently
   tumato-sym decide policy.json S_Location=corridor S_Battery=low S_Load=free S_Conveyor=off
 
 """

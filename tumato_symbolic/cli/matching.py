@@ -39,8 +39,8 @@ class Specifications:
         if found is None:
             where = ", ".join(map(str, (*self._given, *self._beside)))
             message = f"there is no specification {_names(path)[-1]}.tum for this file in {where}"
-            made = "" if recorded is None else ", nor is the one there that it was made for"
-            raise UserError((Diagnostic(Code.TUM501, message + made, help="say with --specs DIR where it is"),))
+            made = "" if recorded is None else ", and none there that it was made for"
+            raise UserError((Diagnostic(Code.TUM501, message + made, help="give its folder with --specs DIR"),))
         return found
 
     def named(self, path: Path) -> Path | None:

@@ -28,7 +28,7 @@ def recognized(error: UserError, options: CommandOptions, typed: Sequence[str]) 
     found = [_kind(spec) for spec in options.specs]
     given = _kind(policy) if policy else None
     if given == "specification" and found and found[0] in ("policy", "certificate"):
-        message = f"{quoted(policy)} is a specification and {quoted(first)} a {found[0]}: change their places"
+        message = f"{quoted(policy)} is a specification and {quoted(first)} a {found[0]}: swap them"
         return _fault(message, _swapped(typed, policy, first))
     if given == "specification":
         help_ = f"`tumato-sym synth {shlex.quote(policy)} -o FILE` makes a policy"

@@ -22,7 +22,7 @@ def whole(least: int, what: str = "") -> Callable[[str], int]:
         fits = text.isascii() and text.isdigit() and len(text) <= _LONGEST
         value = int(text) if fits else -1
         if not least <= value <= MOST:
-            kind = "a positive number" if least == 1 and what else f"a whole number from {least} on"
+            kind = "a positive number" if least == 1 and what else f"a whole number, at least {least}"
             raise _not(text, f"{kind}{what and f' of {what}'}", too_large=value > MOST)
         return value
 

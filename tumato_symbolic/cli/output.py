@@ -70,7 +70,7 @@ def _dumped(report: Mapping[str, object]) -> str:
 
 
 def show_profile(context: Context) -> None:
-    """Where the time went, on the standard error stream."""
+    """The time by stage, on the standard error stream."""
     from tumato_symbolic.report.profile import profile_text
 
     note(profile_text(context.stages(), _peak_megabytes()))

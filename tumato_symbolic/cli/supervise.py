@@ -270,5 +270,5 @@ class _Watch:
         if code >= 0:
             return code
         if code == -signal.SIGKILL:
-            raise EndedError("the system ended the process that worked, most likely because memory ran out")
-        raise ChildCrashedError(f"the process that worked was ended by signal {-code} while {self.context.stage}")
+            raise EndedError("the system killed the worker process, most likely because memory ran out")
+        raise ChildCrashedError(f"the worker process was killed by signal {-code} while {self.context.stage}")

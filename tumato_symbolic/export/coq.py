@@ -88,7 +88,7 @@ def _rows(policy: Policy, spec: Spec) -> dict[State, ActionSet]:
     count = count_states(spec)
     if count > MOST_STATES:
         message = f"the specification has {count:,} states; Coq goes through each, for up to {MOST_STATES:,}"
-        help = "`tumato-sym verify` proves all states at once; `proofs/checker.py`, a judge of its own, takes 2,000,000"
+        help = "`tumato-sym verify` proves all states at once; `proofs/checker.py`, on its own, up to 2,000,000"
         raise _fault(Code.TUM508, message, help)
     table = as_table(policy, count)
     rows = {} if table is None else table.rows

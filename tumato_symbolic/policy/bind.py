@@ -27,7 +27,7 @@ def bind(policy: Policy, spec: Spec) -> Policy:
     """The same policy, renumbered so that its vocabulary is that of `spec`.
 
     Raises `UserError` with (at most 20 of) the variables, values and actions that only one side has (TUM503, TUM504,
-    TUM505). A certificate that speaks of unknown actions is set aside.
+    TUM505). A certificate that mentions unknown actions is set aside.
     """
     target = Vocabulary.of(spec)
     renumbering = Renumbering.between(policy.vocabulary, target, "policy")
@@ -57,31 +57,29 @@ def _problems(source: Vocabulary, target: Vocabulary, what: str) -> Iterator[Dia
     ours, theirs = dict(target.variables), dict(source.variables)
     for name, known in source.variables:
         if name not in ours:
-            message = f"the {what} speaks of the variable {show(name)}, which the specification does not have"
+            message = f"the {what} mentions the variable {show(name)}, which the specification does not have"
             yield Diagnostic(Code.TUM503, message, help=way_out(name, ours, "variables of the specification"))
             continue
         for value in known:
             if value not in ours[name]:
-                message = (
-                    f"the {what} knows a value {show(value)} of {show(name)}, which the specification does not have"
-                )
+                message = f"the {what} has a value {show(value)} of {show(name)}, which the specification does not have"
                 yield Diagnostic(Code.TUM504, message, help=way_out(value, ours[name], "values in the specification"))
     for name, values in target.variables:
         if name not in theirs:
-            message = f"the {what} does not know the variable {show(name)} of the specification"
+            message = f"the {what} lacks the variable {show(name)} of the specification"
             yield Diagnostic(Code.TUM503, message, help="synthesize again")
             continue
         for value in values:
             if value not in theirs[name]:
-                message = f"the {what} does not know the value {show(value)} of {show(name)} in the specification"
+                message = f"the {what} lacks the value {show(value)} of {show(name)} in the specification"
                 yield Diagnostic(Code.TUM504, message, help="add it to `States`, or synthesize again")
     for action in source.actions:
         if action not in target.actions:
-            message = f"the {what} speaks of the action {show(action)}, which the specification does not have"
+            message = f"the {what} mentions the action {show(action)}, which the specification does not have"
             yield Diagnostic(Code.TUM505, message, help=way_out(action, target.actions, "actions of the specification"))
     for action in target.actions:
         if action not in source.actions:
-            message = f"the {what} does not know the action {show(action)} of the specification"
+            message = f"the {what} lacks the action {show(action)} of the specification"
             yield Diagnostic(Code.TUM505, message, help="add it to `Actions`, or synthesize again")
 
 
@@ -91,7 +89,7 @@ def _certificate(policy: Policy, target: Vocabulary) -> tuple[Certificate | None
         for goal in certificate.goals:
             for name in goal.executed:
                 if name not in target.actions:
-                    return None, f"`Certificate` speaks of the unknown action {show(name)}"
+                    return None, f"`Certificate` mentions the unknown action {show(name)}"
     return certificate, policy.certificate_problem
 
 

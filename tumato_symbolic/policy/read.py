@@ -50,7 +50,7 @@ def fields_of(document: dict[str, Any]) -> PolicyFields:
     """The policy that a JSON object describes. Raises `UserError`."""
     form = as_text(member(document, "Type", "the policy"), "`Type`")
     if form == UNREALIZABLE:
-        message = "this is a certificate that a specification has no policy; there is nothing to decide by it"
+        message = "this is a certificate that a specification has no policy; it decides nothing"
         raise fault(Code.TUM502, message, "check it with `tumato-sym verify`")
     if form not in ("policy", "policy-diagram"):
         raise fault(Code.TUM502, f"`Type` is {show(form)}", 'expected "policy" or "policy-diagram"')
@@ -111,7 +111,7 @@ def read_digest(document: dict[str, Any]) -> str | None:
 
 
 def read_vocabulary(document: dict[str, Any], where: str) -> Vocabulary:
-    """The names that the document called `where` speaks of."""
+    """The names that the document called `where` uses."""
     actions = as_names(member(document, "Actions", where), "`Actions`")
     states = as_object(member(document, "States", where), "`States`")
     if not states:

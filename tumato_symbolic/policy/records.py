@@ -12,7 +12,7 @@ from tumato_symbolic.spec import Spec
 
 @dataclass(frozen=True, slots=True)
 class Vocabulary:
-    """The names that a policy speaks of: `(variable, its values)` and the actions, in the policy's own order."""
+    """The names that a policy uses: `(variable, its values)` and the actions, in the policy's own order."""
 
     variables: tuple[tuple[str, tuple[str, ...]], ...]
     actions: tuple[str, ...]

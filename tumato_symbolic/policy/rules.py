@@ -129,7 +129,7 @@ def _shortest(
 
 
 def _too_many(why: str) -> UserError:
-    return fault(Code.TUM508, f"the policy has no list of rules that a person would read: {why}")
+    return fault(Code.TUM508, f"the policy has no list of rules that is short enough to read: {why}")
 
 
 def _by_rarity(sets: Sets, regions: Sequence[_Region], defined: int, context: Context) -> Iterator[list[_Listed]]:

@@ -108,7 +108,7 @@ class _Reader:
             case "idle" | "nominal-unsafe":
                 return Violation(kind)
             case _:
-                raise fault(Code.TUM502, f"`Kind` in {where} is {show(kind)}, which is no condition")
+                raise fault(Code.TUM502, f"`Kind` in {where} is {show(kind)}, which is not a condition")
 
     def _named(self, section: dict[str, Any], where: str, wanted: int) -> tuple[int, ...]:
         """`Actions` of a violation, which names so many."""
@@ -232,7 +232,7 @@ class _Reader:
     def _action(self, value: object, where: str) -> int:
         name = as_text(value, where)
         if name not in self._actions:
-            message = f"{where} speaks of the unknown action {show(name)}"
+            message = f"{where} mentions the unknown action {show(name)}"
             raise fault(Code.TUM505, message, way_out(name, self._actions, "actions"))
         return self._actions[name]
 

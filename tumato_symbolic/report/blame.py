@@ -60,7 +60,7 @@ def reason_pieces(place: Place, found: Explanation, every_cube: bool) -> Iterato
             )
         yield "\n".join(lines)
     if found.omitted and "reasons" in found.finished:
-        yield f"\n{count(found.omitted, 'failing state')} more, whose reasons were not looked for: there are too many."
+        yield f"\n{count(found.omitted, 'failing state')} more, whose reasons were not analysed: there are too many."
 
 
 def _blamed(place: Place, reason: Reason) -> str:
@@ -83,7 +83,7 @@ _HEADLINES = {
     "no-plan": ("this state has no plan", "these {} states have no plan"),
     "conflict": (
         "this state has a plan, but none that a policy can follow",
-        "no policy serves these {} states together",
+        "no policy works for all of these {} states",
     ),
 }
 
@@ -209,7 +209,7 @@ def near_story(place: Place, near: NearMiss) -> list[str]:
 
 
 def _facts(place: Place, objection: Objection) -> str:
-    """What a broken rule speaks of, in the state that breaks it."""
+    """The variables that a broken rule mentions, in the state that breaks it."""
     assert objection.rule is not None and objection.state is not None
     pairs = tuple((variable, objection.state[variable]) for variable in sorted(variables_of(objection.rule.formula)))
     return place.assignment(pairs)

@@ -79,7 +79,7 @@ def _goals(place: Place, decision: Decision) -> Iterator[str]:
 def _goal(place: Place, note: GoalNote) -> str:
     *outer, last = (*(place.rule(rule) for rule in note.conditions), "")
     if note.body is None:
-        return f"Passed over: the goal for {enumeration([*outer])}, which does not hold."
+        return f"Not active: the goal for {enumeration([*outer])}, which does not hold."
     because = f", because {enumeration([*outer, *([last] if last else [])])} holds" if note.conditions else ""
     return f"Active goal: {place.rule(note.body)}{because}."
 
@@ -110,7 +110,7 @@ def _guaranteed(place: Place, decision: Decision) -> Iterator[str]:
         text = guarantee_text(found.guarantee)
         yield f"{text[0].upper()}{text[1:]}."
         if found.shortcoming is not None:
-            yield "No more is guaranteed:"
+            yield "Nothing stronger is guaranteed:"
             yield from (f"  {line}" for line in shortcoming_lines(place, found.shortcoming))
 
 
@@ -156,11 +156,11 @@ def _sentence(place: Place, decision: Decision, other: Other) -> str:
         case "larger":
             return f"it needs {count(len(other.chosen), 'action')} rather than {len(decision.chosen)}"
         case "later":
-            return "it would do as well, but is declared later"
+            return "it would be just as good, but is declared later"
         case "chosen":
             return "it is what the policy decides"
         case _:
-            return f"it would do here, in {count(steps, 'step')}; the decision is made for runs of other goals, too"
+            return f"it would work here, in {count(steps, 'step')}; the decision also has to suit runs to other goals"
 
 
 def _effort(quality: Quality) -> str:

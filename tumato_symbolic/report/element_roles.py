@@ -29,7 +29,7 @@ def role(place: Place, element: Element, core: tuple[Element, ...], reason: Reas
         case "assumption":
             return "no outcome may leave the states that are assumed"
         case "reaction-rule":
-            return "this reaction rule forbids the sets of actions that would do"
+            return "this reaction rule forbids the sets of actions that would work"
         case "precondition":
             name, rule = spec.actions[element.number].name, rule_of(spec, element)
             here = rule is None or holds(rule.formula, reason.example)

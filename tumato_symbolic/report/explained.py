@@ -82,5 +82,5 @@ def _verdict(done: Explained, found: Explanation, paint: Paint) -> str:
         fail = "fails" if found.failing_states == 1 else "fail"
         verdict += f"{found.failing_states:,} of {count(numbers.valid, 'valid state')} {fail}."
     else:
-        verdict += "each state alone has a plan, but no policy serves all of them."
+        verdict += "each state alone has a plan, but no policy works for all of them."
     return verdict if numbers.ordering == "any" else f"{verdict}\n  effects: {ORDERINGS[numbers.ordering]}"

@@ -220,7 +220,7 @@ def _told(done: Explained, reason: Reason) -> list[tuple[str, Span | None]]:
         return [("this goal conflicts with others", done.spec.bodies[body].span) for body in sorted(bodies)]
     spans = [done.spec.bodies[goal.body].span for goal in reason.goals]
     found: list[tuple[str, Span | None]] = list(zip(goal_sentences(done.place, reason), spans, strict=True))
-    return found or [("nothing that is done makes it end well", None)]
+    return found or [("no decision here leads to safety and to the goal", None)]
 
 
 def as_github(done: Explained) -> str:

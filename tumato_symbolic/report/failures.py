@@ -43,7 +43,7 @@ def failure_line(place: Place, failure: Failure) -> str:
         "no-allowed-set": "no allowed set of actions",
         "no-restoration": "no way back to safety",
         "no-plan": "allowed sets, but no plan",
-        "conflict": "a plan each, but no policy serves them together",
+        "conflict": "a plan each, but no policy works for all of them",
     }[failure.kind]
     return f"error[{FAILURE_CODES[failure.kind].name}]: " + "\n".join(_head(place, failure, what))
 
@@ -58,7 +58,7 @@ def _head(place: Place, failure: Failure, what: str) -> list[str]:
 def _no_allowed_set(place: Place, failure: Failure, ordering: Ordering) -> list[str]:
     return [
         *_head(place, failure, "no allowed set of actions"),
-        "The sets that come nearest, and what speaks against them:",
+        "The sets that come nearest, and what rules them out:",
         *(indent(reason, "  ") for reason in why_no_set(place, failure.example, ordering)),
         "Give the robot an action for such states, or exclude what cannot happen with `assume:`.",
     ]
@@ -91,10 +91,10 @@ def _no_plan(place: Place, failure: Failure) -> list[str]:
 
 def _conflict(place: Place, failure: Failure) -> list[str]:
     alone = "this state has a plan, but none that a policy could follow,"
-    together = f"each of these {count(failure.count, 'state')} has a plan, but no policy serves all of them,"
+    together = f"each of these {count(failure.count, 'state')} has a plan, but no policy works for all of them,"
     lines = [
         f"The goals conflict: {alone if failure.count == 1 else together}",
-        "because the plans pass through states where the policy has to serve other goals.",
+        "because the plans pass through states where the policy has to pursue other goals.",
     ]
     for state in failure.states[:_STATES_IN_TEXT]:
         lines += [f"  {place.state(state)}", f"    goal: {place.goals(state)}"]

@@ -24,16 +24,16 @@ def guarantee_text(guarantee: Guarantee) -> str:
             return "fair: the goal is met once effects stop deviating, however often they did"
         case "survives":
             number = count(guarantee.deviations or 0, "deviation")
-            return f"survives {number}: the goal is met with so many in all, and not always with one more"
+            return f"survives {number}: the goal is met with that many in the whole run, but not always with one more"
         case "nominal":
-            return "nominal: the goal is met if no effect deviates, and not always with one deviation"
+            return "nominal: the goal is met if no effect deviates, but not always with one deviation"
 
 
 def guarantees_lines(place: Place, found: Guarantees, paint: Paint) -> Iterator[str]:
     """What is guaranteed, level by level, each with an example of why it is no more."""
     match found.status:
         case "unproved":
-            yield f"guarantees: not looked at, since {found.reason}"
+            yield f"guarantees: not computed, since {found.reason}"
             return
         case "undecided":
             yield f"guarantees: {paint.doubt('undecided')} ({found.reason})"
@@ -43,7 +43,7 @@ def guarantees_lines(place: Place, found: Guarantees, paint: Paint) -> Iterator[
         yield f"  {count(level.states, 'valid state')}: {guarantee_text(level.guarantee)}"
         yield f"    where {_where(place.spec, level)}"
         if level.shortcoming is not None:
-            yield f"    no more, for example in {place.state(level.shortcoming.state)}:"
+            yield f"    nothing stronger, for example from {place.state(level.shortcoming.state)}:"
             yield from (f"      {line}" for line in shortcoming_lines(place, level.shortcoming))
 
 
@@ -74,7 +74,7 @@ def shortcoming_lines(place: Place, found: Shortcoming) -> Iterator[str]:
             yield f"… and {count(len(found.moves) - _MOVES - 1, 'more step')}"
         here = move.after
     if found.loop is not None:
-        yield f"and again from {found.loop + 1}., which may go on for ever without meeting the goal"
+        yield f"and again from step {found.loop + 1}, possibly for ever, without meeting the goal"
         return
     yield f"Then the state is {place.state(here)},"
     yield f"and the nominal run from there never meets the goal; its goal is {place.goals(here)}"
@@ -83,7 +83,7 @@ def shortcoming_lines(place: Place, found: Shortcoming) -> Iterator[str]:
 def _happens(place: Place, here: State, move: Move) -> str:
     changed = tuple((number, value) for number, value in enumerate(move.after) if value != here[number])
     if move.deviation is None:
-        return f"as it should ({place.assignment(changed)})"
+        return f"as intended ({place.assignment(changed)})"
     return story(place, move.deviation) or "nothing happens"
 
 

@@ -95,13 +95,13 @@ def refutation_text(place: Place, refutation: Refutation) -> str:
     """The state, the decision, and what goes wrong, as one or more lines."""
     if refutation.kind == "restoration":
         return (
-            "the policy was made for a weaker way to restore safety than the specification means: make it again, or\n"
-            "say with --restoration which of them to judge it by"
+            "the policy was made for a weaker way to restore safety than the specification means: synthesize it\n"
+            "again, or choose one of them with --restoration"
         )
     if refutation.state is None or refutation.kind == "ordering":
         return (
             "the policy was made for the effect ordering first, under which fewer outcomes count, while the\n"
-            "specification means any: make it again, or say with --effect-ordering which of them to judge it by"
+            "specification means any: synthesize it again, or choose one of them with --effect-ordering"
         )
     state = refutation.state
     lines = [f"in the state {place.state(state)}"]
@@ -162,12 +162,12 @@ def _better_text(place: Place, refutation: Refutation) -> str:
     """That another set restores safety better than the decision, and serves as well."""
     better = place.actions(refutation.cheaper or frozenset())
     if refutation.qualities is None:
-        return f"but {better} restores safety better, may be executed, and takes no run its goal; its own run:"
+        return f"but {better} may be executed, restores safety better, and keeps no run from its goal; its own run:"
     now, then = refutation.qualities
     does = "does not restore safety" if now is None else f"restores safety {_quality_text(now)}"
     return (
         f"which {does}; {better} restores it {_quality_text(then)},\n"
-        "may be executed, and takes no run its goal; its own run:"
+        "may be executed, and keeps no run from its goal; its own run:"
     )
 
 
@@ -188,7 +188,7 @@ def _way_there(place: Place, refutation: Refutation) -> Iterator[str]:
         yield f"although in {place.state(departure.state)} it executes {place.actions(departure.decision)},"
         yield f"an outcome of which it is: {story(place, departure.outcome)}"
     elif refutation.closed:
-        yield "(no outcome of a decision is undecided: from a decided state, no run gets there)"
+        yield "(no run from a decided state gets there: every outcome of every decision is decided)"
 
 
 _ENDS: Final = {

@@ -22,7 +22,7 @@ def as_text(path: str, vocabulary: Vocabulary, found: RuleList, states: int) -> 
     same = f"{count(len(rules), 'rule decides', 'rules decide')} the same"
     if found.left:
         same += f" in {states - found.left:,} of them"
-    lines = [f"{decided}; {same}. The first that matches counts.", ""]
+    lines = [f"{decided}; {same}. The first that matches decides.", ""]
     width = len(str(len(rules)))
     for number, rule in enumerate(rules, 1):
         actions = ", ".join(map(_shown, rule.actions)) or "(nothing)"

@@ -139,7 +139,7 @@ def _drawn(done: Synthesized, outcome: Realizable) -> list[str]:
 
 def _next(done: Synthesized, outcome: Realizable) -> str:
     if not done.written:
-        return "The policy was not written. With --no-verify it would be, unproved."
+        return "The policy was not written. With --no-verify it would be written without a proof."
     if done.output == "-":
         return "The policy is on the standard output."
     file, example = shlex.quote(done.output), some_decided(outcome.policy)
@@ -162,7 +162,7 @@ def _unrealizable(done: Synthesized, outcome: Unrealizable, paint: Paint) -> lis
     if failing:
         verdict += f": {failing:,} of {count(valid, 'valid state')} {'fails' if failing == 1 else 'fail'}."
     else:
-        verdict += ": each state alone has a plan, but no policy serves all of them."
+        verdict += ": each state alone has a plan, but no policy works for all of them."
     verdict += f" Found in {seconds(done.solved_in)}."
     effects = f"  effects: {ORDERINGS[outcome.statistics.ordering]}"
     head = [verdict, _states(outcome.statistics), effects, *_engine(outcome.statistics)]

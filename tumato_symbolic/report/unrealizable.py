@@ -16,9 +16,9 @@ from tumato_symbolic.verify.result import UnrealizabilityKind, UnrealizabilityVe
 
 _REASONS: Final[dict[UnrealizabilityKind, str]] = {
     "no-allowed-set": "there is a state in which no set of actions is allowed",
-    "no-restoration": "there is a state from which safety is never surely restored",
+    "no-restoration": "there is a state from which no decisions are sure to restore safety",
     "no-plan": "there is a state from which no run reaches the goal",
-    "conflict": "there are states that no policy serves together",
+    "conflict": "there are states that each have a plan, but no policy works for all of them",
 }
 
 _PROVERS: Final = {"z3": "Z3", "walk": "the walk"}
@@ -53,7 +53,7 @@ class VerifiedUnrealizable:
 def as_text(done: VerifiedUnrealizable, colour: bool) -> str:
     """The report for a person."""
     paint, found = Paint(colour), done.found
-    fits = "another specification; judged against this one all the same" if found.stale else "this specification"
+    fits = "another specification; checked against this one all the same" if found.stale else "this specification"
     head = [
         f"{_verdict(done, paint)} In {seconds(done.took)}.",
         f"  effects: {ORDERINGS[found.ordering]}, from the {found.ordering_source}",
@@ -67,7 +67,7 @@ def as_text(done: VerifiedUnrealizable, colour: bool) -> str:
     head += ["", f"  {found.reason}."]
     synth = f"tumato-sym synth {shlex.quote(done.source.name)}"
     if found.verdict == "refuted":
-        head += ["", f"The certificate proves nothing; whether there is a policy, `{synth}` finds out."]
+        head += ["", f"The certificate proves nothing; `{synth}` finds out whether there is a policy."]
     return "\n".join(head)
 
 

@@ -24,11 +24,11 @@ from tumato_symbolic.verify.guarantees.result import Guarantees
 from tumato_symbolic.verify.result import CertificateUse, OrderingSource, Verdict, Verification, properties_of
 
 _CERTIFICATES = {
-    "used": "its ranks carry the proof",
-    "incomplete": "its ranks carry a part of the proof, the others were computed anew",
+    "used": "used in the proof",
+    "incomplete": "used in part; the other ranks were computed anew",
     "absent": "none; the ranks were computed by following the runs",
-    "stale": "stale, and set aside",
-    "wrong": "made for this specification, but false, and set aside",
+    "stale": "stale, and ignored",
+    "wrong": "made for this specification, but false, and ignored",
     "unneeded": "not needed for these properties",
     "set aside": "set aside",
 }
@@ -98,13 +98,13 @@ def as_text(done: Verified, colour: bool) -> str:
     judged = replace(done.spec, restoration=found.restoration or done.spec.restoration)
     left = [name for name in properties_of(judged) if name not in {result.name for result in found.properties}]
     if left:
-        lines.append(f"Not asked: {enumeration(left)}.")
+        lines.append(f"Not checked: {enumeration(left)}.")
     if done.guarantees is not None:
         lines += ["", *(f"  {line}" for line in guarantees_lines(done.place, done.guarantees, paint))]
     if done.not_accepted:
         lines += ["", f"{paint.bad('Not accepted')} (--strict): the certificate is {found.certificate.status}."]
     if found.verdict == "refuted":
-        lines += ["", f"Next: mend the policy, or let `tumato-sym synth {shlex.quote(done.source.name)}` make one."]
+        lines += ["", f"Next: fix the policy, or make one with `tumato-sym synth {shlex.quote(done.source.name)}`."]
     return "\n".join(lines)
 
 

@@ -90,7 +90,7 @@ def atoms(formula: Formula) -> Iterator[Is | Executing]:
 
 
 def executing_atoms(formula: Formula) -> frozenset[int]:
-    """The actions whose execution a formula speaks of."""
+    """The actions whose execution a formula mentions."""
     return frozenset(atom.action for atom in atoms(formula) if isinstance(atom, Executing))
 
 

@@ -189,7 +189,7 @@ class Predicates:
         return Resolved(formula, terms, depth, next((each.executing for each in parts if each.executing), None))
 
     def _too_large(self, span: Span, message: str) -> None:
-        self._findings.add(Code.TUM308, message, span, "aliases that use aliases grow quickly; say less with them")
+        self._findings.add(Code.TUM308, message, span, "aliases that use aliases grow quickly; use fewer of them")
 
     def _misplaced(self, mention: Mention, where: str) -> None:
         notes = (Note("the alias says `executing` here", mention.origin),) if mention.origin else ()
@@ -256,5 +256,5 @@ class Predicates:
             else f"the alias {quoted(names[0].text)} is defined by itself",
             names[0].span,
             "an alias may use other aliases, never itself",
-            tuple(Note(f"{quoted(name.text)} is part of the circle", name.span) for name in names[1:9]),
+            tuple(Note(f"{quoted(name.text)} is part of the cycle", name.span) for name in names[1:9]),
         )

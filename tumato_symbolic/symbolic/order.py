@@ -43,7 +43,7 @@ def _action_scopes(spec: Spec) -> Iterator[Scope]:
 
 
 def _rule_scopes(spec: Spec) -> Iterator[Scope]:
-    """What each rule and assumption speaks of; an action stands for what it writes."""
+    """The variables that each rule and assumption mentions; an action stands for what it writes."""
     written = _written(spec)
     for rule in (*spec.state_rules, *spec.assumptions, *spec.reaction_rules):
         yield variables_of(rule.formula).union(*(written[action] for action in executing_atoms(rule.formula)))
@@ -54,7 +54,7 @@ def _written(spec: Spec) -> list[Scope]:
 
 
 def _goal_scopes(spec: Spec) -> Iterator[Scope]:
-    """What each goal speaks of, its condition included."""
+    """The variables that each goal mentions, its condition included."""
     pending: list[tuple[Goal, Scope]] = [] if spec.goals is None else [(spec.goals, frozenset())]
     while pending:
         goal, conditions = pending.pop()

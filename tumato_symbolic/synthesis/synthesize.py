@@ -108,7 +108,7 @@ def _solve(problem: Problem, policy_format: PolicyFormat, certify: bool) -> Synt
         message = f"a table of {statistics.valid:,} states is more than the {TABLE_MAXIMUM:,} that can be written"
         raise UserError((Diagnostic(Code.TUM508, message, None, "use `--policy-format diagram`"),))
     context.learn(Undecided("", statistics))
-    context.tell("looking for what is surely not meant")
+    context.tell("looking for likely mistakes")
     warnings = lint(problem)
     stuck = problem.steps.valid & ~problem.steps.states_of(problem.steps.allowed)
     context.tell("solving each goal in its own region")
@@ -238,7 +238,7 @@ def _resolve(
                 return answer
             return replace(answer, certificate=certified(problem, conflict(problem, apart, repaired)))
         changed = repaired
-    tell("giving back decisions that need not change")
+    tell("reverting changes that are not needed")
     changed = revert_unneeded(evaluator.where(forced), policy, changed)
     statistics = replace(statistics, changed=_count_decided(problem, policy & ~changed))
     if forced == problem.false:

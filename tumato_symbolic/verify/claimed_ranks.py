@@ -13,7 +13,7 @@ from tumato_symbolic.verify.result import CertificateUse
 
 UNNEEDED = CertificateUse("unneeded")
 
-NOT_ALL = "not all of its ranks could be looked at"
+NOT_ALL = "not all of its ranks could be checked"
 """What is said of a certificate where a run fails, and it takes too much to look at the rest of the ranks."""
 
 
@@ -107,11 +107,11 @@ class ClaimedRanks:
 
     def tells_nothing_of_restoring(self) -> None:
         """How unsafe states are left had to be found out."""
-        self.fall_short("it does not tell how safety is restored in several steps")
+        self.fall_short("it does not say how safety is restored in several steps")
 
     def lacks_effort(self, state: State) -> None:
         """How an unsafe state is left is missing."""
-        self.fall_short(f"it does not tell how safety is restored from {_listed(self._spec, state)}")
+        self.fall_short(f"it does not say how safety is restored from {_listed(self._spec, state)}")
 
     def false_effort(self, state: State) -> None:
         """What is told of how an unsafe state is left does not follow from what is told of its outcomes."""
@@ -126,13 +126,13 @@ class ClaimedRanks:
         better = ", ".join(action_names(self._spec, deviation.better)) or "nothing"
         self.reject(
             f"with {better} in {_listed(self._spec, deviation.state)}, the run from "
-            f"{_listed(self._spec, deviation.missed)} does not miss its goal for that"
+            f"{_listed(self._spec, deviation.missed)} does not miss its goal because of that"
         )
 
     def lacks_deviation(self, state: State, better: ActionSet) -> None:
         """It is not told why an unsafe state is not left by a better set."""
         named_set = ", ".join(action_names(self._spec, better)) or "nothing"
-        self.fall_short(f"it does not tell why {named_set} is not chosen in {_listed(self._spec, state)}")
+        self.fall_short(f"it does not say why {named_set} is not chosen in {_listed(self._spec, state)}")
 
     def inexact(self, goal: Residual) -> None:
         """The ranks of `goal` are no proof that a run is too long, or are larger than it is."""

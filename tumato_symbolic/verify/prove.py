@@ -1,4 +1,4 @@
-"""`verify`: a policy against a specification, believing neither (`docs/certificate.md`)."""
+"""`verify`: proves or refutes a policy against a specification (`docs/certificate.md`)."""
 
 from __future__ import annotations
 

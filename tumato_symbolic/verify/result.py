@@ -95,7 +95,7 @@ class CertificateUse:
 class Verification:
     """The answer of `verify`.
 
-    It speaks of the valid states that the policy decides, and of how many is `decided_states`, out of `valid_states`;
+    It is about the valid states that the policy decides, and of how many is `decided_states`, out of `valid_states`;
     each is None where it could not be counted cheaply. `restoration` is how safety is to be restored, where that may
     take several steps.
     """

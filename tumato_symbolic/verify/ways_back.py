@@ -127,7 +127,7 @@ class WaysBack:
 
 
 class RestoringWitnesses:
-    """Refutations of *restoring* and *minimal*, replayed with the explicit meaning as far as it is worth while.
+    """Refutations of *restoring* and *minimal*, replayed with the explicit meaning as far as that is affordable.
 
     Raises `RuntimeError` where that finds nothing wrong: a bug of ours.
     """
@@ -147,7 +147,7 @@ class RestoringWitnesses:
         return PropertyResult("restoring", "refuted", refutation=refutation)
 
     def not_minimal(self, state: State, better: ActionSet) -> PropertyResult:
-        """A set that restores an unsafe state better, and takes no run its goal."""
+        """A set that restores an unsafe state better, and keeps no run from its goal."""
         decision, qualities = self._policy[state], None
         with suppress(TooFarError):
             now = self._ways.quality(state, decision) if nominal_agrees(self._spec, decision) else None

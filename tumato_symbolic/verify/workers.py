@@ -108,7 +108,7 @@ def _received(reader: Any, child: ForkProcess) -> Any:  # noqa: ANN401 - whateve
     child.join()
     if message is None:
         code = child.exitcode or 0
-        return Lost(f"a process that worked on it was ended, by {f'signal {-code}' if code < 0 else f'exit {code}'}")
+        return Lost(f"a worker process was ended by {f'signal {-code}' if code < 0 else f'exit code {code}'}")
     if isinstance(message, _Failed):
         raise MemoryError if message.out_of_memory else WorkerError(f"in a child process\n\n{message.trace}")
     return message[0]

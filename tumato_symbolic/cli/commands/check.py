@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from tumato_symbolic.spec import Restoration
 
 ABOUT = """\
-Look for mistakes in specifications without solving them: syntax, names, effects, and what is surely unmeant.
+Find mistakes in specifications without solving them: syntax, names, effects, and what cannot be intended.
 
 Made for editors and commit hooks: it answers at once. Warnings alone exit with 0. What shows only in the states, such
 as a rule that nothing breaks, is looked for where there are few of them; `synth` looks for it everywhere.

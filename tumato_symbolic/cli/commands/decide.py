@@ -81,7 +81,7 @@ def _answer(policy: Policy, words: tuple[str, ...]) -> int:
     if actions:
         write("\n".join(actions))
     else:
-        note("tumato-sym: nothing is to be done in this state")
+        note("tumato-sym: do nothing in this state")
     return YES
 
 

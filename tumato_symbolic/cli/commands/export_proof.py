@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 ABOUT = """\
 Write a policy and its specification as one Coq file: compiling it proves that the policy is sound, complete and
-minimal. Nothing is judged here: the theorem of a wrong policy is written as well, and Coq refuses it. For
+minimal. Nothing is checked here: for a wrong policy a theorem is written as well, and Coq rejects it. For
 specifications of up to 30,000 states.
 """
 

@@ -14,8 +14,8 @@ from tumato_symbolic.limits import Context
 ABOUT = """\
 Show a policy as a short ordered list of rules: the first that matches decides.
 
-The list says what the policy says in every state that it decides, which is checked before it is printed. It needs the
-policy alone, and no list of states: a policy over 10^12 states takes seconds.
+The list agrees with the policy in every state that the policy decides; this is checked before it is printed. Only the
+policy is needed, and states are not listed: a policy over 10^12 states takes seconds.
 """
 
 EXAMPLES = """\

@@ -98,7 +98,7 @@ class Options(CommandOptions):
     guarantees_file: str | None = argument(
         "--write-guarantees",
         metavar="FILE",
-        help="write a certificate of what is guaranteed, which proofs/checker.py judges; asks for --guarantees as well",
+        help="write a certificate of what is guaranteed, for proofs/checker.py; implies --guarantees",
         writes=Target("certificate", "--write-guarantees", "guarantees.json"),
     )
     output_format: OutputFormat = arguments.output_format("json", "github")
@@ -121,7 +121,7 @@ class Options(CommandOptions):
         if self.specs and self.require_all:
             return "--require-all is for a folder of policies"
         if self.strict and not {"safe", "goals"} <= set(self.properties):
-            return "--strict judges the certificate, and needs safe and goals among the properties"
+            return "--strict is about the certificate, and needs safe and goals among the properties"
         if self.wants_guarantees and not self.specs:
             return "--guarantees is for one policy and its specification"
         if self.wants_guarantees and not {"total", "safe", "goals"} <= set(self.properties):

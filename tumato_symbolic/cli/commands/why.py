@@ -37,7 +37,7 @@ class Options(CommandOptions):
     specs: tuple[str, ...] = arguments.specs()
     assignments: tuple[str, ...] = arguments.state("+")
     instead: str | None = argument(
-        "--not", metavar="ACTION[,ACTION]", help="say why not this set of actions ('' is: nothing)"
+        "--not", metavar="ACTION[,ACTION]", help="say why the policy does not choose this set of actions ('': none)"
     )
     output_format: OutputFormat = arguments.output_format("json")
     timeout: float | None = arguments.timeout()
@@ -65,7 +65,7 @@ def run(options: Options, context: Context) -> int:
     ordering = options.effect_ordering or spec.ordering
     asked = parse_assignments(policy.vocabulary, options.assignments)
     state = tuple(variable.values.index(asked[variable.name]) for variable in spec.variables)
-    context.tell("judging the decision")
+    context.tell("explaining the decision")
     decisions = Decisions(spec, policy)
     instead = None if options.instead is None else _actions(spec, options.instead)
     try:

@@ -66,7 +66,7 @@ class WalkRanks(ClaimedRanks):
             return False
         for goal in self.roots:
             if not decreases(goal):
-                self.reject(f"the ranks of {self.described(goal)} do not go down to it")
+                self.reject(f"the ranks of {self.described(goal)} do not decrease to it")
                 return False
         return True
 

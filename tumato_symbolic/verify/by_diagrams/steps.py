@@ -1,6 +1,6 @@
 """The states and steps of a specification as functions that the walk can compare (`docs/semantics.md`, section 3).
 
-A function speaks of a state `s`, and of a set of actions `A` by one variable for every *group*, actions of which at
+A function is of a state `s`, and of a set of actions `A` by one variable for every *group*, actions of which at
 most one can be in an allowed set: 0 when none is, otherwise the place of the action in its group. So `Ok(s, A)` is one
 function; an effect and a successor are what is substituted for its variables.
 """

@@ -88,7 +88,7 @@ class Stepwise:
     # minimal
 
     def minimal(self) -> PropertyResult:
-        """No set restores better and takes no run its goal."""
+        """No set restores better and keeps no run from its goal."""
         self._look_at_the_certificate()
         self._look_closer()
         rivals, goals = self._rivals()
@@ -108,7 +108,7 @@ class Stepwise:
                 return self._witnesses.not_minimal(state, chosen)
             if self._ranks.restoring is not None:
                 self._ranks.lacks_deviation(state, chosen)
-        raise BudgetError("too many better sets would take a run its goal")
+        raise BudgetError("too many better sets would keep a run from its goal")
 
     def _look_closer(self) -> None:
         """Say whether the efforts of the certificate are what it takes."""

@@ -33,7 +33,7 @@ class Claims:
         numbers = {goal: self._numbers(goal, states) for goal in self._claimed.roots}
         for goal, known in numbers.items():
             if not all(self._is_true(goal, known, code, number) for code, number in known.items()):
-                self._claimed.reject(f"the ranks of {self._claimed.described(goal)} do not go down to it")
+                self._claimed.reject(f"the ranks of {self._claimed.described(goal)} do not decrease to it")
                 return
         self._look_at_the_bound(numbers, pending)
 

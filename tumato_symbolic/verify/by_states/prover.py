@@ -114,7 +114,7 @@ class StateProver:
             self._next_look = self._spent + _CHECKED_EVERY
             self._context.check()
             if self._most is not None and self._spent > self._most:
-                raise TooManyError("there is more to look at than is worth while")
+                raise TooManyError("there are too many cases to check one by one")
 
     @cached_property
     def _decided(self) -> dict[Code, ActionSet] | None:

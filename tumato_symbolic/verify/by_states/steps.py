@@ -110,7 +110,7 @@ class Steps:
         found = self._writes.get(chosen)
         if found is None:
             if self._ordering == "any" and ways(self._spec, chosen) > MOST_WAYS:
-                raise TooManyError(f"{len(chosen)} actions at a time take effect in too many ways to list")
+                raise TooManyError(f"{len(chosen)} actions at a time can interleave in too many ways to list")
             open_state = (_OPEN,) * len(self._spec.variables)
             reached = outcomes(self._spec, open_state, chosen, self._ordering)
             found = self._writes[chosen] = [self._packing.writes(_written(state)) for state in reached]

@@ -105,7 +105,7 @@ class Deviations:
             for before in self._steps_to(here):
                 if before not in met:
                     if len(met) > MOST_BEFORE:
-                        raise UndecidedError(CLAIM, f"over {MOST_BEFORE} runs may miss their goals by a better set")
+                        raise UndecidedError(CLAIM, f"better sets may keep over {MOST_BEFORE} runs from their goals")
                     met.add(before)
                     waiting.append(before)
                     yield before
@@ -225,7 +225,7 @@ class _Search:
             now = self._ways.quality(state, self._decisions[state]) if state in self._decisions.followers else None
             then = self._ways.quality(state, chosen)
         except TooFarError:
-            raise UndecidedError(CLAIM, "there are too many outcomes to look at") from None
+            raise UndecidedError(CLAIM, "there are too many outcomes to check") from None
         if then is None or (now is not None and now <= then):
             self.exclude(state, chosen)
             return False

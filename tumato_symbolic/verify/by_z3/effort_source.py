@@ -110,7 +110,7 @@ class EffortSource:
         spec, decisions = self._problem.spec, self.ranks.decisions
         unsafe = self._unsafe
         if unsafe is None:
-            why = f"there are no exact efforts, and over {MOST_UNSAFE} unsafe states, too many to look at each"
+            why = f"there are no exact efforts, and over {MOST_UNSAFE} unsafe states are too many to check one by one"
             raise UndecidedError("safety is restored", why)
         rows = {state: decisions[state] for state in unsafe}
         worst = Restorations(spec, rows, self._ordering).worst

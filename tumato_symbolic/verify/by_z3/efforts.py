@@ -176,7 +176,7 @@ class Efforts:
         spec = self._problem.spec
         for number, (after, way) in enumerate(outcomes_in_turn(spec, state, chosen, self._ordering)):
             if number >= MOST_OUTCOMES:
-                raise UndecidedError(f"all outcomes of {len(chosen)} actions together", "too many to look at")
+                raise UndecidedError(f"all outcomes of {len(chosen)} actions together", "too many to check")
             if restored(spec, state, after):
                 continue
             effort = self.worst_of(after) if is_valid(spec, after) else None

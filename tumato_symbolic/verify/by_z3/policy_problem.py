@@ -1,4 +1,4 @@
-"""One policy in one specification as a Z3 problem: what every obligation speaks of, and who is asked."""
+"""One policy in one specification as a Z3 problem: the terms of every obligation, and the solver."""
 
 from __future__ import annotations
 

@@ -47,7 +47,7 @@ class RankSource(ClaimedRanks):
         for goal in self.roots:
             ranks = self.claimed(goal)
             if ranks is not None and not RankProof(self._problem, ranks).decreases():
-                self.reject(f"the ranks of {self.described(goal)} do not go down to it")
+                self.reject(f"the ranks of {self.described(goal)} do not decrease to it")
                 return False
         return True
 

@@ -43,8 +43,8 @@ def below(bound: float) -> Callable[[Rank], bool]:
 class RankFunction:
     """`N_c` of one residual goal: a rank or None for every state.
 
-    A *claimed* one comes with the policy; it speaks of safe states, or of all valid ones (`of_unsafe`). A *recomputed*
-    one speaks of all states: it is 0 wherever the goal holds, and otherwise what the diagram says.
+    A *claimed* one comes with the policy; it covers safe states, or all valid ones (`of_unsafe`). A *recomputed*
+    one covers all states: it is 0 wherever the goal holds, and otherwise what the diagram says.
     """
 
     goal: Residual
@@ -80,7 +80,7 @@ class RankFunction:
 
 
 class RankProof:
-    """The obligations on one rank function, over the states that it speaks of.
+    """The obligations on one rank function, over the states that it covers.
 
     Each is asked at once; where that takes too long, for every rank and decision apart.
     """

@@ -40,7 +40,7 @@ def guarantees(
     """
     context = context or Context()
     try:
-        context.tell("looking for what is guaranteed")
+        context.tell("computing what is guaranteed")
         analysis = Analysis(spec, bind(policy, spec), ordering, Budget(timeout, context))
         levels = analysis.levels()
         return Guarantees("known", levels, certificate=analysis.certificate(levels) if certify else None)

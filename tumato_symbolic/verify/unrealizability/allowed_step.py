@@ -35,7 +35,7 @@ class FalseClaimError(Exception):
 class AllowedStep:
     """A state `s`, a set `A` with `Ok(s, A)`, and `t = δ(s, A)`, sought by lazy refinement.
 
-    The solver proposes a set that meets every condition but one, which speaks of all outcomes. `semantics` checks it;
+    The solver proposes a set that meets every condition but one, which is about all outcomes. `semantics` checks it;
     a proposal with an unsafe outcome teaches a lemma that holds in all states. `proved` counts the claims that the
     solver proved, `walked` those that were left to the walk.
     """

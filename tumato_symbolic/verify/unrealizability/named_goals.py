@@ -15,7 +15,7 @@ def named_goal(spec: Spec, bodies: Sequence[str], executed: Sequence[str]) -> Re
     actions = {action.name: number for number, action in enumerate(spec.actions)}
     unknown = next((text for text in bodies if text not in numbers), None)
     if unknown is not None:
-        raise FalseClaimError(f"it speaks of the goal '{unknown}', which the specification does not have")
+        raise FalseClaimError(f"it mentions the goal '{unknown}', which the specification does not have")
     return Residual(frozenset(numbers[text] for text in bodies), frozenset(actions[name] for name in executed))
 
 

@@ -86,7 +86,7 @@ def _check_cubes(step: AllowedStep, state: State, cubes: Sequence[Cube], orderin
         covered += 1 << (count - len(cube.executed) - len(cube.idle))
         wrong = _unproved(step, state, cube, ordering)
         if wrong is not None:
-            raise FalseClaimError(f"the violation of cube {number} ({cube.violation.kind}) is none: {wrong}")
+            raise FalseClaimError(f"the violation of cube {number} ({cube.violation.kind}) does not hold: {wrong}")
     if covered != 1 << count:
         held = f"{covered:,} of {1 << count:,}" if count <= COUNTED else "not all"
         raise FalseClaimError(f"the cubes hold {held} sets of actions")

@@ -13,14 +13,14 @@ from tumato_symbolic.verify.by_z3.solver import UndecidedError
 from tumato_symbolic.verify.unrealizability.allowed_step import FalseClaimError
 from tumato_symbolic.verify.unrealizability.named_goals import state_text
 
-_CLAIM: Final = "nothing surely leads out of the trap"
+_CLAIM: Final = "nothing is sure to lead out of the trap"
 
 
 def check_no_restoration(reason: NoRestoration, spec: Spec, ordering: Ordering, deadline: float) -> None:
     """Raises `FalseClaimError`, and `UndecidedError` where the walk gives up."""
     state = reason.state
     if spec.restoration == "one_step":
-        raise FalseClaimError("safety is to be restored in one step, and that it never is in several is no reason")
+        raise FalseClaimError("safety has to be restored in one step, so it does not matter what several steps can do")
     if not is_valid(spec, state) or is_safe(spec, state):
         raise FalseClaimError(f"the state {state_text(spec, state)} is not unsafe, so nothing has to be restored")
     if not reason.diagram.evaluate(reason.root, state):

@@ -37,7 +37,7 @@ def verify_unrealizable(
 ) -> UnrealizabilityVerdict:
     """Prove by `certificate` that `spec` has no policy, or refute the certificate with the check that it fails.
 
-    Nothing in the certificate is believed. `ordering` overrules the effect ordering that it records. `timeout` limits
+    Nothing in the certificate is trusted. `ordering` overrules the effect ordering that it records. `timeout` limits
     the time, in seconds, of each obligation (None: no limit); what is not proved in time is undecided. `context`
     limits the whole, and is told what is done.
 
@@ -60,7 +60,7 @@ def verify_unrealizable(
         return replace(found, verdict="refuted", reason=_WRITES_FIRST)
     context.learn(replace(found, verdict="undecided"))
     try:
-        context.tell("checking why there is no policy")
+        context.tell("checking the certificate of unrealizability")
         step = AllowedStep(spec.in_one_step, used, Budget(timeout, context))
         match reason:
             case NoAllowedSet():
