@@ -31,10 +31,12 @@ import hashlib
 import itertools
 import json
 import math
+import operator
 import re
 import sys
 import traceback
-from collections.abc import Callable, Iterable, Iterator
+from bisect import bisect_left
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -45,6 +47,7 @@ State = tuple[str, ...]  # one value per variable, in the order of declaration
 ActionSet = frozenset[str]  # the names of the actions that are executed at the same time
 Formula = tuple[Any, ...]  # see section 2
 Located = tuple[Formula, int]  # a formula and the line on which it begins
+Counted = tuple[Formula, int]  # a formula and the number of its terms
 Effect = dict[int, str]  # an assignment: the new value by the position of its variable
 Residual = tuple[frozenset[Formula], ActionSet]  # goal bodies, and those of their actions that are executed first
 Required = tuple[int, ...]  # the numbers of the state rules that a step has to keep
@@ -56,6 +59,7 @@ LARGEST = 2_000_000  # so many states, sets or outcomes in one state, assignment
 MOST_BYTES, MOST_FILE_BYTES, MOST_DIGITS, MOST_LEVELS = 500_000, 256 * 2**20, 18, 100
 MOST_VARIABLES, MOST_VALUES, MOST_ACTIONS, LARGEST_NUMBER = 1_000, 10_000, 1_000, 1_000_000_000
 MOST_TERMS, MOST_TERMS_IN_ALL, MOST_OUTCOMES = 100_000, 1_000_000, 10_000
+MOST_VALUES_IN_ALL, MOST_COMBINATIONS, MOST_ENTRIES = 1_000_000, 1_000_000, 100_000
 
 RESTORATIONS = ("one_step", "bounded", "fair")  # each is weaker than the one before it
 
@@ -98,10 +102,19 @@ def within_limit(count: int, what: str) -> None:
 #    a line feed, a carriage return, or both.
 
 TOKEN = re.compile(
-    r"[ \t\n]+|//[^\n]*|/\*.*?\*/|(?P<token>[A-Za-z_][A-Za-z0-9_]*(?!\w)|[0-9]+(?![\w.])|[(),:])", re.DOTALL
+    r"[ \t\n]+|//[^\n]*|/\*.*?\*/|(?P<token>"
+    r"(?:[A-Za-z0-9_]|\{[A-Za-z_][A-Za-z0-9_]*(?:[+-](?:0|[1-9][0-9]*))?\})+(?!\w)"
+    r"|[+-][0-9]+(?![\w{])|[(),:{}]|\.\.|[<>!]=|[<>=])",
+    re.DOTALL,
 )
 MISLEADING = re.compile(r"[^\t\n -~\u00a0-\U0010ffff]|[\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]")  # nowhere
 NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+NUMBER = re.compile(r"0|-?[1-9][0-9]{0,17}")  # of a value; of durations and bounds: WHOLE_NUMBER
+VALUE = re.compile(f"{NAME.pattern}|{NUMBER.pattern}")
+WHOLE_NUMBER = re.compile(f"[0-9]{{1,{MOST_DIGITS}}}")
+BRACES = re.compile(r"\{(\w+)((?:[+-][0-9]+)?)\}")  # in names: the value of a parameter
+ONE_WORD = re.compile(r"\{\w+\}")
+SHIFT = re.compile(r"[+-](0|[1-9][0-9]{0,17})")  # of a parameter
 KEYWORDS = {"BEGIN", "END", "AND", "OR", "NOT", "IF", "THEN", "IFONLYIF"}  # never a name
 OWN_WORDS = {"true", "false", "none", "executing"}  # only ever the name of a value
 
@@ -126,16 +139,41 @@ def tokens_of(text: str) -> list[tuple[str, int]]:
 # 2. Parsing (docs/language.md). A formula is a nested tuple:
 #      ("true",)  ("false",)  ("not", f)  ("and", f, g, …)  ("or", f, g, …)  ("if", f, g)  ("iff", f, g)
 #      ("is", variable, value)  ("executing", action)  ("alias", name)
+#      ("in", variable, items)  ("compared", variable, operator, number or variable)
+#      ("all", f, …)  ("some", f, …)  ("exactly one", f, …)  ("no instance", constant, f)
 #    The parser leaves names as (text, line); section 3 replaces them: variables by their position, aliases by their
-#    meaning, and `IF p THEN q` by `NOT p OR q`.
+#    meaning, `IF p THEN q` by `NOT p OR q`, the last two lines by what they stand for. Copies are made here: what is
+#    inside `for … end for` is read once for each, while `scope` has the values of its parameters.
+
+Item = Sequence[Any]  # of a list of values: one value, or a range of numbers
+Operand = tuple[str, str]  # in `where`: a word, a number or a parameter, and what is added to it
+Test = tuple[Operand, str, Operand]
+OPERATORS: dict[str, Callable[[Any, Any], bool]] = {
+    "=": operator.eq,
+    "!=": operator.ne,
+    "<": operator.lt,
+    "<=": operator.le,
+    ">": operator.gt,
+    ">=": operator.ge,
+}
+MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<="}
+SETTINGS = {
+    "max_plan_length :": ("bound",),
+    "effect_ordering :": ("ordering", "any", "first"),
+    "restoration :": ("restoration", *RESTORATIONS),
+    "preconditions :": ("preconditions", "at_start", "throughout"),
+}
+NO_PARAMETERS = {*KEYWORDS, "action", "define", "for", "in", "is", "not", "where"}
+NO_VALUES = {*KEYWORDS, "when", "then", "action", "define", "for", "end"}  # after `S is not`: there, `not` is the value
 
 
 @dataclass
 class Action:
     """An action as it is written; section 3 computes `effects`: the nominal assignment, then every alternative."""
 
-    name: str
-    line: int
+    name: str = ""
+    line: int = 0
+    fields: set[str] = field(default_factory=set)
     duration: int = 0
     resources: list[tuple[str, int]] = field(default_factory=list)
     preconditions: list[Located] = field(default_factory=list)
@@ -149,8 +187,8 @@ class Action:
 class Goal:
     """A simple goal (`kind` is "goal"), or a list of goals (`kind` is "priority" or "constraint")."""
 
-    kind: str
-    condition: Formula | None  # after `when`
+    kind: str = "constraint"
+    condition: Formula | None = None  # after `when`
     body: Formula = ("true",)  # of a simple goal
     members: list[Goal] = field(default_factory=list)  # of a list
 
@@ -159,22 +197,42 @@ class Goal:
 class Specification:
     """A specification: first as it is written, after `resolve` by what its names mean."""
 
-    lines: list[str]
+    lines: list[str] = field(default_factory=list)
     variables: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    lists: dict[str, tuple[str, ...]] = field(default_factory=dict)  # that parameters may range over
     aliases: dict[str, Formula] = field(default_factory=dict)
     sizes: dict[str, tuple[int, int]] = field(default_factory=dict)  # of aliases that are resolved: terms and levels
     terms: int = 0  # of all predicates that are resolved
-    resources: list[str] = field(default_factory=list)
+    values: int = 0  # of all variables
+    written: int = 0  # terms of all predicates, aliases not expanded
+    resources: dict[str, None] = field(default_factory=dict)
     actions: dict[str, Action] = field(default_factory=dict)
     reaction_rules: list[Located] = field(default_factory=list)
     state_rules: list[Located] = field(default_factory=list)
-    severities: list[int] = field(default_factory=list)  # of the state rules: 1 is the most severe
+    severity: int = 1  # of the next state rule: 1 is the most severe
+    severities: list[int] = field(default_factory=list)  # of the state rules
     assumptions: list[Located] = field(default_factory=list)
     goals: Goal | None = None
     bound: int | None = None  # L; None: runs of any length
     ordering: str | None = None
     restoration: str | None = None  # None: one_step
     preconditions: str | None = None  # None: at_start
+
+    @cached_property
+    def atoms(self) -> dict[str, dict[str, Formula]]:
+        """The atom of each value of each variable."""
+        return {
+            name: {value: ("is", place, value) for value in values}
+            for place, (name, values) in enumerate(self.variables.items())
+        }
+
+    @cached_property
+    def numbers(self) -> dict[str, list[tuple[int, int]]]:
+        """The values of each variable that are numbers, the smallest first, with their places."""
+        return {
+            name: sorted((int(value), place) for place, value in enumerate(values) if NUMBER.fullmatch(value))
+            for name, values in self.variables.items()
+        }
 
     def tiers(self) -> list[list[Located]]:
         """The state rules by severity, the most severe first."""
@@ -190,7 +248,18 @@ class Parser:
         self.tokens = tokens_of(text)
         self.position = 0
         self.parentheses = 0  # that are open
+        self.title = ""  # of the block
+        self.scope: dict[str, tuple[str, dict[str, int]]] = {}  # parameters: the value, and the places in its list
+        self.orders: dict[tuple[str, ...], dict[str, int]] = {}  # those places, by list
+        self.dry = False  # whether nothing comes of what is read, as there is no copy of it
+        self.made = self.combinations = self.copied = self.loops = 0
         self.spec = Specification(text.split("\n"))
+        self.lists: dict[str, tuple[str, ...]] = {}  # of the whole text: they may be declared after their use
+        for here, (word, _) in enumerate(self.tokens):
+            self.position = here + 3
+            if word == "define" and self.list_begins(-3):
+                self.lists[self.tokens[here + 1][0]] = self.listed(self.items(True), MOST_COMBINATIONS)
+        self.position = 0
 
     @property
     def next(self) -> str:
@@ -203,9 +272,15 @@ class Parser:
     def need(self, condition: bool, message: str) -> None:
         need(condition, f"line {self.line}: {message}, but here is `{self.next or 'the end'}`")
 
-    def at(self, words: str) -> bool:
+    def ahead(self, start: int, count: int) -> list[str]:
+        here = self.position + start
+        return [text for text, _ in self.tokens[here : here + count]]
+
+    def at(self, words: str, start: int = 0) -> bool:
+        if start == 0 and not words.startswith(self.next):
+            return False
         wanted = words.split()
-        return [text for text, _ in self.tokens[self.position : self.position + len(wanted)]] == wanted
+        return self.ahead(start, len(wanted)) == wanted
 
     def accept(self, *choices: str) -> str:
         """Read whichever of these (of one word or more) comes next; "" where none does."""
@@ -218,132 +293,299 @@ class Parser:
         self.need(found != "", f"expected {' or '.join(f'`{words}`' for words in choices)}")
         return found
 
-    def name(self) -> str:
-        word = self.next
-        self.need(NAME.fullmatch(word) is not None and word not in KEYWORDS, "expected a name")
+    def filled(self) -> str:
+        """What comes next, with the values of parameters in the place of braces."""
+
+        def value(braces: re.Match[str]) -> str:
+            self.need(braces[1] in self.scope, f"expected a parameter in `{braces[0]}`")
+            return self.shifted(self.scope[braces[1]][0], braces[2])
+
+        return BRACES.sub(value, self.next)
+
+    def shifted(self, value: str, shift: str) -> str:
+        """A number with another one added to it."""
+        self.need(shift == "" or NUMBER.fullmatch(value) is not None, f"expected a number, not `{value}`, to add to")
+        return str(int(value) + int(shift)) if shift else value
+
+    def word(self, pattern: re.Pattern[str], what: str) -> str:
+        word = self.filled()
+        fits = pattern.fullmatch(word) is not None and word not in KEYWORDS
+        self.need(fits or (self.dry and "{" in self.next), f"expected {what}")
         self.position += 1
         return word
 
-    def new_name(self, known: Iterable[str]) -> str:
-        self.need(self.next not in OWN_WORDS, "expected a name that is not a word of the language")
-        self.need(self.next not in known, "expected a name that is not declared yet")
+    def name(self) -> str:
+        return self.word(NAME, "a name")
+
+    def new_name(self, *known: Iterable[str]) -> str:
+        word = self.filled()
+        self.need(word not in OWN_WORDS, "expected a name that is not a word of the language")
+        self.need(self.dry or not any(word in each for each in known), "expected a name that is not declared yet")
         return self.name()
 
     def located_name(self) -> tuple[str, int]:
         line = self.line
         return self.name(), line
 
-    def number(self) -> int:
-        word = self.next
-        fits = word.isdigit() and len(word) <= MOST_DIGITS and int(word) <= LARGEST_NUMBER
-        self.need(fits, f"expected a number to {LARGEST_NUMBER}")
-        self.position += 1
-        return int(word)
+    def located_value(self) -> tuple[str, int]:
+        line = self.line
+        return self.word(VALUE, "a value"), line
+
+    def number(self, least: int = 0) -> int:
+        line, word = self.line, self.word(WHOLE_NUMBER, "a number")
+        number = int(word) if word.isdigit() else least
+        need(self.dry or least <= number <= LARGEST_NUMBER, f"line {line}: {word} is not {least} to {LARGEST_NUMBER}")
+        return number
 
     def nested(self, levels: int) -> None:
         self.need(levels <= MOST_LEVELS, f"nested more than {MOST_LEVELS} levels deep")
 
+    # Values: V, V, A..B, …, in braces or not. The braces of a list may touch the one word in it.
+
+    def items(self, braced: bool) -> list[Item]:
+        if braced and ONE_WORD.fullmatch(self.next):
+            self.position += 1
+            return [(self.tokens[self.position - 1][0][1:-1],)]
+        if braced:
+            self.expect("{")
+        found = [self.item()]
+        while self.at(",") and (braced or not self.parameter_begins(1)):
+            self.expect(",")
+            found.append(self.item())
+        if braced:
+            self.expect("}")
+        return found
+
+    def item(self) -> Item:
+        first, line = self.located_value()
+        if not self.accept(".."):
+            return (first,)
+        last, _ = self.located_value()
+        if self.dry:
+            return (first,)
+        numbers = NUMBER.fullmatch(first) and NUMBER.fullmatch(last)
+        need(bool(numbers) and int(first) <= int(last), f"line {line}: {first}..{last} is no range of numbers")
+        return range(int(first), int(last) + 1)
+
+    def listed(self, items: list[Item], most: int) -> tuple[str, ...]:
+        need(sum(map(len, items)) <= most, f"line {self.line}: more than {most} values")
+        values = tuple(str(value) for item in items for value in item)
+        need(self.dry or len(set(values)) == len(values), f"line {self.line}: a value is listed twice before this")
+        return values
+
+    # Copies: NAME in r1, r2, r3, NAME in 1..5 where COND, COND. What follows is read once for each combination, or dry.
+
+    def parameter_begins(self, ahead: int = 0) -> bool:
+        words = self.ahead(ahead, 2)
+        return words[1:] == ["in"] and NAME.fullmatch(words[0]) is not None and words[0] not in NO_PARAMETERS
+
+    def header(self) -> tuple[dict[str, dict[str, int]], list[Test]]:
+        outer, self.scope = self.scope, {}  # there are no braces here
+        found: dict[str, dict[str, int]] = {}
+        while not found or self.accept(","):
+            self.need(self.parameter_begins(), "expected `PARAMETER in`")
+            name = self.name()
+            self.need(name not in found and name not in outer, f"there is a parameter {name} already")
+            self.expect("in")
+            values = self.listed(self.items(self.next.startswith("{")), MOST_COMBINATIONS)
+            values = self.lists.get(values[0], values) if len(values) == 1 else values
+            found[name] = self.orders.setdefault(values, {value: place for place, value in enumerate(values)})
+        tests = [self.test()] if self.accept("where") else []
+        while tests and self.accept(","):
+            tests.append(self.test())
+        self.scope = outer
+        return found, tests
+
+    def test(self) -> Test:
+        return self.operand(), self.expect(*OPERATORS), self.operand()
+
+    def operand(self) -> Operand:
+        word, _ = self.located_value()
+        shift = self.next if NAME.fullmatch(word) and SHIFT.fullmatch(self.next) else ""
+        self.position += shift != ""
+        return word, shift
+
+    def passes(self, test: Test) -> bool:
+        one, sign, other = test
+        values: list[Any] = []
+        orders: list[dict[str, int]] = []
+        for (word, shift), (partner, _) in ((one, other), (other, one)):
+            value, order = self.scope.get(word, (word, self.scope.get(partner, ("", {}))[1]))
+            known = word in self.scope or (not shift and (word in order or NUMBER.fullmatch(word)))
+            self.need(bool(known), f"`{word}` is no parameter, and no value that it is compared with")
+            values.append(self.shifted(value, shift))
+            orders.append(order)
+        numbers = [NUMBER.fullmatch(value) is not None for value in values]
+        if all(numbers):
+            values = [int(value) for value in values]
+        elif sign not in ("=", "!="):
+            self.need(not any(numbers) and orders[0] is orders[1], f"`{sign}` asks for numbers, or words of one list")
+            values = [orders[0][value] for value in values]
+        return OPERATORS[sign](*values)
+
+    def copies(self, before: str = "") -> Iterator[None]:
+        domains, tests = self.header()
+        if before:
+            self.expect(before)
+        start, outer, dry, made = self.position, self.scope, self.dry, 0
+        if not dry:
+            self.combinations += math.prod(map(len, domains.values()))
+            self.need(self.combinations <= MOST_COMBINATIONS, f"more than {MOST_COMBINATIONS} combinations before this")
+        for values in itertools.product(*domains.values()) if not dry else ():
+            self.scope = {**outer, **{name: (values[n], domains[name]) for n, name in enumerate(domains)}}
+            if sum(map(self.passes, tests)) == len(tests):
+                self.position = start
+                yield
+                made += 1
+                self.copied += self.position - start
+                within_limit(self.copied, "words in copies")
+        if not made:
+            self.position, self.dry = start, True
+            self.scope = {**outer, **{name: ("1", order) for name, order in domains.items()}}
+            yield
+        self.scope, self.dry = outer, dry
+
+    def entries(self, read: Callable[[Any], None], target: Any, end: str) -> None:
+        while not self.accept(end):
+            if self.at("for"):
+                self.repeat(read, target)
+            else:
+                self.count()
+                read(target)
+
+    def repeat(self, read: Callable[[Any], None], target: Any) -> None:  # for … end for
+        self.expect("for")
+        self.loops += 1
+        self.nested(self.loops)
+        for _ in self.copies():
+            self.entries(read, type(target)() if self.dry else target, "end for")
+        self.loops -= 1
+
+    def count(self) -> None:
+        self.made += not self.dry
+        self.need(self.made <= MOST_ENTRIES, f"more than {MOST_ENTRIES} entries before this")
+
     # Blocks stand in any order, each at most once.
 
     def specification(self) -> Specification:
-        spec, seen = self.spec, set()
+        titles = ("STATE VECTOR", "ALIASES", "RESOURCES", "ACTIONS", "REACTION RULES", "STATE RULES", "ASSUMPTIONS")
+        seen: set[str] = set()
         while self.next:
             self.expect("BEGIN")
-            titles = ("STATE VECTOR", "ALIASES", "RESOURCES", "ACTIONS", "REACTION RULES", "STATE RULES")
-            title = self.expect(*titles, "ASSUMPTIONS", "GOALS", "CONFIG")
-            self.need(title not in seen, f"there is a block {title} already")
-            seen.add(title)
-            severity = 1
-            if title == "GOALS":
-                spec.goals = self.goal_list(None)
-                self.nested(levels_of_goal(spec.goals))
-                continue
-            while not self.accept("END"):
-                if title == "STATE VECTOR":
-                    self.state()
-                elif title == "ALIASES":
-                    self.alias()
-                elif title == "RESOURCES":
-                    self.expect("resource")
-                    spec.resources.append(self.new_name(spec.resources))
-                elif title == "ACTIONS":
-                    self.action()
-                elif title == "CONFIG":
-                    self.setting()
-                elif title == "STATE RULES" and self.accept("severity :"):
-                    self.need(self.next.strip("0") != "", "expected at least 1")
-                    severity = self.number()
-                else:
-                    self.expect("assume :" if title == "ASSUMPTIONS" else "rule :")
-                    rules = {"STATE RULES": spec.state_rules, "REACTION RULES": spec.reaction_rules}
-                    rules.get(title, spec.assumptions).append(self.located_predicate())
-                    if title == "STATE RULES":
-                        spec.severities.append(severity)
-            self.expect(title)
-        return spec
+            self.title = self.expect(*titles, "GOALS", "CONFIG")
+            self.need(self.title not in seen, f"there is a block {self.title} already")
+            seen.add(self.title)
+            if self.title == "GOALS":
+                self.spec.goals = self.goal_list(None)
+                self.nested(levels_of_goal(self.spec.goals))
+            else:
+                self.entries(self.entry, self.spec, "END")
+                self.expect(self.title)
+        return self.spec
 
-    def state(self) -> None:  # state NAME can be VALUE, VALUE, …
-        self.expect("state")
-        variable = self.new_name(self.spec.variables)
-        self.expect("can be")
-        values = {self.name(): None}
-        while self.accept(","):
-            self.need(self.next not in values, "expected another value")
-            values[self.name()] = None
-        self.spec.variables[variable] = tuple(values)
-
-    def alias(self) -> None:  # define NAME as PREDICATE
-        self.expect("define")
-        name = self.new_name(self.spec.aliases)
-        self.expect("as")
-        self.spec.aliases[name], _ = self.located_predicate()
-
-    def setting(self) -> None:  # max_plan_length: N, effect_ordering: any, restoration: one_step
-        setting = self.expect("max_plan_length :", "effect_ordering :", "restoration :", "preconditions :")
-        if setting == "max_plan_length :":
-            self.need(self.spec.bound is None, "there is a `max_plan_length` already")
-            self.need(self.next.strip("0") != "", "expected at least 1")
-            self.spec.bound = self.number()
-        elif setting == "restoration :":
-            self.need(self.spec.restoration is None, "there is a `restoration` already")
-            self.spec.restoration = self.expect(*RESTORATIONS)
-        elif setting == "preconditions :":
-            self.need(self.spec.preconditions is None, "there is a `preconditions` already")
-            self.spec.preconditions = self.expect("at_start", "throughout")
+    def entry(self, spec: Specification) -> None:
+        if self.title == "STATE VECTOR":
+            self.state(spec)
+        elif self.title == "ALIASES":
+            self.alias(spec)
+        elif self.title == "RESOURCES":
+            self.expect("resource")
+            spec.resources[self.new_name(spec.resources)] = None
+        elif self.title == "ACTIONS":
+            self.action(spec)
+        elif self.title == "CONFIG":
+            self.setting(spec)
+        elif self.title == "STATE RULES" and not self.scope and self.accept("severity :"):
+            spec.severity = self.number(1)
         else:
-            self.need(self.spec.ordering is None, "there is an `effect_ordering` already")
-            self.spec.ordering = self.expect("any", "first")
+            self.expect("assume :" if self.title == "ASSUMPTIONS" else "rule :")
+            rules = {"STATE RULES": spec.state_rules, "REACTION RULES": spec.reaction_rules}
+            rules.get(self.title, spec.assumptions).append(self.located_predicate())
+            spec.severities += [spec.severity] if self.title == "STATE RULES" else []
+
+    def state(self, spec: Specification) -> None:  # state NAME can be VALUE, A..B, …
+        self.expect("state")
+        variable = self.new_name(spec.variables)
+        self.expect("can be")
+        spec.variables[variable] = self.listed(self.items(False), MOST_VALUES)
+        spec.values += len(spec.variables[variable])
+        self.need(spec.values <= MOST_VALUES_IN_ALL, f"more than {MOST_VALUES_IN_ALL} values before this")
+
+    def alias(self, spec: Specification) -> None:  # define NAME as PREDICATE, or {WORD, WORD, …}
+        is_list = self.list_begins()
+        self.need(not (is_list and self.scope), "expected a list outside `for`")
+        self.expect("define")
+        name = self.new_name(spec.aliases, spec.lists)
+        self.expect("as")
+        if is_list:
+            self.items(True)
+            spec.lists[name] = self.lists[name]
+        else:
+            spec.aliases[name], _ = self.located_predicate()
+
+    def list_begins(self, ahead: int = 0) -> bool:  # define NAME as {
+        define, _, between, braces = (*self.ahead(ahead, 4), *[""] * 4)[:4]
+        return (define, between) == ("define", "as") and (braces == "{" or ONE_WORD.fullmatch(braces) is not None)
+
+    def setting(self, spec: Specification) -> None:  # max_plan_length: N, effect_ordering: any, restoration: one_step
+        setting = self.expect(*SETTINGS)
+        name, *choices = SETTINGS[setting]
+        self.need(self.dry or getattr(spec, name) is None, f"there is a `{setting}` already")
+        setattr(spec, name, self.expect(*choices) if choices else self.number(1))
 
     # Actions: fields in any order, each at most once but for alternatives; `cost:` and `effects:` are older spellings.
 
     FIELDS = (
-        *("duration :", "cost :", "controlled resources :", "preconditions :"),
-        *("nominal effects :", "effects :", "alternative effects :"),
+        *("duration :", "cost :", "preconditions :", "effects :"),
+        *("controlled resources :", "nominal effects :", "alternative effects :"),
     )
 
-    def action(self) -> None:
+    def action(self, spec: Specification) -> None:
         self.expect("action")
         line = self.line
-        action = Action(self.new_name(self.spec.actions), line)
-        self.spec.actions[action.name] = action
-        seen: set[str] = set()
-        while words := self.accept(*self.FIELDS):
-            kind = {"cost :": "duration :", "effects :": "nominal effects :"}.get(words, words)
-            self.need(kind not in seen or kind == "alternative effects :", f"there is a field `{kind}` already")
-            seen.add(kind)
-            if kind == "duration :":
-                action.duration = self.number()
-            elif kind == "controlled resources :":
-                action.resources = self.list_of(self.located_name)
-            elif kind == "preconditions :":
-                action.preconditions = self.list_of(self.located_predicate)
-            elif kind == "nominal effects :":
-                action.nominal = self.list_of(self.located_predicate)
+        action = Action(self.new_name(spec.actions), line)
+        spec.actions[action.name] = action
+        self.fields(action)
+
+    def fields(self, action: Action) -> None:
+        while True:
+            if any(map(self.at, self.FIELDS)):
+                self.count()
+                self.field(action)
+            elif self.at("for") and not self.actions_follow():
+                self.repeat(self.field, action)
             else:
-                action.alternatives.append(self.list_of(self.located_predicate))
+                return
+
+    def actions_follow(self) -> bool:  # behind all headers that follow one another
+        start = self.position
+        while self.accept("for"):
+            self.header()
+        found = self.at("action")
+        self.position = start
+        return found
+
+    def field(self, action: Action) -> None:
+        words = self.expect(*self.FIELDS)
+        kind = {"cost :": "duration :", "effects :": "nominal effects :"}.get(words, words)
+        again = kind in action.fields and kind != "alternative effects :" and not self.dry
+        self.need(not again, f"there is a field `{kind}` already")
+        action.fields.add(kind)
+        if kind == "duration :":
+            action.duration = self.number()
+        elif kind == "controlled resources :":
+            action.resources = self.list_of(self.located_name)
+        elif kind == "preconditions :":
+            action.preconditions = self.list_of(self.located_predicate)
+        elif kind == "nominal effects :":
+            action.nominal = self.list_of(self.located_predicate)
+        else:
+            action.alternatives.append(self.list_of(self.located_predicate))
 
     def list_of(self, read: Callable[[], tuple[Any, int]]) -> list[tuple[Any, int]]:  # …, … or none; may be empty
-        if self.accept("none") or self.at("END") or any(map(self.at, self.FIELDS)) or self.action_begins():
+        ends = self.at("END") or any(map(self.at, self.FIELDS)) or self.action_begins()
+        copies = (self.at("for") and self.parameter_begins(1)) or (self.scope != {} and self.at("end for"))
+        if self.accept("none") or ends or copies:
             return []
         found = [read()]
         while self.accept(","):
@@ -351,8 +593,10 @@ class Parser:
         return found
 
     def action_begins(self) -> bool:  # `action` may also be the name of a variable or an alias
-        following = self.tokens[self.position + 1][0] if self.at("action") else ""
-        return NAME.fullmatch(following) is not None and following not in {*KEYWORDS, "is"}
+        following, after = (*self.ahead(1, 2), "", "")[:2]
+        named = re.match(r"[A-Za-z_]|\w*\{\w", following) is not None and following not in {*KEYWORDS, "is"}
+        in_set = (following, after[:1]) == ("in", "{") or (following, after) == ("not", "in")
+        return self.at("action") and named and not in_set
 
     # Goals.
 
@@ -361,15 +605,17 @@ class Parser:
             return Goal("constraint", condition)
         self.expect("goal type :")
         goals = Goal(self.expect("priority", "constraint"), condition)
-        while not self.accept("END"):
-            when = None
-            if self.accept("when"):
-                when = self.predicate()
-                self.expect("then")
-            nested = self.expect("goal :", "BEGIN GOALS") == "BEGIN GOALS"
-            goals.members.append(self.goal_list(when) if nested else Goal("goal", when, self.predicate()))
+        self.entries(self.goal, goals, "END")
         self.expect("GOALS")
         return goals
+
+    def goal(self, goals: Goal) -> None:
+        when = None
+        if self.accept("when"):
+            when = self.predicate()
+            self.expect("then")
+        nested = self.expect("goal :", "BEGIN GOALS") == "BEGIN GOALS"
+        goals.members.append(self.goal_list(when) if nested else Goal("goal", when, self.predicate()))
 
     # Predicates, loosest first. IFONLYIF comes once, without a chain; a nested IF needs parentheses.
 
@@ -405,7 +651,7 @@ class Parser:
     def negation(self) -> Formula:
         return ("not", self.negation()) if self.accept("NOT") else self.basic()
 
-    def basic(self) -> Formula:  # ( p ), true, false, executing ACTION, VARIABLE is VALUE, an alias
+    def basic(self) -> Formula:  # ( p ), true, false, executing ACTION, an alias, or what begins with a variable
         if self.accept("("):
             self.parentheses += 1
             self.nested(self.parentheses)
@@ -413,19 +659,47 @@ class Parser:
             self.expect(")")
             self.parentheses -= 1
             return inside
+        for quantifier in ("all", "some", "exactly one"):
+            if self.at(quantifier) and self.parameter_begins(len(quantifier.split())):
+                return self.quantified(quantifier)
         if word := self.accept("true", "false"):
             return (word,)
         if self.accept("executing"):
             return ("executing", self.located_name())
         name = self.located_name()
-        return ("is", name, self.located_name()) if self.accept("is") else ("alias", name)
+        if self.accept("is"):
+            negated = self.at("not") and self.value_follows() and self.accept("not")
+            found: Formula = ("is", name, self.located_value())
+            return ("denied", found) if negated else found
+        if words := self.accept("in", "not in"):
+            found = ("in", name, self.items(True))
+            return found if words == "in" else ("denied", found)
+        if sign := self.accept(*OPERATORS):
+            return ("compared", name, sign, self.located_value())
+        return ("alias", name)
+
+    def value_follows(self) -> bool:  # after `S is not`; otherwise `not` is the value
+        word, following = (*self.ahead(1, 2), "")[:2]
+        is_value = re.match(r"[\w+-]|\{\w", word) is not None and word not in NO_VALUES
+        return is_value and following != ":" and not any(self.at(words[:-2], 1) for words in self.FIELDS[4:])
+
+    def quantified(self, quantifier: str) -> Formula:  # all PARAMETER in r1, r2 where COND: PREDICATE
+        self.accept(quantifier)
+        bodies, empty = [], False
+        for _ in self.copies(":"):
+            bodies.append(self.predicate())
+            empty = self.dry
+        if empty:
+            return ("no instance", ("true" if quantifier == "all" else "false",), bodies[0])
+        return (quantifier, *bodies)
+
+
+ATOMS = {"true", "false", "is", "executing", "alias", "in", "compared", "denied"}  # as a formula is written
 
 
 def levels_of(formula: Formula) -> int:
     """How many operators are nested in a formula as it is written."""
-    if formula[0] in ("true", "false", "is", "executing", "alias"):
-        return 0
-    return 1 + max(map(levels_of, formula[1:]))
+    return 0 if formula[0] in ATOMS else 1 + max(map(levels_of, formula[1:]))
 
 
 def levels_of_goal(goal: Goal) -> int:
@@ -447,11 +721,11 @@ def read_specification(data: bytes) -> Specification:
 def resolve(spec: Specification) -> Specification:
     """Replace every name by what it means, and every list of effects by the assignments that it denotes."""
     need(bool(spec.variables), "there is no state variable")
-    names = [*spec.variables, *spec.aliases, *spec.resources, *spec.actions]
+    names = [*spec.variables, *spec.lists, *spec.aliases, *spec.resources, *spec.actions]
     need(len(set(names)) == len(names), "two things of different kinds have the same name")
     need(len(spec.variables) <= MOST_VARIABLES, f"there are more than {MOST_VARIABLES} state variables")
-    need(max(map(len, spec.variables.values())) <= MOST_VALUES, f"a variable has more than {MOST_VALUES} values")
     need(len(spec.actions) <= MOST_ACTIONS, f"there are more than {MOST_ACTIONS} actions")
+    spec.aliases = {name: spelled_out(spec, alias) for name, alias in spec.aliases.items()}
     for name in spec.aliases:
         resolve_alias(spec, name)
     for action in spec.actions.values():
@@ -462,6 +736,113 @@ def resolve(spec: Specification) -> Specification:
     if spec.goals is not None:
         resolve_goal(spec, spec.goals)
     return spec
+
+
+def spelled_out(spec: Specification, formula: Formula) -> Formula:
+    """A formula as it is written, without what stands for several atoms."""
+    found, terms = Speller(spec).spell(formula)
+    spec.written += terms
+    need(spec.written <= MOST_TERMS_IN_ALL, f"all predicates together have more than {MOST_TERMS_IN_ALL} terms")
+    return found
+
+
+class Speller:
+    """What the sets, comparisons and quantifiers of a predicate stand for (docs/certificate.md, The digest).
+
+    Every formula comes with the number of its terms, which is known before a large one is made.
+    """
+
+    def __init__(self, spec: Specification) -> None:
+        self.spec = spec
+
+    def spell(self, formula: Formula) -> Counted:
+        kind, *parts = formula
+        if kind in ("true", "false", "is", "executing", "alias"):
+            return formula, 1
+        if kind == "in":
+            return self.one_of(parts[0], self.listed(*parts))
+        if kind == "compared":
+            return self.compared(*parts)
+        if kind == "no instance":
+            return parts[0], 1
+        spelled = [self.spell(part) for part in parts]
+        if kind == "exactly one" and len(spelled) > 1:
+            others = [self.joined("not", [each]) for each in spelled]
+            self.check(len(others) * sum(terms for _, terms in others))
+            each = ([one, *others[:n], *others[n + 1 :]] for n, one in enumerate(spelled))
+            return self.joined("or", [self.joined("and", parts) for parts in each])
+        if kind in ("all", "some", "exactly one"):
+            return self.joined("and" if kind == "all" else "or", spelled)
+        return self.joined("not" if kind == "denied" else kind, spelled)
+
+    def joined(self, kind: str, parts: list[Counted]) -> Counted:
+        """An operator with its operands; one operand of `and` or `or` stands for itself."""
+        if len(parts) == 1 and kind in ("and", "or"):
+            return parts[0]
+        terms = 1 + sum(terms for _, terms in parts)
+        self.check(terms)
+        return (kind, *(part for part, _ in parts)), terms
+
+    def check(self, terms: int) -> None:
+        need(terms <= MOST_TERMS, f"a predicate has {terms} terms when it is written out")
+
+    def values(self, name: tuple[str, int]) -> tuple[str, ...]:
+        need(name[0] in self.spec.variables, f"line {name[1]}: there is no variable `{name[0]}`")
+        return self.spec.variables[name[0]]
+
+    def numbers(self, name: tuple[str, int]) -> list[tuple[int, int]]:
+        """The values of a variable, the smallest first, with their places."""
+        found, values = self.spec.numbers.get(name[0], []), self.values(name)
+        need(len(found) == len(values), f"line {name[1]}: `{name[0]}` has values that are no numbers")
+        return found
+
+    def one_of(self, name: tuple[str, int], values: Iterable[str]) -> Counted:
+        return self.joined("or", [(("is", name, (value, name[1])), 1) for value in values])
+
+    def listed(self, name: tuple[str, int], items: list[Item]) -> list[str]:
+        """The values of a set, in the order of declaration."""
+        values, numbers = self.values(name), self.spec.numbers.get(name[0], [])
+        ranges = [item for item in items if isinstance(item, range)]
+        chosen = {item[0] for item in items if not isinstance(item, range)}
+        spans = [[bisect_left(numbers, (number,)) for number in (each.start, each.stop)] for each in ranges]
+        known = chosen <= self.spec.atoms[name[0]].keys() and all(start < end for start, end in spans)
+        need(known, f"line {name[1]}: the set has something that is no value of `{name[0]}`")
+        done = 0
+        for start, end in sorted(spans):
+            chosen.update(str(number) for number, _ in numbers[max(start, done) : end])
+            done = max(done, end)
+        return [value for value in values if value in chosen]
+
+    def compared(self, name: tuple[str, int], sign: str, other: tuple[str, int]) -> Counted:
+        """`S < 3`; or `S < T`: for each value of S, that T has a larger one."""
+        self.numbers(name)
+        if NUMBER.fullmatch(other[0]):
+            return self.than(name, sign, other[0], alone=True)
+        self.numbers(other)
+        found, count = [], 0
+        for value in self.values(name):
+            here: Counted = ("is", name, (value, name[1])), 1
+            there = self.than(other, MIRRORED.get(sign, sign), value, alone=False)
+            count += there[1]
+            self.check(count)
+            if there[0] != ("false",):
+                found.append(here if there[0] == ("true",) else self.joined("and", [here, there]))
+        return self.joined("or", found) if found else (("false",), 1)
+
+    def than(self, name: tuple[str, int], sign: str, number: str, alone: bool) -> Counted:
+        """A comparison with a number; constant where it is so of every value, or of none."""
+        values, numbers = self.values(name), self.numbers(name)
+        if sign in ("=", "!="):
+            known = number in self.spec.atoms[name[0]]
+            if not alone and (not known or len(values) == 1):
+                return ("true" if known == (sign == "=") else "false",), 1
+            return self.one_of(name, [number]) if sign == "=" else self.joined("not", [self.one_of(name, [number])])
+        first, last = (bisect_left(numbers, (int(number) + more,)) for more in (0, 1))
+        spans = {"<": (0, first), "<=": (0, last), ">": (last, len(values)), ">=": (first, len(values))}
+        start, end = spans[sign]
+        if end - start in (0, len(values)):
+            return ("true" if start < end else "false",), 1
+        return self.one_of(name, (values[place] for place in sorted(place for _, place in numbers[start:end])))
 
 
 def resolve_action(spec: Specification, action: Action) -> None:
@@ -535,6 +916,7 @@ def size_of(spec: Specification, formula: Formula) -> tuple[int, int]:
 
 def resolved(spec: Specification, formula: Formula, may_execute: bool) -> Formula:
     """The formula with names replaced."""
+    formula = spelled_out(spec, formula)
     spec.terms += size_of(spec, formula)[0]
     need(spec.terms <= MOST_TERMS_IN_ALL, f"all predicates together have more than {MOST_TERMS_IN_ALL} terms")
     found = meaning(spec, formula)
@@ -554,8 +936,8 @@ def meaning(spec: Specification, formula: Formula) -> Formula:
     if kind == "is":
         value = formula[2][0]
         need(name in spec.variables, f"line {line}: there is no variable `{name}`")
-        need(value in spec.variables[name], f"line {line}: `{name}` has no value `{value}`")
-        return ("is", list(spec.variables).index(name), value)
+        need(value in spec.atoms[name], f"line {line}: `{name}` has no value `{value}`")
+        return spec.atoms[name][value]
     if kind == "executing":
         need(name in spec.actions, f"line {line}: there is no action `{name}`")
         return ("executing", name)

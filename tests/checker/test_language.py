@@ -111,7 +111,6 @@ WRONG = [
     values("x y"),
     values("AND"),
     values("x state Q can be y"),
-    values("1"),
     rule("A is w"),
     rule("C is x"),
     rule("a is x"),

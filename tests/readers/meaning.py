@@ -116,7 +116,7 @@ def meaning_by_checker(spec: Any) -> Meaning:
 
     return {
         "variables": [(name, list(values)) for name, values in spec.variables.items()],
-        "resources": spec.resources,
+        "resources": list(spec.resources),
         "actions": [
             {
                 "name": action.name,
