@@ -75,7 +75,7 @@ def _mistake(options: CommandOptions) -> str | None:
 
 
 class _Parser(argparse.ArgumentParser):
-    """A parser whose help is lost to nobody without a word."""
+    """A parser that reports help that cannot be written."""
 
     def print_help(self, file: SupportsWrite[str] | None = None) -> None:
         """Put the help on the standard output. Raises `UserError` where it cannot be."""

@@ -19,7 +19,7 @@ _PATIENCE = 1.0
 _CLEAR_LINE = "\r\x1b[2K"
 
 _around_writing: list[Callable[[bool], None]] = []
-"""Told True before something is written, and False when it is; a process that is supervised asks for leave so."""
+"""Told True before something is written, and False when it is; a supervised process asks for permission this way."""
 
 
 @contextmanager

@@ -20,7 +20,7 @@ from tumato_symbolic.report.folder import Entry, Folder
 from tumato_symbolic.verify.workers import Lost, in_workers
 
 if TYPE_CHECKING:
-    from tumato_symbolic.cli.verifying import Judged
+    from tumato_symbolic.cli.verifying import Verdict
 
 SUFFIXES = (".policy.json", ".unrealizable.json")
 """How the names of files end that are verified by folder."""
@@ -60,7 +60,7 @@ def verify_folder(
 
 
 def ended_folder(known: Folder, why: str) -> Folder:
-    """The files that were judged when a limit was met, and that the others were not."""
+    """The files that were verified when a limit was met, and that the others were not."""
     entries = (
         entry if entry.done is not None or entry.error is not None or entry.missing else replace(entry, limit=why)
         for entry in known.entries
@@ -117,9 +117,9 @@ def _entries(
 
 
 def _learn_of(
-    path: Path, found: Mapping[Path, Entry], learn: Callable[[Mapping[Path, Entry]], object], judged: object
+    path: Path, found: Mapping[Path, Entry], learn: Callable[[Mapping[Path, Entry]], object], verdict: object
 ) -> None:
-    learn({**found, path: Entry(str(path), cast("Judged", judged))})
+    learn({**found, path: Entry(str(path), cast("Verdict", verdict))})
 
 
 def _kept(answer: list[Entry] | Lost) -> list[Entry]:

@@ -128,7 +128,7 @@ class _Sender:
         self._messages, self._leave, self._owner = messages, leave, os.getpid()
 
     def send(self, kind: bytes, body: bytes = b"") -> None:
-        """Send a message; a child's child has no say, and an orphan nobody to say it to."""
+        """Send a message; descendants of the child and orphans send none."""
         if os.getpid() == self._owner:
             with suppress(BrokenPipeError):
                 rest = memoryview(kind + len(body).to_bytes(_HEAD - 1, "big") + body)

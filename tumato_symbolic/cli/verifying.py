@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from tumato_symbolic.spec import Ordering, Restoration
     from tumato_symbolic.verify import ProverName, UnrealizabilityVerdict, Verification
 
-    Judged: TypeAlias = Verified | VerifiedUnrealizable
+    Verdict: TypeAlias = Verified | VerifiedUnrealizable
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +53,7 @@ def wanted_jobs(asked: int | None) -> int:
 
 def verify_claim(
     claim: Policy | Unrealizability, path: str, spec_path: str, criteria: Criteria, context: Context, *, jobs: int
-) -> Judged:
+) -> Verdict:
     """The claim read from `path` against the specification at `spec_path`.
 
     Raises `UserError` where the specification cannot be used, or the claim does not fit it.
@@ -93,13 +93,13 @@ def verify_claim(
         from tumato_symbolic.report.unrealizable import VerifiedUnrealizable
         from tumato_symbolic.verify import verify_unrealizable  # loads Z3, which --prover walk does without
 
-        def disproved(found: object) -> VerifiedUnrealizable:
+        def unrealizable(found: object) -> VerifiedUnrealizable:
             took = time.perf_counter() - started
             verdict = cast("UnrealizabilityVerdict", found)
             return VerifiedUnrealizable(source, spec, path, verdict, warnings, took, criteria.strict)
 
-        part = context.within(learned=lambda found: context.learn(disproved(found)))
-        return disproved(verify_unrealizable(claim, spec, ordering=criteria.ordering, context=part))
+        part = context.within(learned=lambda found: context.learn(unrealizable(found)))
+        return unrealizable(verify_unrealizable(claim, spec, ordering=criteria.ordering, context=part))
 
 
 def write_certificate(certificate: GuaranteesCertificate, target: str) -> None:
@@ -119,7 +119,7 @@ def _not_yet(verification: Verification) -> Guarantees:
     return Guarantees("unproved", reason=f"the policy is {verification.verdict}")
 
 
-def ended(known: Judged, why: str) -> Judged:
+def ended(known: Verdict, why: str) -> Verdict:
     """What was known of a claim when a limit was met."""
     if isinstance(known, Verified):
         known = replace(known, verification=stopped(known.verification, why))
@@ -129,7 +129,7 @@ def ended(known: Judged, why: str) -> Judged:
     return replace(known, found=replace(known.found, reason=why))
 
 
-def exit_code(done: Judged) -> int:
+def exit_code(done: Verdict) -> int:
     """What a script may conclude: 0 only where all is known and proved, and the certificate passes `--strict`."""
     if done.not_accepted:
         return NO

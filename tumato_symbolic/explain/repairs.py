@@ -36,7 +36,7 @@ Unavoidable: TypeAlias = Literal["failing", "conflict"]
 """Why nothing helps: with everything dropped but the assumptions, states still fail, or goals conflict."""
 
 MOST_WEAKENED = 3
-"""A repair of more elements is not one that anybody would make line by line."""
+"""A repair of more elements is of no practical use."""
 
 
 def repairs_found(work: Work, found: Explanation) -> Iterator[Explanation]:

@@ -1,6 +1,6 @@
 """A policy as a theorem for Coq: the specification, the table, and a proof that is checked by computing.
 
-The meaning and the theorem are in `proofs/coq`. Nothing is judged here: a wrong policy gives a file that Coq refuses.
+The meaning and the theorem are in `proofs/coq`. Nothing is checked here: a wrong policy gives a file that Coq rejects.
 """
 
 from __future__ import annotations
@@ -237,13 +237,13 @@ def _decisions(spec: Spec, rows: dict[State, ActionSet]) -> Iterator[str]:
 
 
 def _efforts(spec: Spec, rows: dict[State, ActionSet], ordering: Ordering) -> Iterator[str]:
-    """What the checker is told of the ways to safety, and does not believe: the least efforts by the decisions."""
+    """The least efforts by the decisions, as a hint that the checker verifies."""
     sums = nominal_sums(spec, rows) if spec.restoration == "fair" else {}
     yield from _known(spec, Restorations(spec, rows, ordering).worst, sums)
 
 
 def _known(spec: Spec, worst: Mapping[State, Effort], sums: Mapping[State, Effort]) -> Iterator[str]:
-    """Efforts in the worst case and by nominal effects, as the checker is told of them."""
+    """Efforts in the worst case and by nominal effects, as the checker needs them."""
     found = sorted({*worst.values(), *sums.values()})
     yield "(* The efforts (duration, steps) that restoring takes by these decisions; the checker tests them. *)"
     yield "Definition no : option effort := None. (* a safe state, or no effort suffices *)"

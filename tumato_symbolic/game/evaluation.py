@@ -43,7 +43,7 @@ def winning(problem: Problem, ranks: Sequence[Layers], relation: Bdd) -> Bdd:
 
 
 class Evaluator:
-    """Judges policies that are defined in every safe state; unsafe states may take any allowed set.
+    """Evaluates policies that are defined in every safe state; unsafe states may take any allowed set.
 
     Where safety may take several steps to restore, `forced` has the only pairs that its states may take, and states
     outside `required` need not reach their goals.

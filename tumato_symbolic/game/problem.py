@@ -25,7 +25,7 @@ class Problem:
     """Steps, regions and targets.
 
     Policies are relations between *safe* states and sets of actions, functional where they are defined: no nominal
-    run enters an unsafe state after its start, so decisions in unsafe states serve nobody else and come last.
+    run enters an unsafe state after its start, so decisions in unsafe states matter to no other state and come last.
     """
 
     spec: Spec

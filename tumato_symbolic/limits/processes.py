@@ -35,7 +35,7 @@ def age() -> float:
 
 
 def megabytes_of(process: int) -> float:
-    """How much memory a process and its descendants take together, what they share once; 0 where nobody tells."""
+    """How much memory a process and its descendants take together, what they share once; 0 where that is unknown."""
     family = _family(process)
     if len(family) == 1:
         return _resident(process)

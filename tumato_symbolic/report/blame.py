@@ -186,12 +186,12 @@ def near_pieces(place: Place, found: Explanation) -> Iterator[str]:
         if reason.near:
             yield f"\nThe nearest sets in the example of reason {number}:"
             for near in reason.near:
-                yield "\n".join(f"  {line}" for line in near_story(place, near))
+                yield "\n".join(f"  {line}" for line in near_miss_lines(place, near))
             return
 
 
-def near_story(place: Place, near: NearMiss) -> list[str]:
-    """Why a set is not allowed, as a short story."""
+def near_miss_lines(place: Place, near: NearMiss) -> list[str]:
+    """Why a set is not allowed, in one or two lines."""
     first = near.objections[0]
     others = {(each.rule, each.actions) for each in near.objections} - {(first.rule, first.actions)}
     more = f" (and {len(others)} more)" if others else ""

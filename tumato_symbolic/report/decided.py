@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from tumato_symbolic.explain.decision import Decision, GoalNote, Other
 from tumato_symbolic.report.guaranteed import guarantee_json, guarantee_text, shortcoming_json, shortcoming_lines
 from tumato_symbolic.report.layout import count, enumeration
-from tumato_symbolic.report.objections import Place, broken_here, objection_text, story
+from tumato_symbolic.report.objections import Place, broken_here, effects_text, objection_text
 from tumato_symbolic.semantics import Quality, Run, State, action_names, level, named
 from tumato_symbolic.spec import Spec
 
@@ -60,7 +60,7 @@ def _unsafe(place: Place, decision: Decision) -> Iterator[str]:
     else:
         yield f"Safety is restored in {time}, if every effect is the nominal one; else the policy tries again:"
     for number, step in enumerate(way.steps, 1):
-        happens = "all nominal effects" if step.outcome is None else story(place, step.outcome) or "no effect"
+        happens = "all nominal effects" if step.outcome is None else effects_text(place, step.outcome) or "no effect"
         yield f"  {number}. {place.actions(step.chosen)}: {happens}; {_after(place, step.after)}"
 
 

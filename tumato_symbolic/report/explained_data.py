@@ -19,7 +19,7 @@ from tumato_symbolic.explain.explanation import (
     Repair,
     Unexplained,
 )
-from tumato_symbolic.report.blame import goal_sentences, headline, near_story
+from tumato_symbolic.report.blame import goal_sentences, headline, near_miss_lines
 from tumato_symbolic.report.cubes import cube_json, cube_text
 from tumato_symbolic.report.element_roles import role
 from tumato_symbolic.report.explained import Explained
@@ -112,7 +112,7 @@ def _reason_json(done: Explained, reason: Reason) -> dict[str, object]:
         "near": [
             {
                 "actions": list(action_names(spec, near.chosen)),
-                "story": " ".join(line.strip() for line in near_story(place, near)),
+                "story": " ".join(line.strip() for line in near_miss_lines(place, near)),
             }
             for near in reason.near
         ],

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from tumato_symbolic.report.cubes import cube_json, cube_text
 from tumato_symbolic.report.layout import Paint, count
-from tumato_symbolic.report.objections import Place, outcome_json, story
+from tumato_symbolic.report.objections import Place, effects_text, outcome_json
 from tumato_symbolic.semantics import Guarantee, Move, Shortcoming, State, action_names, named
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.verify.guarantees.result import Guarantees, Level
@@ -84,7 +84,7 @@ def _happens(place: Place, here: State, move: Move) -> str:
     changed = tuple((number, value) for number, value in enumerate(move.after) if value != here[number])
     if move.deviation is None:
         return f"as intended ({place.assignment(changed)})"
-    return story(place, move.deviation) or "nothing happens"
+    return effects_text(place, move.deviation) or "nothing happens"
 
 
 def guarantees_json(spec: Spec, found: Guarantees) -> dict[str, object]:

@@ -58,7 +58,7 @@ class Place:
         return enumeration(bodies) or "none: any allowed step will do"
 
 
-def story(place: Place, outcome: EffectSequence) -> str:
+def effects_text(place: Place, outcome: EffectSequence) -> str:
     """How effects happened one after the other."""
     return ", then ".join(_effectuation(place, step) for step in outcome)
 
@@ -78,7 +78,7 @@ def _effectuation(place: Place, step: EffectStep) -> str:
 
 
 def objection_text(place: Place, objection: Objection) -> str:
-    """One objection to a set, as a clause without a full stop; a story has a second, indented line."""
+    """One objection to a set, as a clause without a full stop; an effect sequence has a second, indented line."""
     names = [place.spec.actions[number].name for number in objection.actions]
     rule = place.rule(objection.rule) if objection.rule else ""
     match objection.kind:
@@ -93,11 +93,12 @@ def objection_text(place: Place, objection: Objection) -> str:
         case "reaction-rule":
             return f"the reaction rule {rule} forbids it"
         case "unsafe" if objection.outcome:
-            return f"when {story(place, objection.outcome)},\n  {rule} is broken"
+            return f"when {effects_text(place, objection.outcome)},\n  {rule} is broken"
         case "unsafe":
             return f"{rule} stays broken"
         case "falsified":
-            return f"when {story(place, objection.outcome)},\n  the precondition {rule} of {names[0]} no longer holds"
+            lost = f"the precondition {rule} of {names[0]} no longer holds"
+            return f"when {effects_text(place, objection.outcome)},\n  {lost}"
         case "nominal-unsafe":
             return f"after all nominal effects, {rule} is broken"
 

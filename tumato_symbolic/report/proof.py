@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Final
 
 from tumato_symbolic.report.layout import Paint, count, enumeration, every, seconds
-from tumato_symbolic.report.objections import Place, broken_here, objection_text, outcome_json, story
+from tumato_symbolic.report.objections import Place, broken_here, effects_text, objection_text, outcome_json
 from tumato_symbolic.semantics import Quality, Run, action_names, duration, named
 from tumato_symbolic.spec import Ordering, Restoration, Spec
 from tumato_symbolic.verify.result import PropertyName, PropertyResult, Refutation, Verification
@@ -186,7 +186,7 @@ def _way_there(place: Place, refutation: Refutation) -> Iterator[str]:
     departure = refutation.departure
     if departure is not None:
         yield f"although in {place.state(departure.state)} it executes {place.actions(departure.decision)},"
-        yield f"an outcome of which it is: {story(place, departure.outcome)}"
+        yield f"an outcome of which it is: {effects_text(place, departure.outcome)}"
     elif refutation.closed:
         yield "(no run from a decided state gets there: every outcome of every decision is decided)"
 

@@ -79,7 +79,7 @@ def proof_line(found: UnrealizabilityVerdict) -> str:
 
 
 def _proved_by(found: UnrealizabilityVerdict) -> list[str]:
-    """Who was needed for a proof; the explicit meaning where nobody else was."""
+    """Which provers a proof needed; the explicit meaning where none was."""
     return [*(["z3"] if found.by_solver else []), *(["walk"] if found.by_diagrams else [])] or ["meaning"]
 
 

@@ -16,7 +16,7 @@ from tumato_symbolic.semantics.step import EffectSequence, nominal_agrees, outco
 from tumato_symbolic.spec import Ordering, Spec
 
 MOST_OUTCOMES = 2_000
-"""Of a step, so many outcomes are looked at for a short story, before the first that serves is taken."""
+"""Of a step, so many outcomes are looked at for a short example, before the first that serves is taken."""
 
 
 @dataclass(frozen=True, slots=True)

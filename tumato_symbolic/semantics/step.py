@@ -37,7 +37,7 @@ def outcomes(spec: Spec, state: State, chosen: ActionSet, ordering: Ordering) ->
 def outcomes_in_turn(
     spec: Spec, state: State, chosen: ActionSet, ordering: Ordering
 ) -> Iterator[tuple[State, EffectSequence]]:
-    """`outcomes` one by one, the shortest ways first: there may be more of them than anybody wants to wait for."""
+    """`outcomes` one by one, the shortest ways first: there may be too many to wait for."""
     if not takes_effect(spec, chosen):
         yield state, ()
         return

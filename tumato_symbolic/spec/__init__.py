@@ -80,7 +80,7 @@ __all__ = [
 
 
 def __getattr__(name: str) -> object:
-    """Reading texts is imported on first use: whoever works with specifications only need not pay for it."""
+    """Reading texts is imported on first use: those who work with specifications alone need not pay for it."""
     if name not in ("load", "Loaded"):
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from tumato_symbolic.spec import loading

@@ -13,7 +13,7 @@ MAX_SUGGESTIONS = 100
 
 
 class Findings:
-    """Diagnostics in the making."""
+    """Collects the diagnostics of one run."""
 
     def __init__(self) -> None:
         self.diagnostics: list[Diagnostic] = []

@@ -62,24 +62,24 @@ def _missing(spec: Spec, tree: ast.Specification) -> Iterator[Diagnostic]:
 def _decided(spec: Spec) -> Iterator[Diagnostic]:
     """Predicates that their own variables decide."""
     sizes = {number: len(each.values) for number, each in enumerate(spec.variables)}
-    judge = _Judge(sizes)
+    constants = _Constants(sizes)
     for action in spec.actions:
-        single = [each for rule in action.preconditions for each in judge.of(rule, "precondition")]
+        single = [each for rule in action.preconditions for each in constants.of(rule, "precondition")]
         yield from single
         if not single and len(action.preconditions) > 1:
-            yield from judge.together(action.preconditions, action.name)
+            yield from constants.together(action.preconditions, action.name)
     for rule in (*spec.reaction_rules, *spec.state_rules):
-        yield from judge.of(rule, "rule")
+        yield from constants.of(rule, "rule")
     for rule in spec.assumptions:
-        yield from judge.of(rule, "assumption")
+        yield from constants.of(rule, "assumption")
     for goal in subgoals(spec.goals):
         if isinstance(goal, ConditionalGoal):
-            yield from judge.of(goal.condition, "condition")
+            yield from constants.of(goal.condition, "condition")
     for rule in spec.bodies:
-        yield from judge.of(rule, "goal")
+        yield from constants.of(rule, "goal")
 
 
-class _Judge:
+class _Constants:
     """Decides predicates within one budget."""
 
     def __init__(self, sizes: dict[int, int]) -> None:

@@ -9,8 +9,8 @@ from tumato_symbolic.symbolic.manager import Bdd
 def preferred(encoding: Encoding, relation: Bdd) -> Bdd:
     """The functional part of a relation: for each related state the smallest set, then the one declared first."""
     manager = encoding.manager
-    nobody = manager.cube(_all_idle(encoding))
-    result = relation & nobody
+    nothing = manager.cube(_all_idle(encoding))
+    result = relation & nothing
     undecided = relation & ~manager.cofactor(relation, _all_idle(encoding))
     single = _first_alone(encoding, undecided)
     result = result | single

@@ -155,11 +155,11 @@ def staying_in(encoding: Encoding, ordering: Ordering, safe: Bdd, pending: Bdd, 
     of a state on the way and of the actions that have not taken effect there: preconditions, where they have to hold
     throughout. It also tells which sets are compatible, but may hold others, if that is smaller.
     """
-    somebody = ~without_effect(encoding)
-    asked = somebody if asked is None else asked & somebody
+    acting = ~without_effect(encoding)
+    asked = acting if asked is None else asked & acting
     if ordering == "first":
         found = _after_any_first_effect(encoding, safe & pending, asked) & nominal_predecessor(encoding, safe)
-        return found | (safe & ~somebody)
+        return found | (safe & ~acting)
     stays_safe = _always_safe(encoding, safe & pending)
     return stays_safe | _after_any_first_effect(encoding, stays_safe, asked & ~safe)
 

@@ -14,7 +14,7 @@ from tumato_symbolic.symbolic import Bdd, Encoding
 Value = TypeVar("Value")
 
 TRIES = 2_000
-"""So many changed policies are judged."""
+"""So many changed policies are evaluated."""
 
 
 class Improving:

@@ -32,9 +32,9 @@ def override(evaluator: Evaluator, found: Evaluation, distances: tuple[Layers, .
             candidate = _towards(problem, found.closed_loop.policy, found.failing, distances, number)
             if candidate == found.closed_loop.policy:
                 continue
-            judged = evaluator.evaluate(candidate)
-            if count(judged.failing) < count(found.failing):
-                found, improved = judged, True
+            evaluated = evaluator.evaluate(candidate)
+            if count(evaluated.failing) < count(found.failing):
+                found, improved = evaluated, True
             if found.failing == problem.false:
                 break
     return found

@@ -84,7 +84,7 @@ class ClaimedRanks:
         self.use = CertificateUse("wrong" if self._policy_is_safe() else "set aside", reason)
 
     def join(self, use: CertificateUse) -> None:
-        """Heed what became of the same certificate in a part of the proof that was done apart."""
+        """Take over what became of the same certificate in a part of the proof that was done elsewhere."""
         if use.status == "used":
             self.serve()
         elif use.status == "incomplete":
@@ -106,19 +106,19 @@ class ClaimedRanks:
         self.fall_short(f"it has no {'ranks' if state is None else 'rank'} of {self.described(goal)}{where}")
 
     def tells_nothing_of_restoring(self) -> None:
-        """How unsafe states are left had to be found out."""
+        """How unsafe states are left had to be computed."""
         self.fall_short("it does not say how safety is restored in several steps")
 
     def lacks_effort(self, state: State) -> None:
-        """How an unsafe state is left is missing."""
+        """The effort of an unsafe state is missing."""
         self.fall_short(f"it does not say how safety is restored from {_listed(self._spec, state)}")
 
     def false_effort(self, state: State) -> None:
-        """What is told of how an unsafe state is left does not follow from what is told of its outcomes."""
+        """The effort of an unsafe state does not follow from those of its outcomes."""
         self.reject(f"its effort from {_listed(self._spec, state)} is not enough")
 
     def inexact_effort(self, state: State) -> None:
-        """It takes more than is told of it to leave an unsafe state."""
+        """The effort of an unsafe state is larger than needed."""
         self.fall_short(f"its effort from {_listed(self._spec, state)} is more than it takes")
 
     def false_deviation(self, deviation: Deviation) -> None:
@@ -130,7 +130,7 @@ class ClaimedRanks:
         )
 
     def lacks_deviation(self, state: State, better: ActionSet) -> None:
-        """It is not told why an unsafe state is not left by a better set."""
+        """It is not said why a better set is not chosen in an unsafe state."""
         named_set = ", ".join(action_names(self._spec, better)) or "nothing"
         self.fall_short(f"it does not say why {named_set} is not chosen in {_listed(self._spec, state)}")
 

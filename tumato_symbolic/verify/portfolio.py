@@ -1,4 +1,4 @@
-"""Who proves what: Z3, the walk, explicit-state checking, or whoever is quicker (`docs/certificate.md`)."""
+"""Which prover is asked, and in which order: Z3, the walk, explicit-state checking (`docs/certificate.md`)."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ MANY_RANK_NODES = 500
 
 
 class Prover(Protocol):
-    """Judges the properties of one policy, in the order of `PROPERTIES`."""
+    """Proves or refutes the properties of one policy, in the order of `PROPERTIES`."""
 
     @property
     def use(self) -> CertificateUse:
@@ -163,13 +163,13 @@ class _Both(_Pair):
 
 
 class _Auto(_Pair):
-    """Z3 where it answers soon, the walk first where ranks are large; then whoever can, explicit-state checking last.
+    """Z3 where it answers soon, the walk first where ranks are large; explicit-state checking last.
 
     Where there is little to look at, explicit-state checking comes before the others have used up their time.
     """
 
     def prove(self, name: PropertyName) -> PropertyResult:
-        """The verdict of whoever reaches one."""
+        """The verdict of the first prover that reaches one."""
         result = self._prove(name)
         if name == "safe" and result.verdict == "proved":
             for prover in self._asked:

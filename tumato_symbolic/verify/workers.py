@@ -1,7 +1,7 @@
 """Work done by child processes: each begins with all that is known here, and sends back what it found.
 
 Children are made by `fork`, so that they need no copy of what they work on. Where there is none that is safe (Windows,
-macOS) there are no children, and whoever asks does the work alone.
+macOS) there are no children, and the asking process does the work alone.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ def cores() -> int:
 def in_workers(
     tasks: Iterable[Callable[[], Found]], jobs: int, heard: Callable[[int, Found | Lost], None] | None = None
 ) -> list[Found | Lost]:
-    """The answers of all `tasks`, in their order, whoever comes first; up to `jobs` children work at a time.
+    """The answers of all `tasks`, in their order, whichever comes first; up to `jobs` children work at a time.
 
     A task is taken from `tasks` when there is room for its child; `heard` is told each answer, with the task's number,
     when it comes. Raises `WorkerError` where a task raises, and `MemoryError` where it is out of memory. No child is

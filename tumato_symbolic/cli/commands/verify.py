@@ -12,7 +12,7 @@ from tumato_symbolic.cli.options import CommandOptions, OutputFormat, Target, ar
 from tumato_symbolic.limits import Context
 
 if TYPE_CHECKING:
-    from tumato_symbolic.cli.verifying import Judged
+    from tumato_symbolic.cli.verifying import Verdict
     from tumato_symbolic.report.folder import Folder
     from tumato_symbolic.spec import Ordering, Restoration
     from tumato_symbolic.verify import ProverName
@@ -161,7 +161,7 @@ def run(options: Options, context: Context) -> int:
     return code
 
 
-def stopped(known: Judged | Folder, why: str, options: Options) -> int:
+def stopped(known: Verdict | Folder, why: str, options: Options) -> int:
     """Report what was proved when a limit was met."""
     from tumato_symbolic.cli.verifying import ended
     from tumato_symbolic.report.folder import Folder
@@ -173,7 +173,7 @@ def stopped(known: Judged | Folder, why: str, options: Options) -> int:
     return _report(ended(known, why), options)
 
 
-def _report(done: Judged, options: Options) -> int:
+def _report(done: Verdict, options: Options) -> int:
     from tumato_symbolic.cli.inputs import show_warnings
     from tumato_symbolic.cli.output import show
     from tumato_symbolic.cli.verifying import exit_code

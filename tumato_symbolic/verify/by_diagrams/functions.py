@@ -68,7 +68,7 @@ class Functions:
         return self.remembered > self.most
 
     def check_time(self) -> None:
-        """Raises `BudgetError` when the deadline has passed, or whoever watches says so."""
+        """Raises `BudgetError` when the deadline has passed, or the context says so."""
         if self.deadline is not None and time.monotonic() >= self.deadline:
             raise BudgetError("the walk did not end within the time limit")
         if self.watch is not None:

@@ -31,7 +31,7 @@ FEWEST_NODES = 2_000
 class WalkProver:
     """Proves or refutes the properties of one policy.
 
-    `policy_is_safe` is whether somebody else has proved `safe`; otherwise the walk looks where it fails by itself.
+    `policy_is_safe` is whether another prover has proved `safe`; otherwise the walk finds out where it fails.
     """
 
     def __init__(self, spec: Spec, policy: Policy, ordering: Ordering, budget: Budget | None = None) -> None:

@@ -1,4 +1,4 @@
-"""The properties of a policy, judged state by state: the prover of last resort (`docs/certificate.md`)."""
+"""The properties of a policy, checked state by state: the prover that is asked last (`docs/certificate.md`)."""
 
 from __future__ import annotations
 

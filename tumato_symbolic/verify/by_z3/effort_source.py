@@ -61,7 +61,7 @@ class EffortSource:
         return found
 
     def _compare(self, claimed: Restoring) -> None:
-        """Heed where nominal efforts of the certificate are not those that the policy has."""
+        """Record where nominal efforts of the certificate are not those that the policy has."""
         for state in self._unsafe or ():
             worst, nominal = (claimed.efforts.evaluate(root, state) for root in (claimed.worst, claimed.nominal))
             if worst is None and nominal != self._nominal(state):

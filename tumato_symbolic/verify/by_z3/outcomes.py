@@ -76,7 +76,7 @@ class AnyOutcome:
         self.reached = Place([self._code(variable, code) for variable, code in enumerate(place.bits)])
 
     def _exclusions(self, ordering: Ordering) -> list[Term]:
-        """Who does not take effect beside whom: nobody under `first`, and never two that may not run together."""
+        """Pairs of actions that do not both take effect: all under `first`, and those that may not run together."""
         if ordering == "first":
             return [at_most_one(self._used.values())]
         used = [self._used.get(number, False) for number in range(len(self._spec.actions))]

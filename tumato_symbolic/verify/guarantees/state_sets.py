@@ -1,4 +1,4 @@
-"""Sets of states as numbers, examples and cubes, whoever found them."""
+"""Sets of states as numbers, examples and cubes."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from tumato_symbolic.verify.by_diagrams.walk import Walk
 from tumato_symbolic.verify.guarantees.result import StateCube
 
 MOST_CUBES = 200
-"""A longer list is no help for anybody."""
+"""A longer list helps no reader."""
 
 
 class StateSets:
