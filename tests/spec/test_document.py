@@ -7,7 +7,7 @@ import pytest
 
 from tests.spec.marked import codes
 from tumato_symbolic.diagnostics import Code
-from tumato_symbolic.spec import actions, effects, lint, names, predicates, resolve
+from tumato_symbolic.spec import actions, effects, lint, names, predicates, resolve, values
 from tumato_symbolic.syntax import nesting, parser, reading, tokens
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -25,7 +25,8 @@ LIMITS = [
     ("atoms and operators of a predicate, aliases expanded", predicates.MAX_TERMS),
     ("atoms and operators of all predicates, aliases expanded", predicates.MAX_TERMS_IN_ALL),
     ("state variables", names.MAX_VARIABLES),
-    ("values of a state variable", names.MAX_VALUES),
+    ("values of a state variable", values.MAX_VALUES),
+    ("values of all state variables together", values.MAX_VALUES_IN_ALL),
     ("actions", names.MAX_ACTIONS),
     ("a duration", actions.MAX_DURATION),
     ("`max_plan_length`", resolve.MAX_PLAN_LENGTH),

@@ -20,8 +20,13 @@ def config(settings: str) -> str:
     return f"{FULL}BEGIN CONFIG {settings} END CONFIG"
 
 
+def numeric(text: str) -> str:
+    """A state rule beside a variable `N` with the values 0 to 3."""
+    return rule(text).replace("state T can", "state N can be 0..3 state T can")
+
+
 MISTAKES = [
-    ("TUM104", rule("S «=» a"), "write `is`"),
+    ("TUM104", rule("S «==» a"), "write `is`"),
     ("TUM104", rule("S is a «&&» S is b"), "write `AND`"),
     ("TUM104", rule("S«\u00a0»is a"), "write a plain space"),
     ("TUM104", rule("S is a «\ufeff» AND S is b"), "write a plain space"),
@@ -109,6 +114,29 @@ MISTAKES = [
     ("TUM306", action("«alternative effects: S is a, NOT S is a»"), "has to be possible"),
     ("TUM309", action("«duration: -1»"), "whole numbers"),
     ("TUM310", config("«max_plan_length: 0»"), "one step or more"),
+    ("TUM105", numeric("N in {«}»"), None),
+    ("TUM114", "BEGIN STATE VECTOR state N can be 0, «007» END STATE VECTOR", "write `7`"),
+    ("TUM114", "BEGIN STATE VECTOR state N can be 0, «+3» END STATE VECTOR", "such as `3`"),
+    ("TUM114", "BEGIN STATE VECTOR state N can be «-0», 3 END STATE VECTOR", "such as `0`"),
+    ("TUM114", "BEGIN STATE VECTOR state N can be «2.5» END STATE VECTOR", "a whole number"),
+    ("TUM114", numeric("N is «03»"), "write `3`"),
+    ("TUM114", numeric("N in {0..«03»}"), "write `3`"),
+    ("TUM202", numeric("N is «7»"), "its values are `0`"),
+    ("TUM202", numeric("N is not «x»"), "its values are `0`"),
+    ("TUM202", numeric("N = «7»"), "its values are `0`"),
+    ("TUM202", numeric("N != «7»"), "its values are `0`"),
+    ("TUM202", numeric("N in {1, «5..9»}"), "its values are `0`"),
+    ("TUM202", rule("S not in {a, «c»}"), "its values are `a` and `b`"),
+    ("TUM203", "BEGIN STATE VECTOR state N can be 0..5, «5..7» END STATE VECTOR", "remove one"),
+    ("TUM311", "BEGIN STATE VECTOR state N can be 0, «1..10000» END STATE VECTOR", "split"),
+    ("TUM314", "BEGIN STATE VECTOR state N can be «3..1» END STATE VECTOR", "write `1..3`"),
+    ("TUM314", "BEGIN STATE VECTOR state N can be 1..«b» END STATE VECTOR", "from one number to another"),
+    ("TUM314", numeric("N in {«3..1»}"), "write `1..3`"),
+    ("TUM315", rule("S «=» a"), "write `S is a`"),
+    ("TUM315", rule("S «!=» a"), "write `S is not a`"),
+    ("TUM315", rule("S «<» 3"), "the values of `S` are `a` and `b`"),
+    ("TUM315", numeric("N «>=» S"), "the values of `S` are `a` and `b`"),
+    ("TUM201", numeric("N < «M»"), "the state variables are"),
 ]
 
 

@@ -25,6 +25,16 @@ def effects(text: str) -> str:
     return f"BEGIN STATE VECTOR {variables} END STATE VECTOR {action}"
 
 
+def ranges(count: int, highest: int, rules: str = "", *aliases: str) -> str:
+    """Variables with many values each, state rules and aliases about them."""
+    variables = " ".join(f"state S{number} can be 0..{highest}" for number in range(count))
+    defined = " ".join(f"define a{number} as {each}" for number, each in enumerate(aliases))
+    return (
+        f"BEGIN STATE VECTOR {variables} END STATE VECTOR "
+        f"BEGIN ALIASES {defined} END ALIASES BEGIN STATE RULES {rules} END STATE RULES"
+    )
+
+
 BOMB = "define a0 as S is a " + " ".join(f"define a{n} as a{n - 1} AND a{n - 1}" for n in range(1, 60))
 CHAIN = "define a0 as S is a " + " ".join(f"define a{n} as a{n - 1}" for n in range(1, 5000))
 LADDER = "define a0 as S is a " + " ".join(f"define a{n} as NOT a{n - 1}" for n in range(1, 5000))
@@ -53,6 +63,11 @@ HOSTILE = {
     "an alias bomb": (rules("a59", BOMB), "TUM308"),
     "an alias ladder": (rules("a4999", LADDER), "TUM308"),
     "an alias circle": (rules("a4999", CIRCLE), "TUM206"),
+    "a long range": ("BEGIN STATE VECTOR state S can be 0..999999999999999999 END STATE VECTOR", "TUM311"),
+    "many ranges": (ranges(1000, 9999), "TUM311"),
+    "a large comparison": (ranges(2, 9999, "rule: S0 < S1"), "TUM308"),
+    "large comparisons": (ranges(2, 9999, " ".join(f"rule: S0 < {n}" for n in range(1, 9999))), "TUM308"),
+    "large aliases": (ranges(1, 9999, "", *(f"S0 < {n}" for n in range(1, 9999))), "TUM308"),
     "effects without end": (effects(", ".join(f"(S{n} is a OR S{n} is b)" for n in range(60))), "TUM307"),
     "effects hard to find": (effects(", ".join(f"(S{n} is a IFONLYIF S{59 - n} is b)" for n in range(60))), "TUM307"),
 }

@@ -7,11 +7,13 @@ from typing import Literal, TypeVar
 from hypothesis import strategies as st
 
 from tumato_symbolic.syntax import ast
+from tumato_symbolic.syntax.parser import AFTER_VALUES
 from tumato_symbolic.syntax.tokens import HARD
 
 SOFT = [
     "goal", "on", "is", "can", "be", "as", "state", "action", "effects", "cost", "when", "then", "rule", "GOALS",
     "duration", "nominal", "controlled", "alternative", "preconditions", "resources", "STATE", "type", "any", "assume",
+    "not", "in",
 ]  # fmt: skip
 RESERVED = frozenset({"true", "false", "none", "executing"})
 
@@ -25,9 +27,17 @@ words = st.one_of(st.sampled_from(SOFT), st.from_regex(r"[A-Za-z_][A-Za-z0-9_]{0
 values = words.filter(lambda word: word not in HARD).map(ast.Name)
 names = words.filter(lambda word: word not in HARD | RESERVED).map(ast.Name)
 
+numbers = st.integers(-(10**17), 10**17).map(str).map(ast.Name)
+settled = values | numbers
+items = settled | st.builds(ast.Range, settled, settled)
+OPERATORS: tuple[ast.Operator, ...] = ("<", "<=", ">", ">=", "=", "!=")
+
 atoms = st.one_of(
     st.booleans().map(ast.Truth),
-    st.builds(ast.Comparison, names, values),
+    st.builds(ast.Comparison, names, settled),
+    st.builds(ast.Difference, names, settled.filter(lambda each: each.text not in AFTER_VALUES)),
+    st.builds(ast.Membership, names, st.lists(items, min_size=1, max_size=3).map(tuple), st.booleans()),
+    st.builds(ast.Ordering, names, st.sampled_from(OPERATORS), settled),
     st.builds(ast.Execution, values),
     names.map(ast.Reference),
 )
@@ -69,7 +79,7 @@ goals: st.SearchStrategy[ast.Goal] = st.deferred(
     lambda: st.one_of(simple_goals, st.builds(ast.ConditionalGoal, predicates, simple_goals | goal_lists), goal_lists)
 )
 blocks = st.one_of(
-    _some(st.builds(ast.VariableDeclaration, names, _some(values, 1))).map(ast.StateVector),
+    _some(st.builds(ast.VariableDeclaration, names, _some(items, 1))).map(ast.StateVector),
     _some(st.builds(ast.AliasDefinition, names, predicates)).map(ast.Aliases),
     _some(names.map(ast.ResourceDeclaration)).map(ast.Resources),
     _some(st.builds(ast.ActionDeclaration, names, _some(fields))).map(ast.Actions),

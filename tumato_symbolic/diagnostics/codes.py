@@ -53,6 +53,8 @@ class Code(Enum):
     TUM311 = ("error", "too many declarations")
     TUM312 = ("error", "no valid state")
     TUM313 = ("error", "a setting that a command does not support")
+    TUM314 = ("error", "a range that is none")
+    TUM315 = ("error", "a comparison of values that are not numbers")
 
     TUM321 = ("warning", "an unused resource")
     TUM322 = ("warning", "an unused alias")

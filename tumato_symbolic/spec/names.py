@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
@@ -10,10 +10,10 @@ from tumato_symbolic.diagnostics import Code, Note, Span
 from tumato_symbolic.diagnostics.wording import quoted
 from tumato_symbolic.spec.collector import Findings
 from tumato_symbolic.spec.specification import Variable
+from tumato_symbolic.spec.values import declared_values
 from tumato_symbolic.syntax import ast
 
 MAX_VARIABLES = 1_000
-MAX_VALUES = 10_000
 MAX_ACTIONS = 1_000
 
 Kind: TypeAlias = Literal["state variable", "alias", "resource", "action"]
@@ -32,7 +32,10 @@ class Declared:
 
 @dataclass(frozen=True, slots=True)
 class Names:
-    """All declarations, in order, without repetitions, and what each name stands for."""
+    """All declarations, in order, without repetitions, and what each name stands for.
+
+    `unsettled` are the variables whose values are in error.
+    """
 
     variables: tuple[Variable, ...]
     values: tuple[Mapping[str, int], ...]
@@ -40,6 +43,7 @@ class Names:
     resources: tuple[ast.ResourceDeclaration, ...]
     actions: tuple[ast.ActionDeclaration, ...]
     table: Mapping[str, Declared]
+    unsettled: frozenset[int] = frozenset()
 
     def of_kind(self, kind: Kind) -> list[str]:
         """All names of one kind, in order of declaration."""
@@ -58,14 +62,15 @@ def collect(tree: ast.Specification, findings: Findings) -> Names:
     _limit(declared["state variable"], MAX_VARIABLES, "state variables", findings)
     _limit(declared["action"], MAX_ACTIONS, "actions", findings)
     variables = [each for each in declared["state variable"] if isinstance(each, ast.VariableDeclaration)]
-    values = [tuple(_distinct_values(each, findings)) for each in variables]
+    values = declared_values(variables, findings)
     return Names(
-        tuple(Variable(each.name.text, own, each.name.span) for each, own in zip(variables, values, strict=True)),
-        tuple({value: number for number, value in enumerate(own)} for own in values),
+        tuple(Variable(each.name.text, own.texts, each.name.span) for each, own in zip(variables, values, strict=True)),
+        tuple({value: number for number, value in enumerate(own.texts)} for own in values),
         tuple(each for each in declared["alias"] if isinstance(each, ast.AliasDefinition)),
         tuple(each for each in declared["resource"] if isinstance(each, ast.ResourceDeclaration)),
         tuple(each for each in declared["action"] if isinstance(each, ast.ActionDeclaration)),
         table,
+        frozenset(number for number, each in enumerate(values) if not each.complete),
     )
 
 
@@ -110,31 +115,10 @@ def _declare(table: dict[str, Declared], name: ast.Name, kind: Kind, number: int
     return False
 
 
-def _distinct_values(declaration: ast.VariableDeclaration, findings: Findings) -> Iterable[str]:
-    """The values in order; the first repetition of each is reported."""
-    places: dict[str, Span] = {}
-    reported: set[str] = set()
-    for value in declaration.values:
-        if value.text not in places:
-            places[value.text] = value.span
-        elif value.text not in reported:
-            reported.add(value.text)
-            findings.add(
-                Code.TUM203,
-                f"{quoted(declaration.name.text)} lists the value {quoted(value.text)} twice",
-                value.span,
-                "remove one",
-                (Note("it is listed first here", places[value.text]),),
-            )
-    _limit(list(declaration.values), MAX_VALUES, "values of one state variable", findings)
-    return places
-
-
-def _limit(declared: Sequence[ast.Declaration | ast.Name], limit: int, what: str, findings: Findings) -> None:
+def _limit(declared: Sequence[ast.Declaration], limit: int, what: str, findings: Findings) -> None:
     if len(declared) > limit:
-        first = declared[limit]
-        span = first.span if isinstance(first, ast.Name) else first.name.span
-        findings.add(Code.TUM311, f"there are more than {limit:,} {what}", span, "split the specification")
+        message = f"there are more than {limit:,} {what}"
+        findings.add(Code.TUM311, message, declared[limit].name.span, "split the specification")
 
 
 def article(kind: str) -> str:

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from tumato_symbolic.diagnostics import Code, Note, Span
 from tumato_symbolic.diagnostics.wording import listed, quoted
 from tumato_symbolic.spec.collector import Findings
-from tumato_symbolic.spec.formula import FALSE, TRUE, And, Executing, Formula, Iff, Is, Not, Or
+from tumato_symbolic.spec.comparisons import Comparisons, ValuePredicate
+from tumato_symbolic.spec.formula import FALSE, TRUE, And, Executing, Formula, Iff, Not, Or
 from tumato_symbolic.spec.names import Declared, Kind, Names, article
 from tumato_symbolic.spec.specification import Rule
 from tumato_symbolic.syntax import ast
@@ -49,8 +50,11 @@ class Predicates:
         self._excerpts = excerpts
         self._findings = findings
         self._lost = lost
+        self._comparisons = Comparisons(names, self.named, findings, lost, MAX_TERMS)
         self._aliases: dict[int, Resolved | None] = {}
         self._terms = 0
+        self._written = 0
+        self._gave_up = False
         self.used_aliases: set[int] = set()
         self._references = tuple(self._references_of(each.predicate) for each in names.aliases)
         for number in range(len(names.aliases)):
@@ -67,8 +71,7 @@ class Predicates:
             return None
         self._terms += resolved.terms
         if self._terms > MAX_TERMS_IN_ALL:
-            self._too_large(predicate.span, f"all predicates together have more than {MAX_TERMS_IN_ALL:,} terms")
-            self._terms = -(10**12)
+            self._too_many(predicate.span)
             return None
         if no_executing_in is not None and resolved.executing is not None:
             self._misplaced(resolved.executing, no_executing_in)
@@ -114,11 +117,21 @@ class Predicates:
         return f"did you mean `{near}`?" if near else None
 
     def _resolve(self, predicate: ast.Predicate) -> Resolved | None:
+        """A predicate of the text or a part of one; None, and a report, where it is in error.
+
+        What is written out may be much longer than the text, also where nothing uses it: that is counted here.
+        """
+        if self._gave_up:
+            return None
+        self._written += 1
+        if self._written > MAX_TERMS_IN_ALL:
+            self._too_many(predicate.span)
+            return None
         match predicate:
             case ast.Truth(value):
                 return Resolved(TRUE if value else FALSE, 1, 1, None)
-            case ast.Comparison(variable, value):
-                return self._comparison(variable, value)
+            case ast.Comparison() | ast.Difference() | ast.Membership() | ast.Ordering():
+                return self._about_values(predicate)
             case ast.Execution(action, span):
                 declared = self.named(action, "action")
                 return None if declared is None else Resolved(Executing(declared.number), 1, 1, Mention(span, None))
@@ -131,23 +144,20 @@ class Predicates:
             case ast.Implication(left, right) | ast.Equivalence(left, right):
                 return self._combined(predicate, (left, right))
 
-    def _comparison(self, variable: ast.Name, value: ast.Name) -> Resolved | None:
-        declared = self.named(variable, "state variable")
-        if declared is None:
+    def _about_values(self, predicate: ValuePredicate) -> Resolved | None:
+        found = self._comparisons.written(predicate)
+        if found is None:
             return None
-        numbers = self._names.values[declared.number]
-        number = numbers.get(value.text)
-        if number is not None:
-            return Resolved(Is(declared.number, number), 1, 1, None)
-        if value.text not in self._lost:
-            near = self._findings.similar(value.text, list(numbers))
-            self._findings.add(
-                Code.TUM202,
-                f"{quoted(variable.text)} has no value {quoted(value.text)}",
-                value.span,
-                f"did you mean `{near}`?" if near else f"its values are {listed(list(numbers))}",
-                (Note(f"{quoted(variable.text)} is declared here", declared.span),),
-            )
+        self._written += found.terms - 1
+        return self._within(Resolved(found.formula, found.terms, found.depth, None), predicate.span)
+
+    def _within(self, resolved: Resolved, span: Span) -> Resolved | None:
+        """What was resolved, unless it is too large: that is reported."""
+        if resolved.terms <= MAX_TERMS and resolved.depth <= MAX_DEPTH:
+            return resolved
+        large = resolved.terms > MAX_TERMS
+        what = f"has more than {MAX_TERMS:,} terms" if large else f"is more than {MAX_DEPTH} levels deep"
+        self._too_large(span, f"with its aliases expanded, this {what}")
         return None
 
     def _reference(self, name: ast.Name, span: Span) -> Resolved | None:
@@ -177,16 +187,18 @@ class Predicates:
                 formula = Or(formulas)
             case ast.Implication():
                 formula = Or((Not(formulas[0]), formulas[1]))
+                self._written += 1
                 terms, depth = terms + 1, max(parts[0].depth + 2, parts[1].depth + 1)
             case _:
                 formula = Iff(*formulas)
-        if terms > MAX_TERMS or depth > MAX_DEPTH:
-            what = (
-                f"has more than {MAX_TERMS:,} terms" if terms > MAX_TERMS else f"is more than {MAX_DEPTH} levels deep"
-            )
-            self._too_large(predicate.span, f"with its aliases expanded, this {what}")
-            return None
-        return Resolved(formula, terms, depth, next((each.executing for each in parts if each.executing), None))
+        executing = next((each.executing for each in parts if each.executing), None)
+        return self._within(Resolved(formula, terms, depth, executing), predicate.span)
+
+    def _too_many(self, span: Span) -> None:
+        """Report, once, that all predicates together are too large, and resolve no more of them."""
+        if not self._gave_up:
+            self._too_large(span, f"all predicates together have more than {MAX_TERMS_IN_ALL:,} terms")
+            self._gave_up = True
 
     def _too_large(self, span: Span, message: str) -> None:
         self._findings.add(Code.TUM308, message, span, "aliases that use aliases grow quickly; use fewer of them")

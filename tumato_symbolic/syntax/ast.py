@@ -45,6 +45,19 @@ class Name(Node):
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Range(Node):
+    """`LOW..HIGH`: all whole numbers from one to the other."""
+
+    low: Name
+    high: Name
+    span: Span = NOWHERE
+
+
+Item: TypeAlias = Name | Range
+"""What stands in a list of values: one, by name or as a number, or a range of numbers."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Truth(Node):
     """`true` or `false`."""
 
@@ -59,6 +72,42 @@ class Comparison(Node):
     variable: Name
     value: Name
     span: Span = NOWHERE
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Difference(Node):
+    """`VARIABLE is not VALUE`."""
+
+    variable: Name
+    value: Name
+    span: Span = NOWHERE
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Membership(Node):
+    """`VARIABLE in {VALUE, …}`, or `not in`."""
+
+    variable: Name
+    items: tuple[Item, ...]
+    negated: bool
+    span: Span = NOWHERE
+
+
+Operator: TypeAlias = Literal["<", "<=", ">", ">=", "=", "!="]
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Ordering(Node):
+    """`VARIABLE < NUMBER` or `VARIABLE < VARIABLE`, with this operator or another; `sign` is where that stands."""
+
+    variable: Name
+    operator: Operator
+    other: Name
+    sign: Span = NOWHERE
+    span: Span = NOWHERE
+
+    def _values(self) -> tuple[object, ...]:
+        return self.variable, self.operator, self.other
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -120,7 +169,18 @@ class Equivalence(Node):
 
 
 Predicate: TypeAlias = (
-    Truth | Comparison | Execution | Reference | Negation | Conjunction | Disjunction | Implication | Equivalence
+    Truth
+    | Comparison
+    | Difference
+    | Membership
+    | Ordering
+    | Execution
+    | Reference
+    | Negation
+    | Conjunction
+    | Disjunction
+    | Implication
+    | Equivalence
 )
 
 
@@ -129,7 +189,7 @@ class VariableDeclaration(Node):
     """`state NAME can be VALUE, …`: one value or more."""
 
     name: Name
-    values: tuple[Name, ...]
+    values: tuple[Item, ...]
     span: Span = NOWHERE
 
 

@@ -193,6 +193,30 @@ def comparison(children: Children) -> ast.Comparison:
     return ast.Comparison(variable, value, _span(children))
 
 
+def difference(children: Children) -> ast.Difference:
+    variable, value = _nodes(children)
+    return ast.Difference(variable, value, _span(children))
+
+
+def membership(children: Children) -> ast.Membership:
+    variable, *items = _nodes(children)
+    return ast.Membership(variable, tuple(items), children[1].text == "not", _span(children))
+
+
+def ordering(children: Children) -> ast.Ordering:
+    variable, operator, other = children
+    return ast.Ordering(variable, operator.text, other, operator.span, _span(children))
+
+
+def range(children: Children) -> ast.Range:
+    low, high = _nodes(children)
+    return ast.Range(low, high, _span(children))
+
+
+def number(children: Children) -> ast.Name:
+    return ast.Name(children[0].text, children[0].span)
+
+
 def execution(children: Children) -> ast.Execution:
     return ast.Execution(children[-1], _span(children))
 

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from tumato_symbolic.diagnostics import Code, Diagnostic, Note, Span
 from tumato_symbolic.diagnostics.wording import MAX_QUOTED, listed, quoted
 from tumato_symbolic.syntax.situation import Situation
-from tumato_symbolic.syntax.tokens import BLOCKS, HARD, MAX_DIGITS, Token
+from tumato_symbolic.syntax.tokens import BLOCKS, COMPARING, HARD, MAX_DIGITS, Token
 
 _OPERATORS = ("AND", "OR", "IFONLYIF", "THEN")
 _FORMS = {
@@ -26,8 +26,8 @@ _FORMS = {
     "restoration": "write `restoration: one_step`, `restoration: bounded` or `restoration: fair`",
     "severity": "write `severity: 1`",
 }
-_SYMBOLS = {"=": "is", "==": "is", "&": "AND", "&&": "AND", "|": "OR", "||": "OR", "!": "NOT", "->": "IF … THEN …"}
-_SYMBOLS |= {"=>": "IF … THEN …", "<->": "IFONLYIF", "<=>": "IFONLYIF", "!=": "NOT … is …", ";": ","}
+_SYMBOLS = {"==": "is", "&": "AND", "&&": "AND", "|": "OR", "||": "OR", "!": "NOT", "->": "IF … THEN …"}
+_SYMBOLS |= {"=>": "IF … THEN …", "<->": "IFONLYIF", "<=>": "IFONLYIF", "!==": "!=", ";": ","}
 _AFTER = {
     "is": "a value",
     "be": "a value",
@@ -94,11 +94,10 @@ def _block_title(here: Situation) -> Diagnostic | None:
 
 def _character(here: Situation) -> Diagnostic | None:
     token = here.token
-    if token.kind != "other":
+    for_colon = here.expected == {":"} and token.text in COMPARING
+    if token.kind != "other" and not for_colon:
         return None
-    meant = _SYMBOLS.get(token.text)
-    if here.expected == {":"}:
-        meant = ":"
+    meant = ":" if here.expected == {":"} else _SYMBOLS.get(token.text)
     way_out = f"write `{meant}`" if meant else _FIRST if here.index == 0 else None
     if not token.text.isprintable() or token.text.isspace():
         way_out = "remove it, or write a plain space"
@@ -115,13 +114,21 @@ def _malformed(here: Situation) -> Diagnostic | None:
     token = here.token
     if token.kind not in ("malformed", "number"):
         return None
-    if "NUMBER" in here.expected:
-        long = len(token.text.lstrip("-")) > MAX_DIGITS
-        way_out = f"numbers have at most {MAX_DIGITS} digits" if long else "write a whole number, such as `10`"
-        return Diagnostic(Code.TUM114, f"{quoted(token.text)} is not a whole number in range", token.span, help=way_out)
+    like_a_number = re.fullmatch(r"[+-]?[0-9.]+", token.text) is not None
+    if "NUMBER" in here.expected and (like_a_number or "NAME" not in here.expected):
+        return Diagnostic(
+            Code.TUM114, f"{quoted(token.text)} is not a whole number in range", token.span, help=_number_help(token)
+        )
     if "NAME" in here.expected:
         return Diagnostic(Code.TUM113, f"{quoted(token.text)} is not a name", token.span, help=_NAME_HELP)
     return None
+
+
+def _number_help(token: Token) -> str:
+    if len(token.text.lstrip("+-")) > MAX_DIGITS:
+        return f"numbers have at most {MAX_DIGITS} digits"
+    meant = re.fullmatch(r"\+?(-?)0*([0-9]+)", token.text)
+    return f"write a whole number, such as `{int(''.join(meant.groups())) if meant else 10}`"
 
 
 def _wrong_case(here: Situation) -> Diagnostic | None:

@@ -13,7 +13,7 @@ from tumato_symbolic.syntax.grammar import Grammar, grammar
 from tumato_symbolic.syntax.nesting import MAX_NESTING, deepest
 from tumato_symbolic.syntax.parsed import Parsed
 from tumato_symbolic.syntax.stack import Row, Stack
-from tumato_symbolic.syntax.tokens import BLOCKS, HARD, TITLES, Token, tokenize
+from tumato_symbolic.syntax.tokens import BLOCKS, COMPARING, HARD, TITLES, Token, tokenize
 
 if TYPE_CHECKING:
     from tumato_symbolic.syntax.situation import Situation
@@ -31,6 +31,12 @@ _FOLLOWED_BY = {
     "alternative": ("effects",),
 }
 """What shows that a word is the keyword, where it could be the name of a variable or an alias as well."""
+
+AFTER_VALUES = frozenset({"when", "then", "action", "define", "for", "end"})
+"""Words that go on after `S is not`, so that `not` is the value there."""
+
+_TWO_WORDS = frozenset({("controlled", "resources"), ("nominal", "effects"), ("alternative", "effects")})
+"""Titles of fields that go on likewise."""
 
 _RESTARTS = frozenset(
     {"BEGIN", "END", "state", "define", "resource", "action", "rule", "assume", "goal", "when"}
@@ -137,9 +143,22 @@ class _Run:
         text, following = self.tokens[index].text, self.tokens[index + 1]
         if text in _FOLLOWED_BY:
             return following.text in _FOLLOWED_BY[text]
+        if text == "not":
+            return possible and self._denies(index)
         if text == "action":
             return possible and following.kind == "word" and following.text not in HARD | {"is"}
         return possible
+
+    def _denies(self, index: int) -> bool:
+        """Whether `not` after `is` denies the value after it, rather than being the value."""
+        value, after = self.tokens[index + 1 : index + 3] if index + 2 < len(self.tokens) else (None, None)
+        if value is None or after is None:
+            return False
+        if value.kind == "number":
+            return True
+        if value.kind != "word" or value.text in HARD | AFTER_VALUES or after.text == ":":
+            return False
+        return (value.text, after.text) not in _TWO_WORDS
 
     def _recover(self) -> None:
         """Report the token at `index`, and make the parser ready to go on with the token at the new `index`."""
@@ -164,7 +183,8 @@ class _Run:
         if rest := situation.meant_title_rest:
             return self._replace(len(rest), *rest)
         if situation.expected == {":"} and not situation.lacks_goal_type:
-            return self._replace(int(self.tokens[self.index].kind == "other"), ":")
+            token = self.tokens[self.index]
+            return self._replace(int(token.kind == "other" or token.text in COMPARING), ":")
         if situation.expected == {"priority", "constraint"} and situation.token.kind == "word":
             return self._replace(1, "priority")
         if situation.lacks_goal_type and situation.token.text == "when":

@@ -37,21 +37,41 @@ def _predicate(predicate: ast.Predicate) -> tuple[int, str]:
             return _CONJUNCTION, " AND ".join([print_predicate(each, _NEGATION) for each in operands])
         case ast.Negation(operand):
             return _NEGATION, f"NOT {print_predicate(operand, _NEGATION)}"
+        case _:
+            return _BASIC, _basic(predicate)
+
+
+def _basic(
+    predicate: ast.Truth
+    | ast.Comparison
+    | ast.Difference
+    | ast.Membership
+    | ast.Ordering
+    | ast.Execution
+    | ast.Reference,
+) -> str:
+    match predicate:
         case ast.Comparison(variable, value):
-            return _BASIC, f"{variable.text} is {value.text}"
+            return f"{variable.text} is {value.text}"
+        case ast.Difference(variable, value):
+            return f"{variable.text} is not {value.text}"
+        case ast.Membership(variable, items, negated):
+            return f"{variable.text} {'not in' if negated else 'in'} {{{_items(items)}}}"
+        case ast.Ordering(variable, operator, other):
+            return f"{variable.text} {operator} {other.text}"
         case ast.Execution(action):
-            return _BASIC, f"executing {action.text}"
+            return f"executing {action.text}"
         case ast.Reference(name):
-            return _BASIC, name.text
+            return name.text
         case ast.Truth(value):
-            return _BASIC, "true" if value else "false"
+            return "true" if value else "false"
 
 
 def _block(block: ast.Block) -> Iterator[str]:
     match block:
         case ast.StateVector(variables):
             yield from _framed(
-                "STATE VECTOR", (f"state {each.name.text} can be {_names(each.values)}" for each in variables)
+                "STATE VECTOR", (f"state {each.name.text} can be {_items(each.values)}" for each in variables)
             )
         case ast.Aliases(definitions):
             lines = (f"define {each.name.text} as {print_predicate(each.predicate)}" for each in definitions)
@@ -84,6 +104,11 @@ def _framed(title: str, lines: Iterable[str]) -> Iterator[str]:
 
 def _names(names: tuple[ast.Name, ...]) -> str:
     return ", ".join(each.text for each in names) or "none"
+
+
+def _items(items: tuple[ast.Item, ...]) -> str:
+    texts = (each.text if isinstance(each, ast.Name) else f"{each.low.text}..{each.high.text}" for each in items)
+    return ", ".join(texts)
 
 
 def _predicates(predicates: tuple[ast.Predicate, ...]) -> str:

@@ -30,6 +30,9 @@ BLOCKS = (
 TITLES = frozenset(word for title in BLOCKS for word in title)
 """The words in titles."""
 
+COMPARING = frozenset({"<", "<=", ">", ">=", "=", "!="})
+"""The symbols that compare numbers."""
+
 MISLEADING = re.compile(
     r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028\u2029"  # control characters, some of which end a line in some editors
     r"\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]"  # what changes the direction of writing
@@ -71,9 +74,9 @@ class Tokens:
 def pattern(space: str, comment: str, name: str, number: str) -> re.Pattern[str]:
     """The pattern of one token, made of the terminals that the grammar defines."""
     return re.compile(
-        rf"(?P<space>{space})|(?P<comment>{comment})|(?P<word>{name}(?!\w))|(?P<number>{number}(?![\w.]))"
-        r"|(?P<symbol>[:,()])|(?P<malformed>-?\d[\w.]*)|(?P<unclosed>/\*)"
-        r"|(?P<other>[^\s\w:,()/*]+|\w+|.)"
+        rf"(?P<space>{space})|(?P<comment>{comment})|(?P<word>{name}(?!\w))|(?P<number>{number}(?!\w|\.(?!\.)))"
+        r"|(?P<symbol>[:,(){}]|\.\.|(?:<=|>=|!=|[<>=])(?![=<>!&|]|->))|(?P<malformed>[+-]?\d[\w.]*)"
+        r"|(?P<unclosed>/\*)|(?P<other>[^\s\w:,(){}/*]+|\w+|.)"
     )
 
 

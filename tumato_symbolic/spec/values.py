@@ -1,0 +1,87 @@
+"""The values that declarations of state variables list."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from tumato_symbolic.diagnostics import Code, Note, Span
+from tumato_symbolic.diagnostics.wording import quoted
+from tumato_symbolic.spec.collector import Findings
+from tumato_symbolic.spec.numbers import bounds, is_right
+from tumato_symbolic.syntax import ast
+
+MAX_VALUES = 10_000
+"""The most values of one state variable."""
+
+MAX_VALUES_IN_ALL = 1_000_000
+"""The most values of all state variables together."""
+
+
+@dataclass(frozen=True, slots=True)
+class Values:
+    """The values of one variable in order, each once; `complete` where no mistake keeps some of them unknown."""
+
+    texts: tuple[str, ...]
+    complete: bool
+
+
+def declared_values(declarations: Sequence[ast.VariableDeclaration], findings: Findings) -> list[Values]:
+    """The values of each variable; too many are reported before they are made."""
+    found: list[Values] = []
+    made = 0
+    for declaration in declarations:
+        values = _values(declaration, made, findings)
+        before, made = made, made + len(values.texts)
+        if before <= MAX_VALUES_IN_ALL < made:
+            _too_many(
+                f"there are more than {MAX_VALUES_IN_ALL:,} values of all state variables", declaration.name, findings
+            )
+        found.append(values)
+    return found
+
+
+def _values(declaration: ast.VariableDeclaration, made: int, findings: Findings) -> Values:
+    places: dict[str, Span] = {}
+    reported: set[str] = set()
+    complete = True
+    listed = 0
+    for item in declaration.values:
+        ends = _ends(item, findings)
+        if ends is None:
+            complete = False
+            continue
+        before, listed = listed, listed + ends[1] - ends[0] + 1
+        if before <= MAX_VALUES < listed:
+            _too_many(f"there are more than {MAX_VALUES:,} values of one state variable", item, findings)
+        if isinstance(item, ast.Range) and (listed > MAX_VALUES or made > MAX_VALUES_IN_ALL):
+            complete = False
+            continue
+        for value in (item.text,) if isinstance(item, ast.Name) else map(str, range(ends[0], ends[1] + 1)):
+            if value not in places:
+                places[value] = item.span
+            elif value not in reported:
+                reported.add(value)
+                _twice(declaration, value, item, places[value], findings)
+    return Values(tuple(places), complete)
+
+
+def _ends(item: ast.Item, findings: Findings) -> tuple[int, int] | None:
+    """From which to which number an item goes, any number for a name; None, and a report, where it is in error."""
+    if isinstance(item, ast.Range):
+        return bounds(item, findings)
+    return (0, 0) if is_right(item, findings) else None
+
+
+def _twice(declaration: ast.VariableDeclaration, value: str, item: ast.Item, first: Span, findings: Findings) -> None:
+    findings.add(
+        Code.TUM203,
+        f"{quoted(declaration.name.text)} lists the value {quoted(value)} twice",
+        item.span,
+        "remove one",
+        (Note("it is listed first here", first),),
+    )
+
+
+def _too_many(message: str, place: ast.Item, findings: Findings) -> None:
+    findings.add(Code.TUM311, message, place.span, "split the specification")
