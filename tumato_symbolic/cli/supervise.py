@@ -192,7 +192,7 @@ class _Watch:
         self.kill()
         self._reaped(0)
         while self._open and select.select([self.messages], [], [], _FAREWELL)[0]:
-            self._open = bool(os.read(self.messages, 2**20))  # whoever could still send has ended when it is closed
+            self._open = bool(os.read(self.messages, 2**20))  # closed once no process is left that could send
         os.close(self.messages)
         os.close(self.granter)
 

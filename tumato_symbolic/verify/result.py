@@ -121,7 +121,7 @@ class UnrealizabilityVerdict:
     """The answer of `verify_unrealizable`.
 
     `reason` tells which check failed, or why there is no verdict; `state` and `chosen` are the witness, where there is
-    one: an allowed set that the certificate should have spoken of. `stale`: the certificate was made for another
+    one: an allowed set that the certificate leaves out. `stale`: the certificate was made for another
     specification, and was judged against this one all the same. `by_solver`: Z3 was needed; `by_diagrams`: the walk
     was.
     """
