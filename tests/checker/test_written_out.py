@@ -8,6 +8,7 @@ import pytest
 
 from tests.checker.standalone import checker
 from tests.readers.meaning import deep
+from tests.shorthand import shorthand
 
 STATES = """BEGIN STATE VECTOR
 state P can be dock, hall, yard
@@ -310,3 +311,11 @@ def test_what_is_too_much_is_refused_at_once(monkeypatch: pytest.MonkeyPatch) ->
     aliases = block("ALIASES", "for A in 1..21 define k_{A} as N >= 0 AND P in {dock, hall} end for")
     with pytest.raises(checker.Unreadable, match="all predicates together"):
         checker.read_specification(aliases.encode())
+
+
+@pytest.mark.parametrize("block_of_seeds", range(4))
+def test_random_texts_are_read_as_they_are_written_out(block_of_seeds: int) -> None:
+    """Texts in short have the digest of those in full."""
+    for seed in range(block_of_seeds * 10, block_of_seeds * 10 + 10):
+        short, long = shorthand(seed)
+        assert digest(short) == digest(long), seed
