@@ -63,7 +63,7 @@ def test_a_closed_set_is_a_proof_for_every_bound(bound: int | None, tmp_path: Pa
     assert_refuted(judged(tmp_path, text, layers("ab", start="d")), "which is not in layer 1")
 
 
-def test_every_goal_that_may_be_owed_needs_layers(tmp_path: Path) -> None:
+def test_every_possible_residual_goal_needs_layers(tmp_path: Path) -> None:
     """Those that depend on the first action, too; an entry twice counts twice."""
     goal = "BEGIN GOALS goal type: priority goal: P is d OR executing ab AND P is c END GOALS"
     text = spec_text("abcd", "ab bc cd", goal, 1)

@@ -214,7 +214,7 @@ def test_no_allowed_set_by_severity(tmp_path: Path) -> None:
     assert_refuted(answer, "doing nothing may be allowed")
 
 
-def test_a_certificate_of_no_is_judged_by_what_is_meant(tmp_path: Path) -> None:
+def test_unrealizability_is_judged_by_what_is_meant(tmp_path: Path) -> None:
     """Whatever it was made for: no set keeps both reaction rules, and doing nothing keeps all others."""
     text = VALVES + "BEGIN REACTION RULES rule: executing close_a rule: NOT executing close_a END REACTION RULES "
     reason = no_set({"A": "open", "B": "open"})

@@ -66,7 +66,7 @@ CERTIFIED = {
 
 @rule("7.1", "7.2", "7.3")
 @pytest.mark.parametrize("kind", CERTIFIED)
-def test_the_answer_no_is_believed_where_it_is_so(refuter: Refuter, kind: str) -> None:
+def test_unrealizability_is_proved_where_it_is_so(refuter: Refuter, kind: str) -> None:
     """A certificate is believed of the specification without a policy, and not of the one with a policy."""
     none, some = CERTIFIED[kind]
     outcome = synthesize(world(none).spec)

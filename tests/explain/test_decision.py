@@ -2,7 +2,7 @@
 
 from tests.cli.inputs import AMR, AMR_POLICY
 from tumato_symbolic import Policy, parse
-from tumato_symbolic.explain.decision import Decisions, goal_notes, judged, why
+from tumato_symbolic.explain.decision import Decisions, alternative, goal_notes, why
 from tumato_symbolic.policy import bind
 from tumato_symbolic.semantics import active_goals, all_states, allowed, duration, is_safe
 
@@ -31,4 +31,4 @@ def test_the_run_ends_in_the_goal_and_others_are_judged() -> None:
 def test_the_decision_itself_is_recognised() -> None:
     """Asked why not what the policy does, the answer is that it does."""
     for state in all_states(SPEC):
-        assert judged(SPEC, POLICY, state, POLICY[state], "any").verdict == "chosen"
+        assert alternative(SPEC, POLICY, state, POLICY[state], "any").verdict == "chosen"

@@ -4,7 +4,7 @@ import pytest
 
 from tests.semantics.test_restoration import CLOSED, EDGE, OPEN, RETRY, VALVES, restoring
 from tumato_symbolic import parse
-from tumato_symbolic.explain.decision import judged, why
+from tumato_symbolic.explain.decision import alternative, why
 from tumato_symbolic.report.decided import Decided, as_json, as_text
 from tumato_symbolic.report.objections import Place
 from tumato_symbolic.semantics import NOTHING, ActionSet, Restorations, State, all_states, is_safe
@@ -38,7 +38,7 @@ def test_the_worst_case_is_told_step_by_step() -> None:
 @pytest.mark.parametrize(("other", "verdict"), [(NOTHING, "endless"), (CLOSE_B, "later"), (BOTH, "costlier")])
 def test_other_sets_are_judged_by_how_they_restore(other: ActionSet, verdict: str) -> None:
     """Doing nothing restores nothing; both valves at once may take effect one at a time, and then take longer."""
-    assert judged(restoring(VALVES, "bounded"), SINGLY, (OPEN, OPEN), other, "any").verdict == verdict
+    assert alternative(restoring(VALVES, "bounded"), SINGLY, (OPEN, OPEN), other, "any").verdict == verdict
 
 
 def test_a_set_that_is_repeated_is_told_as_such() -> None:

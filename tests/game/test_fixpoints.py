@@ -40,7 +40,9 @@ def policies(problem: Problem, random: Random) -> tuple[Bdd, Bdd]:
 
 @pytest.mark.parametrize("taken", ["moves", "functions", "pairs"])
 @pytest.mark.parametrize("profile", sorted(ALL_PROFILES))
-def test_a_course_is_the_predecessor_of_its_policy(profile: str, taken: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_closed_loop_has_the_predecessor_of_its_policy(
+    profile: str, taken: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Move by move, as functions or as a relation, it leads where the pairs of the policy nominally lead."""
     most = fixpoints.MOST_MOVES if taken == "moves" else 0
     if taken == "pairs":
@@ -57,7 +59,7 @@ def test_a_course_is_the_predecessor_of_its_policy(profile: str, taken: str, mon
 
 @pytest.mark.parametrize("most", [0, fixpoints.MOST_MOVES], ids=["functions", "moves"])
 @pytest.mark.parametrize("profile", sorted(ALL_PROFILES))
-def test_a_mixed_course_is_that_of_the_mixed_policy(profile: str, most: int) -> None:
+def test_mixed_closed_loops_are_that_of_the_mixed_policy(profile: str, most: int) -> None:
     """Mixing where two policies lead, and their targets, is the same as mixing the policies."""
     for problem in problems(profile):
         random = Random(2)

@@ -24,7 +24,7 @@ def test_every_tier_tells_right_from_wrong(profile: str, tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize("profile", ALL_PROFILES)
-def test_both_judges_accept_the_same_answers_no(profile: str, tmp_path: Path) -> None:
+def test_both_checkers_accept_the_same_certificates(profile: str, tmp_path: Path) -> None:
     """What `verify` or the checker accepts has no policy, and is accepted by both; a new layout loses nothing."""
     total = Tally()
     for seed in range(100, 118):
@@ -33,7 +33,7 @@ def test_both_judges_accept_the_same_answers_no(profile: str, tmp_path: Path) ->
     assert 0 < total.right < total.mutants
 
 
-def test_both_judges_accept_the_same_conflicts(tmp_path: Path) -> None:
+def test_both_checkers_accept_the_same_conflicts(tmp_path: Path) -> None:
     """So it is for conflicts, which are rare among generated specifications."""
     total = Tally()
     for number in range(0, 20, 3):

@@ -204,7 +204,7 @@ def test_a_time_limit_leaves_what_is_known(last: str) -> None:
     assert outcome.statistics.valid == 4
 
 
-def test_the_answer_no_stands_without_its_certificate() -> None:
+def test_unrealizable_stands_without_its_certificate() -> None:
     """A limit that is met when only the certificate is left takes nothing from the answer."""
     build = Build({"a": "xy"})
     spec = build.spec(state_rules=[FALSE], goals=constraint())

@@ -214,7 +214,7 @@ def test_ranks_that_a_rival_needs(name: Name) -> None:
 
 
 @pytest.mark.parametrize("parts", [False, True])
-def test_a_decision_without_a_successor_owes_no_rank(parts: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_decision_without_a_successor_needs_no_rank(parts: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     """Where nominal effects disagree there is no next state, so its rank is no lower bound of anything."""
     if parts:
         monkeypatch.setattr(rank_terms, "AT_ONCE", -1.0)

@@ -238,7 +238,7 @@ def test_every_goal_is_looked_at(prover: Name) -> None:
 
 
 @needing_no_rival
-def test_what_nobody_owes_may_exceed_the_bound(prover: Name) -> None:
+def test_ranks_of_other_goals_may_exceed_the_bound(prover: Name) -> None:
     """Where another goal is pending, a rank may be as large as it likes; that one is missing elsewhere is no worse."""
     spec, policy = going_round(bound=9)
     right = exact_ranks(spec, policy, "any")

@@ -21,9 +21,9 @@ EXAMPLES = Path("..", "examples")
 class Specifications:
     """The specifications of the folders where those of a folder of policies are looked for: those given come first."""
 
-    def __init__(self, policies: str, given: Iterable[str]) -> None:
+    def __init__(self, policies: str, spec_folders: Iterable[str]) -> None:
         folder = Path(policies)
-        self._given = [*map(Path, given)]
+        self._spec_folders = [*map(Path, spec_folders)]
         self._beside = [folder, Path(os.path.normpath(folder / EXAMPLES))]
         self._digests: dict[Path, str | None] = {}
 
@@ -37,7 +37,7 @@ class Specifications:
         if found is None and recorded is not None:
             found = next((each for each in self._all() if self._digest(each) == recorded), None)
         if found is None:
-            where = ", ".join(map(str, (*self._given, *self._beside)))
+            where = ", ".join(map(str, (*self._spec_folders, *self._beside)))
             message = f"there is no specification {_names(path)[-1]}.tum for this file in {where}"
             made = "" if recorded is None else ", and none there that it was made for"
             raise UserError((Diagnostic(Code.TUM501, message + made, help="give its folder with --specs DIR"),))
@@ -47,7 +47,7 @@ class Specifications:
         """The specification of the same name as a policy or certificate."""
         files = (
             folder / f"{name}{suffix}"
-            for folder in (*self._given, *self._beside)
+            for folder in (*self._spec_folders, *self._beside)
             for name in _names(path)
             for suffix in SUFFIXES
         )
@@ -61,11 +61,11 @@ class Specifications:
         covered = list(covered)
         known = {each.resolve() for each in covered}
         meant = {self._digest(each) for each in covered} - {None}
-        everything = _inside(self._given or self._beside)
+        everything = _inside(self._spec_folders or self._beside)
         return [each for each in everything if each.resolve() not in known and self._digest(each) not in meant]
 
     def _all(self) -> Iterator[Path]:
-        return _inside([*self._given, *self._beside])
+        return _inside([*self._spec_folders, *self._beside])
 
     def _digest(self, path: Path) -> str | None:
         """The digest of a specification; None where it cannot be used."""

@@ -26,11 +26,11 @@ def recognized(error: UserError, options: CommandOptions, typed: Sequence[str]) 
     """That an input is of the other kind, if it is, else what `error` says. `typed` are the words of the command."""
     policy, first = options.policy, next(iter(options.specs), "")
     found = [_kind(spec) for spec in options.specs]
-    given = _kind(policy) if policy else None
-    if given == "specification" and found and found[0] in ("policy", "certificate"):
+    kind = _kind(policy) if policy else None
+    if kind == "specification" and found and found[0] in ("policy", "certificate"):
         message = f"{quoted(policy)} is a specification and {quoted(first)} a {found[0]}: swap them"
         return _fault(message, _swapped(typed, policy, first))
-    if given == "specification":
+    if kind == "specification":
         help_ = f"`tumato-sym synth {shlex.quote(policy)} -o FILE` makes a policy"
         return _fault(f"{quoted(policy)} is a specification, but a policy belongs here", help_)
     for name, kind in zip(options.specs, found, strict=True):

@@ -106,7 +106,7 @@ def why(spec: Spec, policy: Mapping[State, ActionSet], state: State, ordering: O
     """Why `policy` decides as it does in a valid state. Raises `KeyError` where it does not decide."""
     chosen, restoring = policy[state], RestoringFrom(spec, policy, ordering)
     others = (
-        judged(spec, policy, state, other, ordering, restoring=restoring)
+        alternative(spec, policy, state, other, ordering, restoring=restoring)
         for other in candidates(spec, state)
         if other != chosen
     )
@@ -125,7 +125,7 @@ def why(spec: Spec, policy: Mapping[State, ActionSet], state: State, ordering: O
     )
 
 
-def judged(
+def alternative(
     spec: Spec,
     policy: Mapping[State, ActionSet],
     state: State,

@@ -239,11 +239,11 @@ class _Reader:
     def _state(self, value: object, where: str) -> State:
         """A value for every variable, and nothing else."""
         section = as_object(value, where)
-        given = dict(self._assigned(name, value, where) for name, value in section.items())
+        values = dict(self._assigned(name, value, where) for name, value in section.items())
         for number, (name, _) in enumerate(self._vocabulary.variables):
-            if number not in given:
+            if number not in values:
                 raise fault(Code.TUM503, f"{where} has no value for {show(name)}")
-        return tuple(given[number] for number in range(len(given)))
+        return tuple(values[number] for number in range(len(values)))
 
     def _assigned(self, name: str, value: object, where: str) -> tuple[int, int]:
         """One variable and its value, by numbers."""

@@ -95,8 +95,8 @@ def as_text(done: Verified, colour: bool) -> str:
         lines.append(f"  {property_line(result, paint, found)}")
         if result.refutation is not None:
             lines += [f"      {line}" for line in refutation_text(done.place, result.refutation).splitlines()]
-    judged = replace(done.spec, restoration=found.restoration or done.spec.restoration)
-    left = [name for name in properties_of(judged) if name not in {result.name for result in found.properties}]
+    meant = replace(done.spec, restoration=found.restoration or done.spec.restoration)
+    left = [name for name in properties_of(meant) if name not in {result.name for result in found.properties}]
     if left:
         lines.append(f"Not checked: {enumeration(left)}.")
     if done.guarantees is not None:

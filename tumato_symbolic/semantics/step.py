@@ -76,9 +76,9 @@ def takes_effect(spec: Spec, chosen: ActionSet) -> bool:
 
 def nominal_agrees(spec: Spec, chosen: ActionSet) -> bool:
     """Whether no variable is given two different values by the nominal effects of `chosen`."""
-    given: dict[int, int] = {}
+    written: dict[int, int] = {}
     return all(
-        given.setdefault(variable, value) == value
+        written.setdefault(variable, value) == value
         for action in chosen
         for variable, value in spec.actions[action].nominal
     )

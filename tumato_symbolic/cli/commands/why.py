@@ -51,7 +51,7 @@ class Options(CommandOptions):
 def run(options: Options, context: Context) -> int:
     """Exit with 1 where the policy says nothing about the state."""
     from tumato_symbolic.cli.inputs import errors_in, read_spec
-    from tumato_symbolic.explain.decision import Decisions, judged, why
+    from tumato_symbolic.explain.decision import Decisions, alternative, why
     from tumato_symbolic.policy import Policy, UndecidedState, bind, parse_assignments
     from tumato_symbolic.report import decided
     from tumato_symbolic.report.objections import Place
@@ -73,7 +73,7 @@ def run(options: Options, context: Context) -> int:
     except KeyError:
         note(f"tumato-sym: {UndecidedState(asked)}")
         return NO
-    other = None if instead is None else judged(spec, decisions, state, instead, ordering)
+    other = None if instead is None else alternative(spec, decisions, state, instead, ordering)
     done = decided.Decided(Place(spec, source.name), options.policy, decision, other)
     show_as(options, text=lambda _: decided.as_text(done), json=lambda: decided.as_json(done))
     return YES

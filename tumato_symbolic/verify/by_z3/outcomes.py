@@ -242,5 +242,5 @@ def compatible(one: Action, other: Action) -> bool:
     """Whether two actions may ever run together: no common resource, nominal effects that agree."""
     if one.resources & other.resources:
         return False
-    given = dict(one.nominal)
-    return all(given.get(variable, value) == value for variable, value in other.nominal)
+    written = dict(one.nominal)
+    return all(written.get(variable, value) == value for variable, value in other.nominal)
