@@ -7,14 +7,15 @@ import pytest
 
 from tests.spec.marked import codes
 from tumato_symbolic.diagnostics import Code
-from tumato_symbolic.spec import actions, effects, lint, names, predicates, resolve, values
+from tumato_symbolic.spec import actions, copies, effects, lint, names, parameters, predicates, resolve, values
 from tumato_symbolic.syntax import nesting, parser, reading, tokens
 
 DOCS = Path(__file__).parents[2] / "docs"
 LANGUAGE = (DOCS / "language.md").read_text(encoding="utf-8")
 SNIPPETS = re.findall(r"^```tumato([^\n]*)\n(.*?)^```$", LANGUAGE, re.MULTILINE | re.DOTALL)
 WHOLE = "".join(text for marks, text in SNIPPETS if not marks)
-WRONG = [(marks.split("error=")[1], text) for marks, text in SNIPPETS if marks]
+WRONG = [(marks.split("error=")[1], text) for marks, text in SNIPPETS if "error=" in marks]
+ALONE = [text for marks, text in SNIPPETS if marks == " alone"]
 
 LIMITS = [
     ("bytes of a text", reading.MAX_BYTES),
@@ -24,6 +25,8 @@ LIMITS = [
     ("levels of a predicate, aliases expanded (an implication counts as two)", predicates.MAX_DEPTH),
     ("atoms and operators of a predicate, aliases expanded", predicates.MAX_TERMS),
     ("atoms and operators of all predicates, aliases expanded", predicates.MAX_TERMS_IN_ALL),
+    ("combinations of values of parameters, before conditions", parameters.MAX_COMBINATIONS),
+    ("declarations, fields, rules, goals and settings, each copy counted", copies.MAX_DECLARATIONS),
     ("state variables", names.MAX_VARIABLES),
     ("values of a state variable", values.MAX_VALUES),
     ("values of all state variables together", values.MAX_VALUES_IN_ALL),
@@ -52,6 +55,8 @@ def diagnostics_document() -> str:
 def test_the_snippets_are_one_specification() -> None:
     """All snippets together load without an error or a warning."""
     assert codes(WHOLE) == []
+    assert ALONE
+    assert [codes(text) for text in ALONE] == [["TUM326"]] * len(ALONE)
 
 
 @pytest.mark.parametrize(("code", "text"), WRONG)

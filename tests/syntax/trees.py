@@ -7,7 +7,7 @@ from typing import Literal, TypeVar
 from hypothesis import strategies as st
 
 from tumato_symbolic.syntax import ast
-from tumato_symbolic.syntax.parser import AFTER_VALUES
+from tumato_symbolic.syntax.confirming import AFTER_VALUES
 from tumato_symbolic.syntax.tokens import HARD
 
 SOFT = [

@@ -55,6 +55,7 @@ class Code(Enum):
     TUM313 = ("error", "a setting that a command does not support")
     TUM314 = ("error", "a range that is none")
     TUM315 = ("error", "a comparison of values that are not numbers")
+    TUM316 = ("error", "copies that cannot be made")
 
     TUM321 = ("warning", "an unused resource")
     TUM322 = ("warning", "an unused alias")
@@ -64,6 +65,8 @@ class Code(Enum):
     TUM326 = ("warning", "no goals")
     TUM327 = ("warning", "an action without nominal effects")
     TUM328 = ("warning", "a resource listed twice")
+    TUM329 = ("warning", "an unused parameter")
+    TUM330 = ("warning", "copies of which there are none")
     TUM351 = ("warning", "a goal that is never entered")
     TUM352 = ("warning", "a rule that no valid state breaks")
     TUM353 = ("warning", "an action that is allowed nowhere")

@@ -21,6 +21,23 @@ class Span:
 
 
 @dataclass(frozen=True, slots=True)
+class CopySpan(Span):
+    """A range of a source text that stands for several things: this one was made with these parameters."""
+
+    parameters: tuple[tuple[str, str], ...]
+
+    @property
+    def worded(self) -> str:
+        """`R = r1, Q = r2`."""
+        return ", ".join(f"{name} = {value}" for name, value in self.parameters)
+
+    @property
+    def in_text(self) -> Span:
+        """The range alone."""
+        return Span(self.line, self.column, self.end_line, self.end_column)
+
+
+@dataclass(frozen=True, slots=True)
 class Source:
     """A text and the name it is shown under (usually its path as the user typed it).
 

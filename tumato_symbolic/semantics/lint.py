@@ -8,6 +8,7 @@ from math import prod
 from typing import TypeAlias
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Note
+from tumato_symbolic.diagnostics.copies import merged
 from tumato_symbolic.semantics.states import ActionSet, State, all_states, count_states, holds, is_valid
 from tumato_symbolic.semantics.step import allowed, nominal_agrees, takes_effect
 from tumato_symbolic.spec import (
@@ -56,7 +57,7 @@ def lint(spec: Spec) -> tuple[Diagnostic, ...]:
 
 def in_order(found: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
     """Diagnostics as their places come in the text."""
-    return tuple(sorted(found, key=lambda one: (one.span.line, one.span.column) if one.span else (0, 0)))
+    return tuple(sorted(merged(found), key=lambda one: (one.span.line, one.span.column) if one.span else (0, 0)))
 
 
 def no_valid_state(spec: Spec) -> Diagnostic:

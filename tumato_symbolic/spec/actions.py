@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from tumato_symbolic.diagnostics import Code, Note, Span
+from tumato_symbolic.diagnostics import Code, CopySpan, Note, Span
 from tumato_symbolic.diagnostics.wording import quoted
 from tumato_symbolic.spec.collector import Findings
 from tumato_symbolic.spec.effects import Effects
@@ -48,10 +48,10 @@ class Actions:
         nominal: Assignment = ()
         alternatives: list[Alternative] = []
         resource_span: Span | None = None
-        for field in declaration.fields:
+        for field in (one for one in declaration.fields if not isinstance(one, ast.Copies)):
             match field:
                 case ast.Duration(value):
-                    duration = self._duration(field, value)
+                    duration = self._duration(field, ast.number(value))
                 case ast.ControlledResources(names, span):
                     resources, resource_span = self._resources(names), span
                 case ast.Preconditions(predicates):
@@ -66,7 +66,7 @@ class Actions:
 
     def _once_each(self, declaration: ast.ActionDeclaration) -> None:
         first: dict[str, Span] = {}
-        for field in declaration.fields:
+        for field in (one for one in declaration.fields if not isinstance(one, ast.Copies)):
             title = _FIELDS.get(type(field))
             if title is None:
                 continue
@@ -119,4 +119,6 @@ class Actions:
         if not predicates:
             return "none"
         first, last = predicates[0].span, predicates[-1].span
-        return self._excerpts.of(Span(first.line, first.column, last.end_line, last.end_column))
+        if not isinstance(first, CopySpan) or not isinstance(last, CopySpan):
+            return self._excerpts.of(Span(first.line, first.column, last.end_line, last.end_column))
+        return self._excerpts.of(CopySpan(first.line, first.column, last.end_line, last.end_column, first.parameters))

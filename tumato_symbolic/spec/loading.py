@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Diagnostic, Source
-from tumato_symbolic.spec.collector import MAX_FINDINGS
+from tumato_symbolic.diagnostics.copies import merged
+from tumato_symbolic.spec.collector import MAX_FINDINGS, Findings
 from tumato_symbolic.spec.lint import lint
 from tumato_symbolic.spec.resolve import resolve
 from tumato_symbolic.spec.specification import Spec
@@ -24,12 +26,23 @@ class Loaded:
 def load(source: Source) -> Loaded:
     """Parse, resolve and lint. Several mistakes are all reported; a mistake of the user never raises."""
     parsed = parse(source)
-    if parsed.tree is None:
-        return Loaded(None, _ordered(parsed.diagnostics))
-    resolution = resolve(parsed, parsed.tree, source)
-    warnings = () if resolution.spec is None else lint(resolution.spec, parsed.tree, resolution)[:MAX_FINDINGS]
-    return Loaded(resolution.spec, _ordered((*parsed.diagnostics, *resolution.diagnostics, *warnings)))
+    findings = Findings()
+    tree = parsed.tree
+    if tree is not None and _MAY_COPY.search(source.text):
+        from tumato_symbolic.spec.copies import copies_in, written_out
+
+        tree = None if parsed.diagnostics and copies_in(tree) else written_out(tree, findings)
+    if tree is None:
+        return Loaded(None, _ordered((*parsed.diagnostics, *findings.diagnostics), findings))
+    resolution = resolve(parsed, tree, source, findings)
+    warnings = () if resolution.spec is None else lint(resolution.spec, tree, resolution)[:MAX_FINDINGS]
+    return Loaded(resolution.spec, _ordered((*parsed.diagnostics, *resolution.diagnostics, *warnings), findings))
 
 
-def _ordered(diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
-    return tuple(sorted(diagnostics, key=lambda each: (each.span.line, each.span.column) if each.span else (0, 0)))
+_MAY_COPY = re.compile(r"\{|\b(?:for|all|some|exactly)\b")
+"""Without one of these, a text has neither copies nor quantifiers."""
+
+
+def _ordered(diagnostics: Iterable[Diagnostic], findings: Findings) -> tuple[Diagnostic, ...]:
+    told = merged(diagnostics, findings.copies)
+    return tuple(sorted(told, key=lambda each: (each.span.line, each.span.column) if each.span else (0, 0)))

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from typing import Final, Literal, TypeAlias, get_args
 
 from tumato_symbolic.diagnostics import Code, Note, Span
 from tumato_symbolic.diagnostics.wording import quoted
@@ -16,7 +16,7 @@ from tumato_symbolic.syntax import ast
 MAX_VARIABLES = 1_000
 MAX_ACTIONS = 1_000
 
-Kind: TypeAlias = Literal["state variable", "alias", "resource", "action"]
+Kind: TypeAlias = Literal["state variable", "alias", "resource", "action", "named list"]
 
 _RESERVED = frozenset({"true", "false", "none", "executing"})
 
@@ -53,10 +53,10 @@ class Names:
 def collect(tree: ast.Specification, findings: Findings) -> Names:
     """Find every declaration; report names that are declared twice, shadow another kind, or are reserved."""
     table: dict[str, Declared] = {}
-    declared: dict[Kind, list[ast.Declaration]] = {"state variable": [], "alias": [], "resource": [], "action": []}
+    declared: dict[Kind, list[ast.Declaration]] = {kind: [] for kind in get_args(Kind)}
     for block in tree.blocks:
-        kind, declarations = _declarations(block)
-        for each in declarations:
+        for each in _declarations(block):
+            kind = _KINDS[type(each)]
             if _declare(table, each.name, kind, len(declared[kind]), findings):
                 declared[kind].append(each)
     _limit(declared["state variable"], MAX_VARIABLES, "state variables", findings)
@@ -74,18 +74,27 @@ def collect(tree: ast.Specification, findings: Findings) -> Names:
     )
 
 
-def _declarations(block: ast.Block) -> tuple[Kind, tuple[ast.Declaration, ...]]:
+_KINDS: Final[dict[type[ast.Declaration], Kind]] = {
+    ast.VariableDeclaration: "state variable",
+    ast.AliasDefinition: "alias",
+    ast.NamedList: "named list",
+    ast.ResourceDeclaration: "resource",
+    ast.ActionDeclaration: "action",
+}
+
+
+def _declarations(block: ast.Block) -> Iterable[ast.Declaration]:
     match block:
         case ast.StateVector(variables):
-            return "state variable", variables
+            return (one for one in variables if not isinstance(one, ast.Copies))
         case ast.Aliases(definitions):
-            return "alias", definitions
+            return (one for one in definitions if not isinstance(one, ast.Copies))
         case ast.Resources(resources):
-            return "resource", resources
+            return (one for one in resources if not isinstance(one, ast.Copies))
         case ast.Actions(actions):
-            return "action", actions
+            return (one for one in actions if not isinstance(one, ast.Copies))
         case _:
-            return "alias", ()
+            return ()
 
 
 def _declare(table: dict[str, Declared], name: ast.Name, kind: Kind, number: int, findings: Findings) -> bool:

@@ -132,6 +132,8 @@ class Predicates:
                 return Resolved(TRUE if value else FALSE, 1, 1, None)
             case ast.Comparison() | ast.Difference() | ast.Membership() | ast.Ordering():
                 return self._about_values(predicate)
+            case ast.Quantifier():
+                raise AssertionError("quantifiers are written out before names are resolved")
             case ast.Execution(action, span):
                 declared = self.named(action, "action")
                 return None if declared is None else Resolved(Executing(declared.number), 1, 1, Mention(span, None))

@@ -42,9 +42,11 @@ class Resolution:
     used_aliases: frozenset[int]
 
 
-def resolve(parsed: Parsed, tree: ast.Specification, source: Source) -> Resolution:
-    """Resolve what was parsed. After a mistake in the syntax, what the lost text may have declared is not missed."""
-    findings = Findings()
+def resolve(parsed: Parsed, tree: ast.Specification, source: Source, findings: Findings) -> Resolution:
+    """Resolve what was parsed, copies written out.
+
+    After a mistake in the syntax, what the lost text may have declared is not missed.
+    """
     _once_each(tree, findings)
     names = collect(tree, findings)
     if not names.variables and not parsed.lost:
@@ -122,7 +124,10 @@ def _rules(predicates: Predicates, blocks: Iterable[ast.Block], no_executing_in:
     for block in blocks:
         match block:
             case ast.ReactionRules(rules) | ast.Assumptions(rules):
-                found.extend(predicates.rule(each, no_executing_in) for each in rules)
+                found.extend(
+                    predicates.rule(each, no_executing_in)
+                    for each in (one for one in rules if not isinstance(one, ast.Copies))
+                )
             case _:
                 pass
     return tuple(rule for rule in found if rule is not None)
@@ -132,9 +137,11 @@ def _state_rules(predicates: Predicates, blocks: Iterable[ast.Block], findings: 
     found: list[Rule] = []
     for block in blocks:
         severity = 1
-        for each in block.rules if isinstance(block, ast.StateRules) else ():
+        for each in (
+            (one for one in block.rules if not isinstance(one, ast.Copies)) if isinstance(block, ast.StateRules) else ()
+        ):
             if isinstance(each, ast.Severity):
-                severity = each.value
+                severity = ast.number(each.value)
                 _check_number("severity", each, "1 is the most severe; only the order of the numbers counts", findings)
                 continue
             rule = predicates.rule(each, "a state rule")
@@ -173,7 +180,7 @@ class _Goals:
                     return None
                 return ConditionalGoal(condition, found, span)
             case ast.GoalList(kind, members, span):
-                parts = [self._goal(each) for each in members]
+                parts = [self._goal(each) for each in (one for one in members if not isinstance(one, ast.Copies))]
                 return GoalList(kind or "constraint", tuple(each for each in parts if each is not None), span)
 
 
@@ -188,7 +195,7 @@ _SETTINGS: dict[type[ast.Setting], str] = {
 def _with_setting(spec: Spec, setting: ast.Setting) -> Spec:
     match setting:
         case ast.MaxPlanLength(value, span):
-            return replace(spec, max_plan_length=value, bound_span=span)
+            return replace(spec, max_plan_length=ast.number(value), bound_span=span)
         case ast.EffectOrdering(value):
             return replace(spec, effect_ordering=value)
         case ast.Restoration(value):
@@ -201,7 +208,9 @@ def _settings(tree: ast.Specification, findings: Findings) -> list[ast.Setting]:
     """What CONFIG says, each setting once."""
     found: dict[type[ast.Setting], ast.Setting] = {}
     for block in tree.blocks:
-        for setting in block.settings if isinstance(block, ast.Config) else ():
+        for setting in (
+            (one for one in block.settings if not isinstance(one, ast.Copies)) if isinstance(block, ast.Config) else ()
+        ):
             name, first = _SETTINGS[type(setting)], found.setdefault(type(setting), setting)
             if first is not setting:
                 notes = (Note("it is set first here", first.span),)
@@ -213,6 +222,6 @@ def _settings(tree: ast.Specification, findings: Findings) -> list[ast.Setting]:
 
 
 def _check_number(name: str, setting: ast.MaxPlanLength | ast.Severity, help_: str, findings: Findings) -> None:
-    if not 1 <= setting.value <= MAX_PLAN_LENGTH:
+    if not 1 <= ast.number(setting.value) <= MAX_PLAN_LENGTH:
         message = f"`{name}` is {setting.value}; it has to be from 1 to {MAX_PLAN_LENGTH:,}"
         findings.add(Code.TUM310, message, setting.span, help_)

@@ -36,6 +36,11 @@ class Node:
         return tuple(getattr(self, name) for name in self.__slots__ if name != "span")
 
 
+def number(value: int | Name) -> int:
+    """A number where copies are written out: it is no name with parameters in it."""
+    return value if isinstance(value, int) else 0
+
+
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Name(Node):
     """A name as it is written in one place."""
@@ -111,6 +116,63 @@ class Ordering(Node):
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Parameter(Node):
+    """`NAME in VALUE, …`, or `NAME in {VALUE, …}`."""
+
+    name: Name
+    items: tuple[Item, ...]
+    braced: bool
+    span: Span = NOWHERE
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Operand(Node):
+    """A side of a condition: a parameter, a word or a number, and what is added to it."""
+
+    name: Name
+    offset: int = 0
+    span: Span = NOWHERE
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Condition(Node):
+    """`OPERAND < OPERAND` after `where`, with this operator or another."""
+
+    left: Operand
+    operator: Operator
+    right: Operand
+    span: Span = NOWHERE
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Header(Node):
+    """The parameters of copies and the conditions that they have to satisfy."""
+
+    parameters: tuple[Parameter, ...]
+    conditions: tuple[Condition, ...]
+    span: Span = NOWHERE
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Quantifier(Node):
+    """`all`, `some` or `exactly one`, a header, and a predicate about it."""
+
+    kind: Literal["all", "some", "exactly one"]
+    header: Header
+    body: Predicate
+    span: Span = NOWHERE
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Copies(Node):
+    """`for`, a header, what is copied, and `end for`."""
+
+    header: Header
+    entries: tuple[Entry, ...]
+    span: Span = NOWHERE
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Execution(Node):
     """`executing ACTION`."""
 
@@ -174,6 +236,7 @@ Predicate: TypeAlias = (
     | Difference
     | Membership
     | Ordering
+    | Quantifier
     | Execution
     | Reference
     | Negation
@@ -203,6 +266,15 @@ class AliasDefinition(Node):
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
+class NamedList(Node):
+    """`define NAME as {VALUE, …}`."""
+
+    name: Name
+    items: tuple[Item, ...]
+    span: Span = NOWHERE
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class ResourceDeclaration(Node):
     """`resource NAME`."""
 
@@ -212,9 +284,9 @@ class ResourceDeclaration(Node):
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Duration(Node):
-    """`duration: N`, or `cost: N` in older files."""
+    """`duration: N`, or `cost: N` in older files. Among copies, the number may be a name with parameters in it."""
 
-    value: int
+    value: int | Name
     span: Span = NOWHERE
 
 
@@ -258,11 +330,11 @@ class ActionDeclaration(Node):
     """`action NAME` and its fields, as they stand."""
 
     name: Name
-    fields: tuple[Field, ...]
+    fields: tuple[Field | Copies, ...]
     span: Span = NOWHERE
 
 
-Declaration: TypeAlias = VariableDeclaration | AliasDefinition | ResourceDeclaration | ActionDeclaration
+Declaration: TypeAlias = VariableDeclaration | AliasDefinition | NamedList | ResourceDeclaration | ActionDeclaration
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -287,7 +359,7 @@ class GoalList(Node):
     """`BEGIN GOALS goal type: … END GOALS`. The kind is None in a block that holds nothing."""
 
     kind: Literal["priority", "constraint"] | None
-    members: tuple[Goal, ...]
+    members: tuple[Goal | Copies, ...]
     span: Span = NOWHERE
 
 
@@ -296,9 +368,9 @@ Goal: TypeAlias = SimpleGoal | ConditionalGoal | GoalList
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class MaxPlanLength(Node):
-    """`max_plan_length: N`."""
+    """`max_plan_length: N`. Among copies, the number may be a name with parameters in it."""
 
-    value: int
+    value: int | Name
     span: Span = NOWHERE
 
 
@@ -333,7 +405,7 @@ Setting: TypeAlias = MaxPlanLength | EffectOrdering | Restoration | Precondition
 class StateVector(Node):
     """`BEGIN STATE VECTOR`."""
 
-    variables: tuple[VariableDeclaration, ...]
+    variables: tuple[VariableDeclaration | Copies, ...]
     span: Span = NOWHERE
 
 
@@ -341,7 +413,7 @@ class StateVector(Node):
 class Aliases(Node):
     """`BEGIN ALIASES`."""
 
-    definitions: tuple[AliasDefinition, ...]
+    definitions: tuple[AliasDefinition | NamedList | Copies, ...]
     span: Span = NOWHERE
 
 
@@ -349,7 +421,7 @@ class Aliases(Node):
 class Resources(Node):
     """`BEGIN RESOURCES`."""
 
-    resources: tuple[ResourceDeclaration, ...]
+    resources: tuple[ResourceDeclaration | Copies, ...]
     span: Span = NOWHERE
 
 
@@ -357,7 +429,7 @@ class Resources(Node):
 class Actions(Node):
     """`BEGIN ACTIONS`."""
 
-    actions: tuple[ActionDeclaration, ...]
+    actions: tuple[ActionDeclaration | Copies, ...]
     span: Span = NOWHERE
 
 
@@ -365,7 +437,7 @@ class Actions(Node):
 class ReactionRules(Node):
     """`BEGIN REACTION RULES`."""
 
-    rules: tuple[Predicate, ...]
+    rules: tuple[Predicate | Copies, ...]
     span: Span = NOWHERE
 
 
@@ -373,7 +445,7 @@ class ReactionRules(Node):
 class Severity(Node):
     """`severity: N`: how severe the state rules after it are."""
 
-    value: int
+    value: int | Name
     span: Span = NOWHERE
 
 
@@ -381,7 +453,7 @@ class Severity(Node):
 class StateRules(Node):
     """`BEGIN STATE RULES`."""
 
-    rules: tuple[Predicate | Severity, ...]
+    rules: tuple[Predicate | Severity | Copies, ...]
     span: Span = NOWHERE
 
 
@@ -389,7 +461,7 @@ class StateRules(Node):
 class Assumptions(Node):
     """`BEGIN ASSUMPTIONS`."""
 
-    assumptions: tuple[Predicate, ...]
+    assumptions: tuple[Predicate | Copies, ...]
     span: Span = NOWHERE
 
 
@@ -405,9 +477,12 @@ class Goals(Node):
 class Config(Node):
     """`BEGIN CONFIG`."""
 
-    settings: tuple[Setting, ...]
+    settings: tuple[Setting | Copies, ...]
     span: Span = NOWHERE
 
+
+Entry: TypeAlias = Declaration | Field | Predicate | Severity | Goal | Setting | Copies
+"""What copies are made of."""
 
 Block: TypeAlias = (
     StateVector | Aliases | Resources | Actions | ReactionRules | StateRules | Assumptions | Goals | Config

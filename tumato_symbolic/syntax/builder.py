@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 from typing import Any, TypeAlias
 
 from tumato_symbolic.diagnostics import Span
@@ -31,6 +32,10 @@ def _span(children: Children) -> Span:
 
 def _nodes(children: Children) -> tuple[Any, ...]:
     return tuple(child for child in children if not isinstance(child, Token))
+
+
+def _number(token: Token) -> int | ast.Name:
+    return ast.Name(token.text, token.span) if "{" in token.text else int(token.text)
 
 
 def specification(children: Children) -> ast.Specification:
@@ -83,6 +88,11 @@ def alias(children: Children) -> ast.AliasDefinition:
     return ast.AliasDefinition(name, predicate, _span(children))
 
 
+def named_list(children: Children) -> ast.NamedList:
+    name, *items = _nodes(children)
+    return ast.NamedList(name, tuple(items), _span(children))
+
+
 def resource(children: Children) -> ast.ResourceDeclaration:
     return ast.ResourceDeclaration(children[1], _span(children))
 
@@ -93,7 +103,7 @@ def action(children: Children) -> ast.ActionDeclaration:
 
 
 def duration(children: Children) -> ast.Duration:
-    return ast.Duration(int(children[-1].text), _span(children))
+    return ast.Duration(_number(children[-1]), _span(children))
 
 
 def controlled_resources(children: Children) -> ast.ControlledResources:
@@ -137,7 +147,7 @@ def conditional_goal(children: Children) -> ast.ConditionalGoal:
 
 
 def max_plan_length(children: Children) -> ast.MaxPlanLength:
-    return ast.MaxPlanLength(int(children[-1].text), _span(children))
+    return ast.MaxPlanLength(_number(children[-1]), _span(children))
 
 
 def effect_ordering(children: Children) -> ast.EffectOrdering:
@@ -157,7 +167,7 @@ def preconditions_hold(children: Children) -> ast.PreconditionsHold:
 
 
 def severity(children: Children) -> ast.Severity:
-    return ast.Severity(int(children[-1].text), _span(children))
+    return ast.Severity(_number(children[-1]), _span(children))
 
 
 def equivalence(children: Children) -> ast.Equivalence:
@@ -215,6 +225,48 @@ def range(children: Children) -> ast.Range:
 
 def number(children: Children) -> ast.Name:
     return ast.Name(children[0].text, children[0].span)
+
+
+def header(children: Children) -> ast.Header:
+    """The parameters, each from a name with `in` after it to the next such name, and the conditions."""
+    parts = [part for part in children if not isinstance(part, ast.Condition)]
+    starts = [place - 1 for place, part in enumerate(parts) if isinstance(part, Token) and part.text == "in"]
+    parameters = []
+    for start, end in pairwise([*starts, len(parts)]):
+        braced = isinstance(parts[start + 2], Token)
+        items = _nodes(parts[start + 2 : end])
+        last = items[-1]
+        parameters.append(ast.Parameter(parts[start], items, braced, _span([parts[start], last])))
+    conditions = tuple(part for part in children if isinstance(part, ast.Condition))
+    return ast.Header(tuple(parameters), conditions, _span(children))
+
+
+def condition(children: Children) -> ast.Condition:
+    left, operator, right = children
+    return ast.Condition(left, operator.text, right, _span(children))
+
+
+def operand(children: Children) -> ast.Operand:
+    first = children[0]
+    offset = int(children[1].text) if len(children) > 1 else 0
+    return ast.Operand(ast.Name(first.text, first.span), offset, _span(children))
+
+
+def quantifier(children: Children) -> ast.Quantifier:
+    first = children[0].text
+    found, body = _nodes(children)
+    return ast.Quantifier(
+        "all" if first == "all" else "some" if first == "some" else "exactly one", found, body, _span(children)
+    )
+
+
+def copies(children: Children) -> ast.Copies:
+    found, *entries = _nodes(children)
+    return ast.Copies(found, tuple(entries), _span(children))
+
+
+copied_variables = copied_aliases = copied_resources = copied_actions = copied_fields = copies
+copied_rules = copied_assumptions = copied_goals = copied_settings = copies
 
 
 def execution(children: Children) -> ast.Execution:

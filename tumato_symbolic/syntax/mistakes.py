@@ -268,7 +268,12 @@ def _wanted(here: Situation) -> str:
     before = here.previous.text if here.previous else ""
     rank = {text: place for place, text in enumerate((":", ",", *_OPERATORS, ")"))}
     texts = sorted(here.expected, key=lambda text: (rank.get(text, len(rank)), text))
-    shown = {"NAME": _AFTER.get(before, "a name"), "NUMBER": "a number", "$END": "the end of the text"}
+    shown = {
+        "NAME": _AFTER.get(before, "a name"),
+        "NUMBER": "a number",
+        "OFFSET": "an offset",
+        "$END": "the end of the text",
+    }
     return listed([shown.get(text, f"`{text}`") for text in texts], "or", plain=True)
 
 

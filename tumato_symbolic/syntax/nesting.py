@@ -19,21 +19,26 @@ _CONTAINERS = (
     ast.SimpleGoal,
     ast.ConditionalGoal,
     ast.GoalList,
+    ast.Quantifier,
 )
 
 
 def deepest(tree: ast.Specification) -> Span | None:
     """The place of a node that lies too deep, found without recursion; None where there is none."""
-    waiting: list[tuple[object, int]] = [(tree, 0)]
+    waiting: list[tuple[object, int, int]] = [(tree, 0, 0)]
     while waiting:
-        node, depth = waiting.pop()
+        node, depth, copies = waiting.pop()
         if isinstance(node, tuple):
-            waiting.extend((part, depth) for part in node)
+            waiting.extend((part, depth, copies) for part in node)
             continue
+        if isinstance(node, ast.Copies):
+            copies += 1
+            if copies > MAX_NESTING:
+                return node.span
         if isinstance(node, _CONTAINERS):
             depth += 1
             if depth > MAX_NESTING:
                 return node.span
         if not isinstance(node, ast.Name | Span) and hasattr(node, "__dataclass_fields__"):
-            waiting.extend((getattr(node, each.name), depth) for each in fields(node))  # type: ignore[arg-type]
+            waiting.extend((getattr(node, each.name), depth, copies) for each in fields(node))  # type: ignore[arg-type]
     return None

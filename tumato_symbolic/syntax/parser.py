@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source, Span
 from tumato_symbolic.syntax import ast
+from tumato_symbolic.syntax.confirming import after_headers, begins_copies, denies, ends_copies, quantifies
 from tumato_symbolic.syntax.grammar import Grammar, grammar
 from tumato_symbolic.syntax.nesting import MAX_NESTING, deepest
 from tumato_symbolic.syntax.parsed import Parsed
@@ -32,14 +33,18 @@ _FOLLOWED_BY = {
 }
 """What shows that a word is the keyword, where it could be the name of a variable or an alias as well."""
 
-AFTER_VALUES = frozenset({"when", "then", "action", "define", "for", "end"})
-"""Words that go on after `S is not`, so that `not` is the value there."""
-
-_TWO_WORDS = frozenset({("controlled", "resources"), ("nominal", "effects"), ("alternative", "effects")})
-"""Titles of fields that go on likewise."""
+_CONFIRMED = {
+    "not": denies,
+    "for": begins_copies,
+    "end": ends_copies,
+    "all": quantifies,
+    "some": quantifies,
+    "exactly": quantifies,
+}
+"""Further words that may be names, and what shows that they are keywords."""
 
 _RESTARTS = frozenset(
-    {"BEGIN", "END", "state", "define", "resource", "action", "rule", "assume", "goal", "when"}
+    {"BEGIN", "END", "state", "define", "resource", "action", "rule", "assume", "goal", "when", "for", "end"}
     | {"severity", "max_plan_length", "effect_ordering", "restoration", *_FOLLOWED_BY}
 )
 """Words at which reading can go on after a mistake."""
@@ -72,6 +77,7 @@ class _Run:
         self.open: list[Token] = []
         self.denials = 0
         self.blocks = 0
+        self.headers = (0, 0)
 
     def read(self) -> ast.Specification | None:
         """Feed every token, recovering where one does not fit. None where reading had to be given up."""
@@ -127,7 +133,9 @@ class _Run:
         token = self.tokens[index]
         if token.kind == "word":
             if token.text not in self.grammar.keywords:
-                return "NAME"
+                return "NAME" if "{" not in token.text or "NAME" in row else "NUMBER"
+            if token.text == "for" and "FOR_ACTIONS" in row:
+                return self._for(index, row)
             if token.text in HARD:
                 return token.text
             possible = token.text in row
@@ -136,29 +144,32 @@ class _Run:
             return token.text if possible else "NAME"
         if token.kind == "symbol":
             return token.text
+        if token.kind == "number" and token.text[0] in "+-":
+            return "OFFSET" if "OFFSET" in row else "NUMBER" if token.text[0] == "-" else "OTHER"
         return {"number": "NUMBER", "end": "$END"}.get(token.kind, "OTHER")
+
+    def _for(self, index: int, row: Row) -> str:
+        """What `for` begins where actions may be copied, and perhaps fields of the last one."""
+        if "NAME" in row and not self._confirmed(index, True):
+            return "NAME"
+        if "for" not in row:
+            return "FOR_ACTIONS"
+        start, end = self.headers
+        if not start <= index < end:
+            end = after_headers(self.tokens, index)
+            self.headers = index, end
+        return "FOR_ACTIONS" if self.tokens[end].text == "action" else "for"
 
     def _confirmed(self, index: int, possible: bool) -> bool:
         """Whether a word that may be a keyword or a name is the keyword; `possible`: it fits here as a keyword."""
         text, following = self.tokens[index].text, self.tokens[index + 1]
         if text in _FOLLOWED_BY:
             return following.text in _FOLLOWED_BY[text]
-        if text == "not":
-            return possible and self._denies(index)
+        if text in _CONFIRMED:
+            return possible and _CONFIRMED[text](self.tokens, index)
         if text == "action":
             return possible and following.kind == "word" and following.text not in HARD | {"is"}
         return possible
-
-    def _denies(self, index: int) -> bool:
-        """Whether `not` after `is` denies the value after it, rather than being the value."""
-        value, after = self.tokens[index + 1 : index + 3] if index + 2 < len(self.tokens) else (None, None)
-        if value is None or after is None:
-            return False
-        if value.kind == "number":
-            return True
-        if value.kind != "word" or value.text in HARD | AFTER_VALUES or after.text == ":":
-            return False
-        return (value.text, after.text) not in _TWO_WORDS
 
     def _recover(self) -> None:
         """Report the token at `index`, and make the parser ready to go on with the token at the new `index`."""

@@ -15,7 +15,7 @@ def print_specification(tree: ast.Specification) -> str:
     return "\n".join(line for block in tree.blocks for line in (*_block(block), "")) if tree.blocks else ""
 
 
-def print_predicate(predicate: ast.Predicate, tightness: int = _EQUIVALENCE) -> str:
+def print_predicate(predicate: ast.Predicate, tightness: int = -1) -> str:
     """A predicate, in parentheses where what is around it binds as tightly as `tightness`."""
     own, text = _predicate(predicate)
     return text if own >= tightness else f"({text})"
@@ -31,6 +31,8 @@ def _predicate(predicate: ast.Predicate) -> tuple[int, str]:
         case ast.Implication(condition, consequence):
             sides = print_predicate(condition, _DISJUNCTION), print_predicate(consequence, _DISJUNCTION)
             return _IMPLICATION, f"IF {sides[0]} THEN {sides[1]}"
+        case ast.Quantifier(kind, header, body):
+            return _EQUIVALENCE - 1, f"{kind} {_header(header)}: {print_predicate(body)}"
         case ast.Disjunction(operands):
             return _DISJUNCTION, " OR ".join([print_predicate(each, _CONJUNCTION) for each in operands])
         case ast.Conjunction(operands):
@@ -70,36 +72,81 @@ def _basic(
 def _block(block: ast.Block) -> Iterator[str]:
     match block:
         case ast.StateVector(variables):
-            yield from _framed(
-                "STATE VECTOR", (f"state {each.name.text} can be {_items(each.values)}" for each in variables)
-            )
+            yield from _framed("STATE VECTOR", variables)
         case ast.Aliases(definitions):
-            lines = (f"define {each.name.text} as {print_predicate(each.predicate)}" for each in definitions)
-            yield from _framed("ALIASES", lines)
+            yield from _framed("ALIASES", definitions)
         case ast.Resources(resources):
-            yield from _framed("RESOURCES", (f"resource {each.name.text}" for each in resources))
+            yield from _framed("RESOURCES", resources)
         case ast.Actions(actions):
-            yield from _framed("ACTIONS", (line for each in actions for line in _action(each)))
+            yield from _framed("ACTIONS", actions)
         case ast.ReactionRules(rules):
-            yield from _framed("REACTION RULES", (f"rule: {print_predicate(each)}" for each in rules))
+            yield from _framed("REACTION RULES", rules)
         case ast.StateRules(rules):
-            yield from _framed("STATE RULES", (_state_rule(each) for each in rules))
+            yield from _framed("STATE RULES", rules)
         case ast.Assumptions(assumptions):
-            yield from _framed("ASSUMPTIONS", (f"assume: {print_predicate(each)}" for each in assumptions))
+            yield from _framed("ASSUMPTIONS", assumptions, "assume")
         case ast.Goals(goals):
             yield from _goal(goals)
         case ast.Config(settings):
-            yield from _framed("CONFIG", (_setting(each) for each in settings))
+            yield from _framed("CONFIG", settings)
 
 
-def _state_rule(rule: ast.Predicate | ast.Severity) -> str:
-    return f"severity: {rule.value}" if isinstance(rule, ast.Severity) else f"rule: {print_predicate(rule)}"
-
-
-def _framed(title: str, lines: Iterable[str]) -> Iterator[str]:
+def _framed(title: str, entries: Iterable[ast.Entry], keyword: str = "rule") -> Iterator[str]:
     yield f"BEGIN {title}"
-    yield from lines
+    for each in entries:
+        yield from _entry(each, keyword)
     yield f"END {title}"
+
+
+def _entry(entry: ast.Entry, keyword: str) -> Iterator[str]:
+    """What a block holds; `keyword` is what stands before a predicate."""
+    match entry:
+        case ast.Copies(header, entries):
+            yield f"for {_header(header)}"
+            for each in entries:
+                yield from (f"  {line}" for line in _entry(each, keyword))
+            yield "end for"
+        case ast.VariableDeclaration(name, values):
+            yield f"state {name.text} can be {_items(values)}"
+        case ast.AliasDefinition(name, predicate):
+            yield f"define {name.text} as {print_predicate(predicate)}"
+        case ast.NamedList(name, items):
+            yield f"define {name.text} as {{ {_items(items)} }}"
+        case ast.ResourceDeclaration(name):
+            yield f"resource {name.text}"
+        case ast.ActionDeclaration(name, fields):
+            yield f"action {name.text}"
+            for field in fields:
+                yield from (f"  {line}" for line in _entry(field, keyword))
+        case ast.SimpleGoal() | ast.ConditionalGoal() | ast.GoalList():
+            yield from _goal(entry)
+        case ast.Duration() | ast.ControlledResources() | ast.Preconditions() | ast.NominalEffects():
+            yield _field(entry)
+        case ast.AlternativeEffects():
+            yield _field(entry)
+        case ast.Severity(value):
+            yield f"severity: {_number(value)}"
+        case ast.MaxPlanLength() | ast.EffectOrdering() | ast.Restoration() | ast.PreconditionsHold():
+            yield _setting(entry)
+        case _:
+            yield f"{keyword}: {print_predicate(entry)}"
+
+
+def _header(header: ast.Header) -> str:
+    parameters = [
+        f"{each.name.text} in {f'{{ {_items(each.items)} }}' if each.braced else _items(each.items)}"
+        for each in header.parameters
+    ]
+    conditions = [f"{_operand(each.left)} {each.operator} {_operand(each.right)}" for each in header.conditions]
+    return ", ".join(parameters) + (f" where {', '.join(conditions)}" if conditions else "")
+
+
+def _operand(operand: ast.Operand) -> str:
+    return f"{operand.name.text}{operand.offset:+d}" if operand.offset else operand.name.text
+
+
+def _number(value: int | ast.Name) -> str:
+    return value.text if isinstance(value, ast.Name) else str(value)
 
 
 def _names(names: tuple[ast.Name, ...]) -> str:
@@ -115,16 +162,10 @@ def _predicates(predicates: tuple[ast.Predicate, ...]) -> str:
     return ", ".join(print_predicate(each) for each in predicates) or "none"
 
 
-def _action(action: ast.ActionDeclaration) -> Iterator[str]:
-    yield f"action {action.name.text}"
-    for each in action.fields:
-        yield f"  {_field(each)}"
-
-
 def _field(field: ast.Field) -> str:
     match field:
         case ast.Duration(value):
-            return f"duration: {value}"
+            return f"duration: {_number(value)}"
         case ast.ControlledResources(names):
             return f"controlled resources: {_names(names)}"
         case ast.Preconditions(predicates):
@@ -135,8 +176,14 @@ def _field(field: ast.Field) -> str:
             return f"alternative effects: {_predicates(predicates)}"
 
 
-def _goal(goal: ast.Goal, indent: str = "") -> Iterator[str]:
+def _goal(goal: ast.Goal | ast.Copies, indent: str = "") -> Iterator[str]:
     match goal:
+        case ast.Copies(header, entries):
+            yield f"{indent}for {_header(header)}"
+            for each in entries:
+                assert isinstance(each, ast.SimpleGoal | ast.ConditionalGoal | ast.GoalList | ast.Copies)
+                yield from _goal(each, indent + "  ")
+            yield f"{indent}end for"
         case ast.SimpleGoal(predicate):
             yield f"{indent}goal: {print_predicate(predicate)}"
         case ast.ConditionalGoal(condition, inner):
@@ -154,7 +201,7 @@ def _goal(goal: ast.Goal, indent: str = "") -> Iterator[str]:
 def _setting(setting: ast.Setting) -> str:
     match setting:
         case ast.MaxPlanLength(value):
-            return f"max_plan_length: {value}"
+            return f"max_plan_length: {_number(value)}"
         case ast.EffectOrdering(value):
             return f"effect_ordering: {value}"
         case ast.Restoration(value):

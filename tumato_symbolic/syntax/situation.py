@@ -120,7 +120,9 @@ class Situation:
         return self.index - 1 if before in (["BEGIN", "STATE"], ["BEGIN", "REACTION"]) else None
 
     def _keywords(self) -> list[str]:
-        return sorted(each for each in self.expected if each.isidentifier() and each not in ("NAME", "NUMBER"))
+        return sorted(
+            each for each in self.expected if each.isidentifier() and each not in ("NAME", "NUMBER", "OFFSET")
+        )
 
     def last(self, *texts: str) -> Token | None:
         """The latest open token that is one of `texts`."""

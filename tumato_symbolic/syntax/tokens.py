@@ -73,8 +73,10 @@ class Tokens:
 
 def pattern(space: str, comment: str, name: str, number: str) -> re.Pattern[str]:
     """The pattern of one token, made of the terminals that the grammar defines."""
+    tail = rf"\{{{name}(?:[+-][0-9]+)?\}}[A-Za-z0-9_]*"
+    word = rf"{name}(?!\w)(?:{tail})*|[0-9]*(?:{tail})+"
     return re.compile(
-        rf"(?P<space>{space})|(?P<comment>{comment})|(?P<word>{name}(?!\w))|(?P<number>{number}(?!\w|\.(?!\.)))"
+        rf"(?P<space>{space})|(?P<comment>{comment})|(?P<word>(?:{word})(?!\w))|(?P<number>{number}(?!\w|\.(?!\.)))"
         r"|(?P<symbol>[:,(){}]|\.\.|(?:<=|>=|!=|[<>=])(?![=<>!&|]|->))|(?P<malformed>[+-]?\d[\w.]*)"
         r"|(?P<unclosed>/\*)|(?P<other>[^\s\w:,(){}/*]+|\w+|.)"
     )
@@ -105,12 +107,20 @@ def tokenize(source: Source, token_pattern: re.Pattern[str]) -> Tokens:
                 line += breaks
                 line_start = match.start() + text.rindex("\n") + 1
             continue
-        if kind == "number" and (len(text.lstrip("-")) > MAX_DIGITS or (text[0] == "-" and not int(text))):
+        if kind == "word" and text[0] == "{" and _is_set(text, tokens):
+            tokens += [Token("symbol", "{", line, column), Token("word", text[1:-1], line, column + 1)]
+            kind, text, column = "symbol", "}", column + len(text) - 1
+        if kind == "number" and (len(text.lstrip("+-")) > MAX_DIGITS or (text[0] in "+-" and not int(text))):
             kind = "malformed"
         tokens.append(Token(kind, text, line, column))  # type: ignore[arg-type]
     end = tokens[-1].span if tokens else Span(1, 1, 1, 1)
     tokens.append(Token("end", "", end.end_line, end.end_column))
     return Tokens(tuple(tokens), unclosed, tuple(misleading))
+
+
+def _is_set(text: str, before: list[Token]) -> bool:
+    """Whether `{a}` is a set with the value `a` rather than a name that is the value of a parameter `a`."""
+    return text[1:-1].isidentifier() and bool(before) and before[-1].text in ("in", "as")
 
 
 def _misleading(comment: str, place: int, line: int, column: int) -> Diagnostic:
