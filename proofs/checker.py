@@ -2344,6 +2344,8 @@ def check_no_restoration(world: World, reason: dict[str, Any], states: Numbered)
     need(diagram.is_yes_or_no(), "`Leaves` is not [false, true]")
     root = diagram.reference(reason.get("Root"))
     check_decides(world, start)
+    if world.restoration == "one_step":
+        raise Refuted("safety is to be restored in one step, and a trap speaks of several")
     level = [state for state in world.valid if world.level(state) == world.level(start)]
     trap = {state: None for state in level if diagram.value(root, state)}
     if world.is_safe(start) or start not in trap:

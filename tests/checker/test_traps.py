@@ -12,12 +12,14 @@ import pytest
 from tests.checker.standalone import ask
 from tests.checker.stepwise import stepwise_spec, ways
 from tests.printing import print_spec
+from tests.semantics.test_restoration import VALVES, restoring
 from tests.verify.test_no_restoration import certified, holds_fast
 from tumato_symbolic.diagrams import DiagramBuilder
 from tumato_symbolic.policy.unrealizable import NoRestoration
 from tumato_symbolic.policy.unrealizable_file import dumps
 from tumato_symbolic.semantics import all_states
 from tumato_symbolic.spec import Ordering, Restoration
+from tumato_symbolic.verify import verify_unrealizable
 
 CASES: list[tuple[Restoration, int]] = [
     ("bounded", 1),
@@ -59,3 +61,15 @@ def test_traps(restoration: Restoration, tiers: int, tmp_path: Path) -> None:
         if min(met[True], met[False]) >= 10:
             break
     assert min(met[True], met[False]) >= 10, met
+
+
+def test_a_trap_is_no_reason_where_one_step_restores(tmp_path: Path) -> None:
+    """As for the package: it may well be that no set is allowed there, but that is another certificate."""
+    stuck = VALVES.replace("is closed\nEND ACTIONS", "is open\nEND ACTIONS")
+    certificate = certified(restoring(stuck, "bounded"))
+    assert certificate is not None
+    for restoration, code in (("bounded", 0), ("one_step", 1)):
+        answer = ask(tmp_path, dumps(certificate), stuck, "--restoration", restoration)
+        assert answer.code == code, answer
+        verdict = verify_unrealizable(certificate, restoring(stuck, restoration)).verdict  # type: ignore[arg-type]
+        assert verdict == ("refuted" if code else "proved")

@@ -192,7 +192,7 @@ BUGS = (
     Bug("5.4", "one step too many is in time", Checker, checker.Judge, "serves", _one_step_more,
         lambda engine: policies.test_a_run_has_at_most_as_many_steps_as_the_bound(engine, 2, True)),
     Bug("5.6", "every cheaper set serves", Explicit, explicit_judge, "better_sets",
-        lambda _: lambda spec, policy, state, ordering: iter((frozenset(),)),
+        lambda _: lambda spec, policy, state, *others: iter((frozenset(),)),
         lambda engine: policies.test_no_cheaper_set_would_serve(engine, "any")),
     Bug("5.7", "the longest duration counts", States, states_steps, "duration", _longest,
         lambda engine: policies.test_durations_of_a_set_add_up(engine, 4, "left right")),
