@@ -230,7 +230,7 @@ def test_a_child_that_crashes_is_a_bug() -> None:
 
         return end
 
-    with pytest.raises(ChildCrashedError, match="ended by signal"):
+    with pytest.raises(ChildCrashedError, match="killed by signal"):
         supervised(ended_by(signal.SIGUSR1), Context())
     with pytest.raises(EndedError, match="memory ran out"):
         supervised(ended_by(signal.SIGKILL), Context())
