@@ -94,7 +94,8 @@ def test_a_report_tells_the_way() -> None:
     }
     closed = total(spec, {(1,): nothing}, "any", "walk")
     assert closed is not None
-    assert refutation_text(Place(spec, "a.tum"), closed).endswith("no run gets there)")
+    told_of_none = "(no run from a decided state gets there: every outcome of every decision is decided)"
+    assert refutation_text(Place(spec, "a.tum"), closed).endswith(told_of_none)
 
 
 def test_too_many_outcomes_are_left_open(monkeypatch: pytest.MonkeyPatch) -> None:
