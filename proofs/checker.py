@@ -387,8 +387,9 @@ class Parser:
             name = self.name()
             self.need(name not in found and name not in outer, f"there is a parameter {name} already")
             self.expect("in")
-            values = self.listed(self.items(self.next.startswith("{")), MOST_COMBINATIONS)
-            values = self.lists.get(values[0], values) if len(values) == 1 else values
+            braced = self.next.startswith("{")
+            values = self.listed(self.items(braced), MOST_COMBINATIONS)
+            values = self.lists.get(values[0], values) if len(values) == 1 and not braced else values
             found[name] = self.orders.setdefault(values, {value: place for place, value in enumerate(values)})
         tests = [self.test()] if self.accept("where") else []
         while tests and self.accept(","):

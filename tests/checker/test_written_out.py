@@ -136,6 +136,10 @@ TEXTS = [
         "BEGIN STATE VECTOR for F in 1..2 state S_{F} can be 0..{F} end for END STATE VECTOR",
         "BEGIN STATE VECTOR state S_1 can be 0, 1 state S_2 can be 0, 1, 2 END STATE VECTOR",
     ),
+    (  # one word in braces is that word, whatever list has the name
+        "BEGIN STATE VECTOR for R in {ROBOTS} state S_{R} can be a, b end for END STATE VECTOR " + ROBOTS,
+        "BEGIN STATE VECTOR state S_ROBOTS can be a, b END STATE VECTOR",
+    ),
     (
         block("STATE RULES", "for R in ROBOTS where R > r1 rule: D_{R} is yes end for severity: 2 rule: N is 1") + ROBOTS,
         block("STATE RULES", "rule: D_r2 is yes rule: D_r3 is yes severity: 2 rule: N is 1"),
