@@ -154,6 +154,20 @@ def test_a_signal_that_is_ignored_stays_so() -> None:
         signal.signal(signal.SIGHUP, before)
 
 
+def test_signals_end_the_process_again_where_there_is_no_child(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where the system has no process left to give, Ctrl-C and SIGTERM mean what they meant."""
+
+    def fork() -> int:
+        raise BlockingIOError
+
+    numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+    before = [signal.getsignal(number) for number in numbers]
+    monkeypatch.setattr(os, "fork", fork)
+    with pytest.raises(BlockingIOError):
+        supervised(_for_ever, Context(Limits(seconds=1000.0)))
+    assert [signal.getsignal(number) for number in numbers] == before
+
+
 def test_signals_are_noted_whichever_thread_receives_them() -> None:
     """A solver's thread may receive what this one has blocked; what the child knew is known all the same."""
     ended = threading.Event()

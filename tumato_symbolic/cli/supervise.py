@@ -73,20 +73,22 @@ def supervised(work: Callable[[], int], context: Context) -> int:
     console.flush()
     noted: list[int] = []
     handlers = _note_signals(noted)
-    child = os.fork()
-    if child == 0:
-        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # Ctrl-C is for the parent
-        _restore(handlers)
-        os.close(messages)
-        os.close(granter)
-        _be_the_child(work, context, _Sender(sender, leave), parent)
-    os.close(sender)
-    os.close(leave)
-    watch = _Watch(child, messages, granter, context, noted)
     try:
-        return watch.run()
+        child = os.fork()
+        if child == 0:
+            signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # Ctrl-C is for the parent
+            _restore(handlers)
+            os.close(messages)
+            os.close(granter)
+            _be_the_child(work, context, _Sender(sender, leave), parent)
+        os.close(sender)
+        os.close(leave)
+        watch = _Watch(child, messages, granter, context, noted)
+        try:
+            return watch.run()
+        finally:
+            watch.end()
     finally:
-        watch.end()
         _restore(handlers)
 
 
