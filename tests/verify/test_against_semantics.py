@@ -31,7 +31,8 @@ def _assert_as_judged(
     return answer
 
 
-def _assert_witness(spec: Spec, rows: Rows, ordering: Ordering, refutation: Refutation) -> None:
+def assert_witness(spec: Spec, rows: Rows, ordering: Ordering, refutation: Refutation) -> None:
+    """The state fails as the refutation says, by the explicit meaning; the cheaper set is the best one."""
     judged, state = judge(spec, rows, ordering), refutation.state
     assert state is not None
     assert refutation.decision == rows.get(state)
@@ -64,7 +65,7 @@ def test_strangers_are_judged_as_by_the_explicit_meaning(profile: str, ordering:
             for result in answer.properties:
                 met.add((result.name, result.verdict))
                 if result.refutation is not None:
-                    _assert_witness(spec, rows, ordering, result.refutation)
+                    assert_witness(spec, rows, ordering, result.refutation)
     assert len(met) >= 7
 
 
