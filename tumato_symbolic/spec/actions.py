@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from tumato_symbolic.diagnostics import Code, CopySpan, Note, Span
 from tumato_symbolic.diagnostics.wording import quoted
@@ -48,7 +48,8 @@ class Actions:
         nominal: Assignment = ()
         alternatives: list[Alternative] = []
         resource_span: Span | None = None
-        for field in (one for one in declaration.fields if not isinstance(one, ast.Copies)):
+        fields: Iterator[ast.Field] = ast.one_by_one(declaration.fields)
+        for field in fields:
             match field:
                 case ast.Duration(value):
                     duration = self._duration(field, ast.number(value))
@@ -66,7 +67,8 @@ class Actions:
 
     def _once_each(self, declaration: ast.ActionDeclaration) -> None:
         first: dict[str, Span] = {}
-        for field in (one for one in declaration.fields if not isinstance(one, ast.Copies)):
+        fields: Iterator[ast.Field] = ast.one_by_one(declaration.fields)
+        for field in fields:
             title = _FIELDS.get(type(field))
             if title is None:
                 continue

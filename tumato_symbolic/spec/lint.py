@@ -51,9 +51,7 @@ def _missing(spec: Spec, tree: ast.Specification) -> Iterator[Diagnostic]:
         place = next((heading(each.span, "GOALS") for each in tree.blocks if isinstance(each, ast.Goals)), end)
         yield Diagnostic(Code.TUM326, "there are no goals: every allowed step will do", place)
     for block in tree.blocks:
-        for action in (
-            (one for one in block.actions if not isinstance(one, ast.Copies)) if isinstance(block, ast.Actions) else ()
-        ):
+        for action in ast.one_by_one(block.actions) if isinstance(block, ast.Actions) else ():
             if not any(isinstance(field, ast.NominalEffects) for field in action.fields):
                 message = f"the action {quoted(action.name.text)} has no nominal effects"
                 yield Diagnostic(

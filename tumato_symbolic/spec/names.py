@@ -86,13 +86,13 @@ _KINDS: Final[dict[type[ast.Declaration], Kind]] = {
 def _declarations(block: ast.Block) -> Iterable[ast.Declaration]:
     match block:
         case ast.StateVector(variables):
-            return (one for one in variables if not isinstance(one, ast.Copies))
+            return ast.one_by_one(variables)
         case ast.Aliases(definitions):
-            return (one for one in definitions if not isinstance(one, ast.Copies))
+            return ast.one_by_one(definitions)
         case ast.Resources(resources):
-            return (one for one in resources if not isinstance(one, ast.Copies))
+            return ast.one_by_one(resources)
         case ast.Actions(actions):
-            return (one for one in actions if not isinstance(one, ast.Copies))
+            return ast.one_by_one(actions)
         case _:
             return ()
 

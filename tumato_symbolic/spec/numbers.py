@@ -53,6 +53,18 @@ def bounds(item: ast.Range, findings: Findings) -> tuple[int, int] | None:
     return low, high
 
 
+def ends_of(item: ast.Item, findings: Findings) -> tuple[int, int] | None:
+    """From which to which number an item goes, any number for a name; None, and a report, where it is in error."""
+    if isinstance(item, ast.Range):
+        return bounds(item, findings)
+    return (0, 0) if is_right(item, findings) else None
+
+
+def texts_of(item: ast.Item, ends: tuple[int, int]) -> Iterable[str]:
+    """The values that an item lists, which goes from one number to the other."""
+    return (item.text,) if isinstance(item, ast.Name) else map(str, range(ends[0], ends[1] + 1))
+
+
 def chosen(items: Sequence[ast.Item], values: Mapping[str, int], findings: Findings) -> list[tuple[ast.Item, set[int]]]:
     """Which values each item of a set means, by their positions; what is written wrongly is left out and reported."""
     found: list[tuple[ast.Item, set[int]]] = []

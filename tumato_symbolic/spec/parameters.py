@@ -13,7 +13,7 @@ from typing import Final, TypeAlias
 from tumato_symbolic.diagnostics import Code
 from tumato_symbolic.diagnostics.wording import listed, quoted
 from tumato_symbolic.spec.collector import Findings
-from tumato_symbolic.spec.numbers import bounds, is_right, number_of
+from tumato_symbolic.spec.numbers import ends_of, is_right, number_of, texts_of
 from tumato_symbolic.syntax import ast
 from tumato_symbolic.syntax.confirming import NOT_PARAMETERS
 
@@ -100,13 +100,13 @@ def domain_of(items: tuple[ast.Item, ...], findings: Findings) -> Domain | None:
             if "{" in name.text:
                 findings.add(Code.TUM316, "parameters cannot stand in a list of values of parameters", name.span)
                 return None
-        ends = (0, 0) if isinstance(item, ast.Name) else bounds(item, findings)
-        if ends is None or (isinstance(item, ast.Name) and not is_right(item, findings)):
+        ends = ends_of(item, findings)
+        if ends is None:
             return None
         if len(found) + ends[1] - ends[0] + 1 > MAX_COMBINATIONS:
             too_many(item, findings)
             return None
-        for text in (item.text,) if isinstance(item, ast.Name) else map(str, range(ends[0], ends[1] + 1)):
+        for text in texts_of(item, ends):
             if text in found:
                 findings.add(Code.TUM203, f"the value {quoted(text)} is listed twice", item.span, "remove one")
                 return None

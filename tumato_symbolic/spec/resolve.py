@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Note, Source, Span
@@ -124,10 +124,8 @@ def _rules(predicates: Predicates, blocks: Iterable[ast.Block], no_executing_in:
     for block in blocks:
         match block:
             case ast.ReactionRules(rules) | ast.Assumptions(rules):
-                found.extend(
-                    predicates.rule(each, no_executing_in)
-                    for each in (one for one in rules if not isinstance(one, ast.Copies))
-                )
+                written: Iterator[ast.Predicate] = ast.one_by_one(rules)
+                found.extend(predicates.rule(each, no_executing_in) for each in written)
             case _:
                 pass
     return tuple(rule for rule in found if rule is not None)
@@ -135,11 +133,10 @@ def _rules(predicates: Predicates, blocks: Iterable[ast.Block], no_executing_in:
 
 def _state_rules(predicates: Predicates, blocks: Iterable[ast.Block], findings: Findings) -> tuple[Rule, ...]:
     found: list[Rule] = []
-    for block in blocks:
+    for block in (each for each in blocks if isinstance(each, ast.StateRules)):
         severity = 1
-        for each in (
-            (one for one in block.rules if not isinstance(one, ast.Copies)) if isinstance(block, ast.StateRules) else ()
-        ):
+        entries: Iterator[ast.Predicate | ast.Severity] = ast.one_by_one(block.rules)
+        for each in entries:
             if isinstance(each, ast.Severity):
                 severity = ast.number(each.value)
                 _check_number("severity", each, "1 is the most severe; only the order of the numbers counts", findings)
@@ -180,7 +177,8 @@ class _Goals:
                     return None
                 return ConditionalGoal(condition, found, span)
             case ast.GoalList(kind, members, span):
-                parts = [self._goal(each) for each in (one for one in members if not isinstance(one, ast.Copies))]
+                goals: Iterator[ast.Goal] = ast.one_by_one(members)
+                parts = [self._goal(each) for each in goals]
                 return GoalList(kind or "constraint", tuple(each for each in parts if each is not None), span)
 
 
@@ -207,10 +205,9 @@ def _with_setting(spec: Spec, setting: ast.Setting) -> Spec:
 def _settings(tree: ast.Specification, findings: Findings) -> list[ast.Setting]:
     """What CONFIG says, each setting once."""
     found: dict[type[ast.Setting], ast.Setting] = {}
-    for block in tree.blocks:
-        for setting in (
-            (one for one in block.settings if not isinstance(one, ast.Copies)) if isinstance(block, ast.Config) else ()
-        ):
+    for block in (each for each in tree.blocks if isinstance(each, ast.Config)):
+        settings: Iterator[ast.Setting] = ast.one_by_one(block.settings)
+        for setting in settings:
             name, first = _SETTINGS[type(setting)], found.setdefault(type(setting), setting)
             if first is not setting:
                 notes = (Note("it is set first here", first.span),)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from tumato_symbolic.diagnostics import Code, Note, Span
 from tumato_symbolic.diagnostics.wording import quoted
 from tumato_symbolic.spec.collector import Findings
-from tumato_symbolic.spec.numbers import bounds, is_right
+from tumato_symbolic.spec.numbers import ends_of, texts_of
 from tumato_symbolic.syntax import ast
 
 MAX_VALUES = 10_000
@@ -47,7 +47,7 @@ def _values(declaration: ast.VariableDeclaration, made: int, findings: Findings)
     complete = True
     listed = 0
     for item in declaration.values:
-        ends = _ends(item, findings)
+        ends = ends_of(item, findings)
         if ends is None:
             complete = False
             continue
@@ -57,20 +57,13 @@ def _values(declaration: ast.VariableDeclaration, made: int, findings: Findings)
         if isinstance(item, ast.Range) and (listed > MAX_VALUES or made > MAX_VALUES_IN_ALL):
             complete = False
             continue
-        for value in (item.text,) if isinstance(item, ast.Name) else map(str, range(ends[0], ends[1] + 1)):
+        for value in texts_of(item, ends):
             if value not in places:
                 places[value] = item.span
             elif value not in reported:
                 reported.add(value)
                 _twice(declaration, value, item, places[value], findings)
     return Values(tuple(places), complete)
-
-
-def _ends(item: ast.Item, findings: Findings) -> tuple[int, int] | None:
-    """From which to which number an item goes, any number for a name; None, and a report, where it is in error."""
-    if isinstance(item, ast.Range):
-        return bounds(item, findings)
-    return (0, 0) if is_right(item, findings) else None
 
 
 def _twice(declaration: ast.VariableDeclaration, value: str, item: ast.Item, first: Span, findings: Findings) -> None:

@@ -6,10 +6,13 @@ texts with the same tree differ in layout and comments only. The printer is the 
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from typing import Literal, TypeAlias, TypeVar
 
 from tumato_symbolic.diagnostics import Span
+
+One = TypeVar("One")
 
 NOWHERE = Span(1, 1, 1, 1)
 """The span of a node that no text stands for."""
@@ -38,7 +41,15 @@ class Node:
 
 def number(value: int | Name) -> int:
     """A number where copies are written out: it is no name with parameters in it."""
-    return value if isinstance(value, int) else 0
+    assert isinstance(value, int), "copies are written out before names are resolved"
+    return value
+
+
+def one_by_one(entries: Iterable[One | Copies]) -> Iterator[One]:
+    """Entries where copies are written out: there are none among them, and none would be passed over."""
+    for each in entries:
+        assert not isinstance(each, Copies), "copies are written out before names are resolved"
+        yield each
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
