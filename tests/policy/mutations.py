@@ -5,7 +5,7 @@ import random
 from copy import deepcopy
 from typing import Any
 
-VALUES = [
+VALUES: list[Any] = [
     None, True, False, -1, 0, 1, 2, 7, 1.5, 1e308, 10**30, "", "any", "hall", "go", "Actions", "\ud800",
     [], {}, [[]], {"": ""}, [0, [0, 1]], {"hall": 0}, ["go", "go"],
 ]  # fmt: skip

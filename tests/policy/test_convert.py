@@ -1,12 +1,13 @@
 """Tables and diagrams say the same."""
 
 from itertools import product
+from typing import Any
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.policy.strategies import QUICK, policies, spec_of, tables, vocabularies
+from tests.policy.strategies import QUICK, diagram_of, policies, rows_of, spec_of, tables, vocabularies
 from tumato_symbolic.diagrams import Diagram, DiagramBuilder, rebuild
 from tumato_symbolic.policy import (
     DecisionDiagram,
@@ -25,7 +26,7 @@ from tumato_symbolic.policy import (
 def test_table_to_diagram_to_table(policy: Policy) -> None:
     """A table comes back from its diagram, and both count the same states."""
     diagram = Policy(policy.vocabulary, as_diagram(policy))
-    assert count_defined(diagram) == count_defined(policy) == len(policy.decisions.rows)
+    assert count_defined(diagram) == count_defined(policy) == len(rows_of(policy))
     assert as_table(diagram, 1000) == policy.decisions
 
 
@@ -33,15 +34,16 @@ def test_table_to_diagram_to_table(policy: Policy) -> None:
 @given(policies(forms=("diagram",)))
 def test_diagram_to_table_state_by_state(policy: Policy) -> None:
     """The table of a diagram has exactly the defined states, with the actions whose roots lead to True."""
-    diagram, roots = policy.decisions.diagram, policy.decisions.roots
+    decisions = diagram_of(policy)
+    diagram, roots = decisions.diagram, decisions.roots
     expected = {
         state: frozenset(action for action, root in enumerate(roots) if diagram.evaluate(root, state))
         for state in product(*map(range, policy.vocabulary.sizes))
-        if diagram.evaluate(policy.decisions.defined, state)
+        if diagram.evaluate(decisions.defined, state)
     }
-    found = as_table(policy, 1000)
-    assert found.rows == expected
-    assert list(found.rows) == sorted(expected)
+    found = rows_of(policy)
+    assert found == expected
+    assert list(found) == sorted(expected)
 
 
 @QUICK
@@ -57,7 +59,7 @@ def test_the_limit_is_exact(policy: Policy) -> None:
 @given(policies(forms=("diagram",)))
 def test_canonical_is_canonical(policy: Policy) -> None:
     """Rebuilding a rebuilt diagram changes nothing: no two equal nodes, none superfluous, children first."""
-    decisions = policy.decisions
+    decisions = diagram_of(policy)
     roots = (*decisions.roots, decisions.defined)
     assert rebuild(decisions.diagram, roots) == (decisions.diagram, roots)
     nodes = decisions.diagram.nodes
@@ -95,7 +97,7 @@ def test_many_variables_need_no_deep_stack() -> None:
     policy = Policy(vocabulary, Table(rows))
     diagram = as_diagram(policy)
     assert diagram.diagram.evaluate(diagram.roots[0], (0,) * count)
-    assert as_table(Policy(vocabulary, diagram), 2).rows == rows
+    assert rows_of(Policy(vocabulary, diagram), 2) == rows
 
 
 def test_rows_become_a_policy() -> None:
@@ -103,23 +105,23 @@ def test_rows_become_a_policy() -> None:
     vocabulary = Vocabulary((("S", ("a", "b")),), ("go",))
     policy = policy_from_rows(spec_of(vocabulary), {(1,): frozenset(), (0,): frozenset({0})}, "first", "d", None)
     assert policy == Policy(vocabulary, Table({(0,): frozenset({0}), (1,): frozenset()}), "first", "d")
-    assert list(policy.decisions.rows) == [(0,), (1,)]
+    assert list(rows_of(policy)) == [(0,), (1,)]
 
 
 def test_a_table_takes_each_combination_of_nodes_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """A diagram that reads the same below many paths is looked at once there: here 2 nodes a variable, 2^12 states."""
     from tumato_symbolic.policy import convert
 
-    size, looked_at = 12, []
+    size, looked_at = 12, list[tuple[object, ...]]()
     rows = {state: frozenset({sum(state) % 2}) for state in product(range(2), repeat=size)}
     vocabulary = Vocabulary(tuple((f"v{number}", ("a", "b")) for number in range(size)), ("even", "odd"))
     together = convert._together
 
-    def counted(*arguments):
+    def counted(*arguments: Any) -> Any:
         looked_at.append(arguments)
         return together(*arguments)
 
     monkeypatch.setattr(convert, "_together", counted)
     diagram = Policy(vocabulary, as_diagram(Policy(vocabulary, Table(rows))))
-    assert as_table(diagram, 2**size).rows == rows
+    assert rows_of(diagram, 2**size) == rows
     assert len(looked_at) == 2 * size + 1

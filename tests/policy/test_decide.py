@@ -1,14 +1,15 @@
 """Looking up what to do."""
 
 from pathlib import Path
+from typing import Any
 from unittest.mock import patch
 
 import pytest
 from hypothesis import given
 
-from tests.policy.strategies import QUICK, amr_like, policies
+from tests.policy.strategies import QUICK, amr_like, policies, rows_of
 from tumato_symbolic.diagnostics import UserError
-from tumato_symbolic.policy import Policy, UndecidedState, as_table, dumps, parse_assignments, parse_state
+from tumato_symbolic.policy import Policy, UndecidedState, dumps, parse_assignments, parse_state
 
 
 @QUICK
@@ -16,7 +17,7 @@ from tumato_symbolic.policy import Policy, UndecidedState, as_table, dumps, pars
 def test_decide_is_the_row(policy: Policy) -> None:
     """In every decided state: the actions of its row, by name, in the order of declaration."""
     variables, actions = policy.vocabulary.variables, policy.vocabulary.actions
-    for state, chosen in as_table(policy, 1000).rows.items():
+    for state, chosen in rows_of(policy).items():
         named = {name: values[value] for (name, values), value in zip(variables, state, strict=True)}
         assert policy.decide(named) == tuple(name for number, name in enumerate(actions) if number in chosen)
 
@@ -26,7 +27,7 @@ def test_decide_is_the_row(policy: Policy) -> None:
 def test_what_is_forgotten_is_found_again(policy: Policy) -> None:
     """Answers are the same when almost nothing is remembered, in whatever order states are asked."""
     variables, actions = policy.vocabulary.variables, policy.vocabulary.actions
-    rows = list(as_table(policy, 1000).rows.items())
+    rows = list(rows_of(policy).items())
     with patch("tumato_symbolic.policy.lookup._MOST_REMEMBERED", 2):
         for state, chosen in rows + rows[::-1]:
             named = {name: values[value] for (name, values), value in zip(variables, state, strict=True)}
@@ -63,7 +64,7 @@ WRONG = [
 
 @pytest.mark.parametrize(("state", "code", "message"), WRONG)
 @pytest.mark.parametrize("diagram", [False, True])
-def test_what_is_no_state_is_a_user_error(state, code: str, message: str, diagram: bool) -> None:
+def test_what_is_no_state_is_a_user_error(state: Any, code: str, message: str, diagram: bool) -> None:
     """Unknown variables, unknown values and missing variables are told apart from undecided states."""
     with pytest.raises(UserError) as raised:
         amr_like(diagram).decide(state)
@@ -88,7 +89,7 @@ def test_words_describe_a_state() -> None:
         (["S_Place=hall"], "TUM503", "`S_Load` has no value", "its values: `free`, `full` and `odd`"),
     ],
 )
-def test_wrong_words_have_a_way_out(words, code: str, message: str, way_out: str) -> None:
+def test_wrong_words_have_a_way_out(words: list[str], code: str, message: str, way_out: str | None) -> None:
     """Every mistake on the command line names the word and what could be meant."""
     with pytest.raises(UserError) as raised:
         parse_assignments(amr_like().vocabulary, words)

@@ -15,7 +15,7 @@ from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.policy import dumps, json_shape, load, loads, save
 
 
-def names(folder: Path):
+def names(folder: Path) -> list[str]:
     """What is in a folder."""
     return sorted(path.name for path in folder.iterdir())
 
@@ -38,7 +38,7 @@ def test_a_failing_write_changes_nothing(
     path = tmp_path / "policy.json"
     path.write_text("old")
 
-    def fail(*_):
+    def fail(*_: object) -> None:
         raise failure
 
     monkeypatch.setattr(os, step, fail)
@@ -63,6 +63,7 @@ def test_a_process_that_is_ended_leaves_nothing(tmp_path: Path, number: str) -> 
         "save_text('new', Path(sys.argv[1]), 'policy')"
     )
     with subprocess.Popen([sys.executable, "-c", code, path], stdout=-1, stderr=subprocess.DEVNULL) as process:
+        assert process.stdout is not None
         assert process.stdout.readline() == b"writing\n"
         assert len(names(tmp_path)) == 2
         process.send_signal(getattr(signal, number))
@@ -127,6 +128,7 @@ def test_what_cannot_be_read_is_said(tmp_path: Path) -> None:
         path = f"{tmp_path}/{name}"
         with pytest.raises(UserError, match="TUM501") as raised:
             load(path)
+        assert raised.value.source is not None
         assert raised.value.source.name == path
 
 
@@ -147,6 +149,8 @@ def test_a_syntax_error_has_a_place() -> None:
     """Text that is no JSON is shown with line and column."""
     with pytest.raises(UserError) as raised:
         loads('{\n  "Type": policy\n}', "p.json")
-    span = raised.value.diagnostics[0].span
+    span, source = raised.value.diagnostics[0].span, raised.value.source
+    assert span is not None
+    assert source is not None
     assert (span.line, span.column) == (2, 11)
-    assert raised.value.source.text.splitlines()[1] == '  "Type": policy'
+    assert source.text.splitlines()[1] == '  "Type": policy'

@@ -7,19 +7,19 @@ from pathlib import Path
 import pytest
 
 from tests.policy.mutations import mutate, mutations
-from tests.policy.strategies import amr_like, spec_of
+from tests.policy.strategies import amr_like, rows_of, spec_of
 from tumato_symbolic.diagnostics import UserError
-from tumato_symbolic.policy import Policy, UndecidedState, as_diagram, as_table, bind, count_defined, dumps, load, loads
+from tumato_symbolic.policy import Policy, UndecidedState, as_diagram, bind, count_defined, dumps, load, loads
 
 TEXTS = [dumps(amr_like()), dumps(amr_like(diagram=True))]
 SPEC = spec_of(amr_like().vocabulary)
 
 
-def use(policy: Policy):
+def use(policy: Policy) -> None:
     """Everything that is done with a policy that was read."""
     assert loads(dumps(policy)).decisions == policy.decisions
     as_diagram(policy)
-    assert count_defined(policy) == len(as_table(policy, 10**6).rows)
+    assert count_defined(policy) == len(rows_of(policy, 10**6))
     state = {name: values[0] for name, values in policy.vocabulary.variables}
     try:
         policy.decide(state)

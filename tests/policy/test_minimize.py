@@ -5,7 +5,7 @@ from itertools import product
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.policy.strategies import QUICK, policies
+from tests.policy.strategies import QUICK, diagram_of, policies
 from tumato_symbolic.diagrams import DiagramBuilder
 from tumato_symbolic.policy import Certificate, DecisionDiagram, Policy, RankedGoal, as_table
 from tumato_symbolic.policy.compact import minimized_decisions, minimized_layers, minimized_ranks
@@ -16,22 +16,22 @@ from tumato_symbolic.policy.unrealizable import Layers, NoPlan
 @given(policies(forms=("diagram",)))
 def test_decisions_stay_and_nothing_grows(policy: Policy) -> None:
     """Every defined state keeps its decision, no other becomes defined, and there are no more nodes."""
-    found = minimized_decisions(policy.decisions, policy.vocabulary.sizes)
+    found = minimized_decisions(diagram_of(policy), policy.vocabulary.sizes)
     assert as_table(Policy(policy.vocabulary, found), 10_000) == as_table(policy, 10_000)
-    assert len(found.diagram.nodes) <= len(policy.decisions.diagram.nodes)
+    assert len(found.diagram.nodes) <= len(diagram_of(policy).diagram.nodes)
 
 
 @QUICK
 @given(policies(forms=("diagram",)), st.data())
 def test_ranks_stay_where_they_matter(policy: Policy, data: st.DataObject) -> None:
     """Every state of the given set keeps the rank of every goal, and there are no more nodes."""
-    sizes, order = policy.vocabulary.sizes, policy.decisions.diagram.order
+    sizes, decisions = policy.vocabulary.sizes, diagram_of(policy)
     states = list(product(*map(range, sizes)))
-    builder = DiagramBuilder(order, (None, 0, 1, 2))
+    builder = DiagramBuilder(decisions.diagram.order, (None, 0, 1, 2))
     tables = data.draw(st.lists(st.dictionaries(st.sampled_from(states), st.sampled_from([None, 0, 1, 2])), max_size=3))
     goals = [RankedGoal((str(n),), (), builder.from_table(sizes, table, None)) for n, table in enumerate(tables)]
     given_ranks = Certificate(builder.finish(), tuple(goals))
-    care = (policy.decisions.diagram, policy.decisions.defined)
+    care = (decisions.diagram, decisions.defined)
     found = minimized_ranks(given_ranks, sizes, care)
     for before, after in zip(given_ranks.goals, found.goals, strict=True):
         for state in states:

@@ -13,6 +13,7 @@ from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.diagrams import Diagram, DiagramBuilder, count_true, rebuild
 from tumato_symbolic.policy import Certificate, Policy, RankedGoal, Table, Vocabulary, as_diagram, bind
 from tumato_symbolic.policy.bind import Renumbering
+from tumato_symbolic.semantics import State
 
 THERE = Vocabulary((("x", ("a", "b", "c")), ("y", ("p", "q")), ("z", ("u", "v", "w", "t"))), ("go", "eat", "nap"))
 HERE = Vocabulary((("z", ("w", "u", "t", "v")), ("x", ("c", "a", "b")), ("y", ("q", "p"))), ("eat", "nap", "go"))
@@ -106,7 +107,7 @@ def test_at_most_twenty_differences_are_told() -> None:
     assert {diagnostic.code.name for diagnostic in raised.value.diagnostics} == {"TUM505"}
 
 
-def drawn(random: Random, order: tuple[int, ...], sizes: tuple[int, ...]) -> tuple[Diagram[bool], int, set]:
+def drawn(random: Random, order: tuple[int, ...], sizes: tuple[int, ...]) -> tuple[Diagram[bool], int, set[State]]:
     """A diagram, its root, and the states that it leads to True."""
     inside = {state for state in product(*map(range, sizes)) if random.random() < 0.4}
     builder = DiagramBuilder(order, (False, True))
@@ -168,6 +169,5 @@ def test_a_variable_with_one_value_is_never_tested() -> None:
     builder = DiagramBuilder((0, 1), (False, True))
     low = builder.node(1, (0, 1))
     assert builder.node(0, (low,)) == low
-    table = {(0, 1): True}
-    assert builder.from_table((1, 2), table, False) == low
+    assert builder.from_table((1, 2), {(0, 1): True}, False) == low
     assert count_true(builder.finish(), low, (1, 2)) == 1

@@ -30,7 +30,7 @@ def test_equal_policies_have_equal_text(policy: Policy) -> None:
     """The text depends on the policy alone, not on the order in which it was made."""
     again = loads(dumps(policy))
     if isinstance(again.decisions, Table):
-        again = replace(again, decisions=Table(dict(reversed(again.decisions.rows.items()))))
+        again = replace(again, decisions=Table(dict(reversed(list(again.decisions.rows.items())))))
     assert dumps(again) == dumps(policy)
 
 

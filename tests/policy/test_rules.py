@@ -3,32 +3,32 @@
 import inspect
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from unittest.mock import patch
 
 import pytest
 from hypothesis import given
 
-from tests.policy.strategies import QUICK, policies
+from tests.policy.strategies import QUICK, policies, rows_of
 from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.diagrams import Coverer, DiagramBuilder
-from tumato_symbolic.policy import DecisionDiagram, Policy, Table, Vocabulary, as_table, count_defined, dumps, loads
+from tumato_symbolic.policy import DecisionDiagram, Policy, Table, Vocabulary, count_defined, dumps, loads
 from tumato_symbolic.policy.rules import Rule, minimal_rules
 
 PROOFS = Path(__file__).parents[2] / "proofs"
 
 
-def decide(rules: Sequence[Rule], state):
+def decide(rules: Sequence[Rule], state: Mapping[str, str]) -> tuple[str, ...] | None:
     """What the first rule that matches says; None where there is none."""
     matching = (rule for rule in rules if all(state[name] in values for name, values in rule.condition))
     return next((rule.actions for rule in matching), None)
 
 
-def named_rows(policy: Policy):
+def named_rows(policy: Policy) -> Iterator[tuple[dict[str, str], tuple[str, ...]]]:
     """Every decided state by names, and what is done there."""
     variables = policy.vocabulary.variables
-    for state in as_table(policy, 10_000).rows:
+    for state in rows_of(policy):
         named = {name: values[value] for (name, values), value in zip(variables, state, strict=True)}
         yield named, policy.decide(named)
 
@@ -80,11 +80,11 @@ def test_the_examples_need_one_rule_for_every_decision(name: str) -> None:
     assert len(minimal_rules(policy)) == len({actions for _, actions in named_rows(policy)})
 
 
-def tasks(number: int):
+def tasks(number: int) -> Policy:
     """`number` tasks, of which the first that is still to do is done: 2^number states, and some that never occur."""
     variables = tuple((f"T{place}", ("todo", "done", "void")) for place in range(number))
     builder = DiagramBuilder(range(number), (False, True))
-    finished, defined, first = 1, 1, []
+    finished, defined, first = 1, 1, list[int]()
     for level in reversed(range(number)):
         first = [builder.node(level, (0, root, 0)) for root in first]
         first.append(builder.node(level, (defined, 0, 0)))
@@ -125,7 +125,7 @@ def test_many_variables_are_no_difficulty() -> None:
     assert rules == (Rule(tuple((name, ("yes",)) for name, _ in vocabulary.variables), ("go",)), Rule((), ()))
 
 
-def parity(number: int):
+def parity(number: int) -> Policy:
     """One action where an odd number of variables is `yes`, another elsewhere."""
     builder = DiagramBuilder(range(number), (False, True))
     even, odd = 1, 0

@@ -1,6 +1,7 @@
 """What JSON a policy may be: keys, nesting, numbers, and how values are numbered."""
 
 import json
+from typing import Any
 
 import pytest
 
@@ -11,7 +12,7 @@ from tumato_symbolic.policy.json_shape import parse_json
 from tumato_symbolic.policy.objects import Row
 
 
-def numbered(*firsts, diagram: bool = False):
+def numbered(*firsts: int, diagram: bool = False) -> str:
     """The policy with the values of its variables numbered from these numbers on."""
     document = json.loads(dumps(amr_like(diagram=diagram)))
     for values, first in zip(document["States"].values(), firsts, strict=True):
@@ -56,7 +57,7 @@ def test_nesting_ends_at_a_hundred_levels(start: str, end: str) -> None:
 
 def test_rows_share_what_is_equal() -> None:
     """Equal names, texts and lists of rows are one object each; an object that is no row stays as it is."""
-    rows = parse_json(
+    rows: Any = parse_json(
         '[{"S": "on", "Actions": ["a"]}, {"S": "on", "Actions": ["a"]}, {"S": 1, "Actions": ["a"]}]', "rows"
     )
     one, other, odd = rows
@@ -70,4 +71,5 @@ def test_rows_share_what_is_equal() -> None:
 def test_what_is_no_list_of_actions_is_no_row(actions: object) -> None:
     """Not even after rows whose actions would look alike as a sequence."""
     rows = [{"S": "on", "Actions": each} for each in ([], ["a"], actions)]
-    assert parse_json(json.dumps(rows), "rows")[2] == rows[2]
+    found: Any = parse_json(json.dumps(rows), "rows")
+    assert found[2] == rows[2]

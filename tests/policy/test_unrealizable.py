@@ -2,9 +2,11 @@
 
 import json
 import re
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from random import Random
+from typing import get_args
 
 import jsonschema
 import pytest
@@ -12,7 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.policy.mutations import mutations
-from tests.policy.strategies import NAMES, QUICK, spec_of, vocabularies
+from tests.policy.strategies import NAMES, QUICK, action_sets, spec_of, states, vocabularies
 from tests.policy.test_bind import shuffled
 from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.diagrams import DiagramBuilder, rebuild
@@ -28,20 +30,23 @@ from tumato_symbolic.policy.unrealizable import (
     NoAllowedSet,
     NoPlan,
     NoRestoration,
+    Reason,
     Unrealizability,
     Violation,
+    ViolationKind,
 )
 from tumato_symbolic.policy.unrealizable_file import bind, dumps, load, loads, save
+from tumato_symbolic.spec import Restoration, Spec
 
 SCHEMA = json.loads(Path(__file__).parents[2].joinpath("tumato_symbolic/policy/unrealizable.schema.json").read_text())
 
 
 @st.composite
-def cubes(draw: st.DrawFn, vocabulary: Vocabulary):
+def cubes(draw: st.DrawFn, vocabulary: Vocabulary) -> Cube:
     """A cube with any violation that the format can hold."""
     numbers = range(len(vocabulary.actions))
-    sets = st.frozensets(st.sampled_from(numbers)) if numbers else st.just(frozenset())
-    kinds = ["reaction-rule", "idle", "nominal-unsafe"]
+    sets = action_sets(vocabulary)
+    kinds: list[ViolationKind] = ["reaction-rule", "idle", "nominal-unsafe"]
     kinds += ["precondition", "unsafe", "falsified"] if numbers else []
     kinds += ["resource", "nominal-conflict"] if len(numbers) > 1 else []
     kind = draw(st.sampled_from(kinds))
@@ -60,19 +65,14 @@ def cubes(draw: st.DrawFn, vocabulary: Vocabulary):
     return Cube(draw(sets), draw(sets), violation)
 
 
-def pairs(vocabulary: Vocabulary):
+def pairs(vocabulary: Vocabulary) -> st.SearchStrategy[tuple[int, int]]:
     """A variable and one of its values."""
     found = [(variable, value) for variable, size in enumerate(vocabulary.sizes) for value in range(size)]
     return st.sampled_from(found)
 
 
-def states(vocabulary: Vocabulary):
-    """Any state."""
-    return st.tuples(*(st.integers(0, size - 1) for size in vocabulary.sizes))
-
-
 @st.composite
-def layers(draw: st.DrawFn, vocabulary: Vocabulary):
+def layers(draw: st.DrawFn, vocabulary: Vocabulary) -> NoPlan:
     """No plan from a state, with any sets as layers."""
     builder = DiagramBuilder(draw(st.permutations(range(len(vocabulary.sizes)))), (False, True))
     goals = []
@@ -87,7 +87,7 @@ def layers(draw: st.DrawFn, vocabulary: Vocabulary):
 
 
 @st.composite
-def traps(draw: st.DrawFn, vocabulary: Vocabulary):
+def traps(draw: st.DrawFn, vocabulary: Vocabulary) -> NoRestoration:
     """No restoration from a state, with any set as the trap."""
     builder = DiagramBuilder(draw(st.permutations(range(len(vocabulary.sizes)))), (False, True))
     held = draw(st.frozensets(states(vocabulary), max_size=5))
@@ -96,14 +96,14 @@ def traps(draw: st.DrawFn, vocabulary: Vocabulary):
     return NoRestoration(draw(states(vocabulary)), diagram, kept)
 
 
-def names(draw: st.DrawFn, vocabulary: Vocabulary):
+def names(draw: st.DrawFn, vocabulary: Vocabulary) -> tuple[str, ...]:
     """Some actions, by name."""
     some = st.lists(st.sampled_from(vocabulary.actions), unique=True) if vocabulary.actions else st.just([])
     return tuple(draw(some))
 
 
 @st.composite
-def conflicts(draw: st.DrawFn, vocabulary: Vocabulary):
+def conflicts(draw: st.DrawFn, vocabulary: Vocabulary) -> Conflict:
     """Any choices, cuts and distances."""
     builder = DiagramBuilder(draw(st.permutations(range(len(vocabulary.sizes)))), (None, 0, 1))
     tables = st.dictionaries(states(vocabulary), st.sampled_from([None, 0, 1]), max_size=6)
@@ -122,20 +122,21 @@ def conflicts(draw: st.DrawFn, vocabulary: Vocabulary):
 
 
 @st.composite
-def certificates(draw: st.DrawFn):
+def certificates(draw: st.DrawFn) -> Unrealizability:
     """A certificate of any kind, whatever it is worth."""
     vocabulary = draw(vocabularies())
     none = st.builds(NoAllowedSet, states(vocabulary), st.none() | st.lists(cubes(vocabulary), max_size=4).map(tuple))
     reason = draw(none | layers(vocabulary) | conflicts(vocabulary) | traps(vocabulary))
-    restoration = draw(st.sampled_from(["one_step", "bounded", "fair"]))
+    restoration = draw(st.sampled_from(get_args(Restoration)))
     return Unrealizability(vocabulary, draw(st.sampled_from(["any", "first"])), draw(NAMES), reason, restoration)
 
 
 @cache
-def example(kind: str):
+def example(kind: str) -> Unrealizability:
     """A small certificate of one kind, the same every time."""
     vocabulary = Vocabulary((("S_Place", ("dock", "hall")), ("S_Load", ("free", "full"))), ("go", "load"))
-    builder = DiagramBuilder((1, 0), (None, 0, 1) if kind == "conflict" else (False, True))
+    builder = DiagramBuilder[bool]((1, 0), (False, True))
+    reason: Reason
     if kind == "no-allowed-set":
         cubes = (
             Cube(frozenset((0, 1)), frozenset(), Violation("resource", (0, 1))),
@@ -153,11 +154,12 @@ def example(kind: str):
         ]
         reason = NoPlan((0, 0), builder.finish(), (Layers(("S_Load is full",), ("go",), tuple(roots)),))
     else:
-        root = builder.from_table((2, 2), {(0, 0): 0, (1, 0): 1}, None)
+        ranks = DiagramBuilder[int | None]((1, 0), (None, 0, 1))
+        root = ranks.from_table((2, 2), {(0, 0): 0, (1, 0): 1}, None)
         choices = (Choice((0, 0), (((1, 0), 0),)), Choice((1, 0), ()))
         cuts = (Cut("path", 0, (0, 1), (1, 1)), Cut("loop", 0, (0,), None))
         goals = (RankedGoal(("S_Load is full",), (), root),)
-        reason = Conflict((0,), choices, cuts, builder.finish(), goals)
+        reason = Conflict((0,), choices, cuts, ranks.finish(), goals)
     return loads(dumps(Unrealizability(vocabulary, "any", "0123abcd", reason)))
 
 
@@ -194,17 +196,15 @@ def test_order_of_declaration_never_matters(certificate: Unrealizability, random
     bound = bind(certificate, spec_of(target))
     assert bound.vocabulary == target
     assert dumps(bind(bound, spec_of(certificate.vocabulary))) == dumps(certificate)
-    match certificate.reason:
-        case NoAllowedSet(state) | NoRestoration(state) | NoPlan(state):
-            assert named(target, bound.reason.state) == named(certificate.vocabulary, state)
-        case Conflict(choices=choices):
-            theirs = [named(target, choice.state) for choice in bound.reason.choices]
-            assert theirs == [named(certificate.vocabulary, choice.state) for choice in choices]
+    assert named_states(bound) == named_states(certificate)
 
 
-def named(vocabulary: Vocabulary, state):
-    """Value by variable."""
-    return {name: values[value] for (name, values), value in zip(vocabulary.variables, state, strict=True)}
+def named_states(certificate: Unrealizability) -> list[dict[str, str]]:
+    """The states that a certificate lists, value by variable."""
+    reason = certificate.reason
+    states = [choice.state for choice in reason.choices] if isinstance(reason, Conflict) else [reason.state]
+    variables = certificate.vocabulary.variables
+    return [{name: values[value] for (name, values), value in zip(variables, state, strict=True)} for state in states]
 
 
 @KINDS
@@ -224,7 +224,7 @@ def test_a_certificate_is_no_policy(tmp_path: Path) -> None:
     save(example("no-plan"), path)
     with pytest.raises(UserError, match="TUM502: this is a certificate") as error:
         load_policy(str(path))
-    assert "tumato-sym verify" in error.value.diagnostics[0].help
+    assert "tumato-sym verify" in (error.value.diagnostics[0].help or "")
 
 
 @pytest.mark.parametrize(
@@ -235,7 +235,7 @@ def test_a_certificate_is_no_policy(tmp_path: Path) -> None:
         (lambda spec: spec_of(Vocabulary(spec.variables, ("go",))), "TUM505"),
     ],
 )
-def test_names_that_do_not_fit_are_refused(change, code: str) -> None:
+def test_names_that_do_not_fit_are_refused(change: Callable[[Vocabulary], Spec], code: str) -> None:
     """A certificate about other variables, values or actions cannot be bound."""
     certificate = example("conflict")
     with pytest.raises(UserError, match=f"{code}: the certificate"):

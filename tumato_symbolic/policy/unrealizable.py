@@ -19,6 +19,18 @@ ActionEffect: TypeAlias = tuple[int, Assignment]
 """An action taking one of its effects."""
 
 
+ViolationKind: TypeAlias = Literal[
+    "precondition",
+    "resource",
+    "nominal-conflict",
+    "reaction-rule",
+    "unsafe",
+    "falsified",
+    "idle",
+    "nominal-unsafe",
+]
+
+
 @dataclass(frozen=True, slots=True)
 class Violation:
     """The condition of `docs/semantics.md`, section 3, that no set of a cube meets.
@@ -32,16 +44,7 @@ class Violation:
     action is settled.
     """
 
-    kind: Literal[
-        "precondition",
-        "resource",
-        "nominal-conflict",
-        "reaction-rule",
-        "unsafe",
-        "falsified",
-        "idle",
-        "nominal-unsafe",
-    ]
+    kind: ViolationKind
     actions: tuple[int, ...] = ()
     rule: str | None = None
     outcome: tuple[ActionEffect, ...] = ()
@@ -152,6 +155,9 @@ class Conflict:
     goals: tuple[RankedGoal, ...]
 
 
+Reason: TypeAlias = NoAllowedSet | NoRestoration | NoPlan | Conflict
+
+
 @dataclass(frozen=True, slots=True)
 class Unrealizability:
     """The certificate that a specification, known by its digest, has no policy under an effect ordering.
@@ -162,5 +168,5 @@ class Unrealizability:
     vocabulary: Vocabulary
     ordering: Ordering
     digest: str
-    reason: NoAllowedSet | NoRestoration | NoPlan | Conflict
+    reason: Reason
     restoration: Restoration = "one_step"
