@@ -22,12 +22,12 @@ from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.policy import Policy, dumps, loads
 from tumato_symbolic.semantics import all_states, count_states, is_valid
 from tumato_symbolic.spec import Spec, digest
-from tumato_symbolic.verify import verify
+from tumato_symbolic.verify import ProverName, verify
 
 LARGEST = 60
 """The most states of a specification that is taken."""
 
-PROVERS: tuple[Literal["z3", "walk", "explicit"], ...] = ("z3", "walk", "explicit")
+PROVERS: tuple[ProverName, ...] = ("z3", "walk", "explicit")
 TIERS = (*PROVERS, "checker")
 Answer = Literal["accepted", "rejected", "undecided"]
 
@@ -82,8 +82,9 @@ def examine(profile: str, seed: int, count: int, folder: Path) -> Tally:
 def bases_of(text: str) -> list[policies.Document]:
     """The policy of a specification in both forms; none where it is too large or not realizable."""
     spec, bases = parse(text), list[policies.Document]()
-    for form in ("table", "diagram") if count_states(spec) <= LARGEST else ():
-        outcome = synthesize(spec, policy_format=form)  # type: ignore[arg-type]
+    forms: tuple[Literal["table", "diagram"], ...] = ("table", "diagram")
+    for form in forms if count_states(spec) <= LARGEST else ():
+        outcome = synthesize(spec, policy_format=form)
         if not isinstance(outcome, Realizable):
             return []
         bases.append(json.loads(dumps(outcome.policy)))
@@ -143,7 +144,7 @@ def judge(
     tally.kinds[mutant.kind, right] += 1
     if for_coq is not None:
         for_coq += by_coq.questions(policy, spec)
-    answers = {prover: _verified(policy, spec, prover) for prover in PROVERS}
+    answers: dict[str, Answer] = {prover: _verified(policy, spec, prover) for prover in PROVERS}
     answers["checker"] = _checked(mutant.document, mutant.spec, folder)
     if spec.restores_stepwise:
         tally.modes[f"{spec.restoration}, {len(spec.tiers)} tiers"] += 1
@@ -156,7 +157,7 @@ def judge(
             yield f"{tier}: {answer} what is {'right' if right else 'wrong'}"
 
 
-def _verified(policy: Policy, spec: Spec, prover: Literal["z3", "walk"]) -> Answer:
+def _verified(policy: Policy, spec: Spec, prover: ProverName) -> Answer:
     """What `tumato-sym verify --strict --prover …` answers."""
     found = verify(policy, spec, prover=prover)
     if found.verdict == "refuted" or found.certificate.status in ("stale", "wrong"):

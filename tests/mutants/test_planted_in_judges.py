@@ -25,8 +25,8 @@ from tumato_symbolic.verify import ProverName, verify
 from tumato_symbolic.verify.by_diagrams import stepwise
 from tumato_symbolic.verify.by_diagrams.efforts import WalkEfforts
 from tumato_symbolic.verify.by_diagrams.steps import Steps as DiagramSteps
-from tumato_symbolic.verify.by_states import several_steps
 from tumato_symbolic.verify.by_states.efforts import Efforts as StateEfforts
+from tumato_symbolic.verify.by_states.runs import Runs
 from tumato_symbolic.verify.by_states.steps import Steps as StateSteps
 from tumato_symbolic.verify.by_z3.best_property import Deviations
 from tumato_symbolic.verify.by_z3.efforts import Efforts as Z3Efforts
@@ -164,7 +164,7 @@ BUGS = (
     Bug("states", "Keep", "no rule is kept", StateSteps, "_required", lambda _: lambda steps, code: 0),
     Bug("states", "level", "the mildest tier that holds counts", StateSteps, "level",
         lambda _: lambda steps, code: len(steps._tiers) if steps.is_safe(code) else 0),
-    Bug("states", "deviation", "no run is lost", several_steps.Runs, "losing", lambda _: lambda runs, *pair: iter(())),
+    Bug("states", "deviation", "no run is lost", Runs, "losing", lambda _: lambda runs, *pair: iter(())),
     Bug("checker", "w", "alternatives never happen", checker.Restoring, "open_after", _nominal_only("world")),
     Bug("checker", "Keep", "no rule is kept", checker.World, "required",
         lambda required: lambda world, state: required(world, state) if world.is_safe(state) else frozenset()),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from typing import TypeVar
 
 from tumato_symbolic.policy.unrealizable import (
     Choice,
@@ -11,19 +12,22 @@ from tumato_symbolic.policy.unrealizable import (
     Cut,
     NoAllowedSet,
     NoPlan,
+    Reason,
     Unrealizability,
     Violation,
 )
 from tumato_symbolic.semantics import State
 
+Entry = TypeVar("Entry")
 
-def fewer(entries: tuple) -> Iterator[tuple]:
+
+def fewer(entries: tuple[Entry, ...]) -> Iterator[tuple[Entry, ...]]:
     """Each entry left out."""
     for place in range(len(entries)):
         yield entries[:place] + entries[place + 1 :]
 
 
-def exchanged(entries: tuple, place: int, entry: object) -> tuple:
+def exchanged(entries: tuple[Entry, ...], place: int, entry: Entry) -> tuple[Entry, ...]:
     """Another entry at a place."""
     return (*entries[:place], entry, *entries[place + 1 :])
 
@@ -61,22 +65,22 @@ def conflicts(reason: Conflict, states: list[State]) -> Iterator[Conflict]:
             yield replace(reason, choices=exchanged(reason.choices, place, Choice(choice.state, options)))
         for option, (after, goal) in enumerate(choice.options):
             others = [(state, goal) for state in states[:3]] + [(after, other) for other in range(len(reason.goals))]
-            for other in others:
-                changed = Choice(choice.state, exchanged(choice.options, option, other))
+            for changed_option in others:
+                changed = Choice(choice.state, exchanged(choice.options, option, changed_option))
                 yield replace(reason, choices=exchanged(reason.choices, place, changed))
     for place, leaf in enumerate(reason.distances.leaves):
-        for other in (None, 0) if leaf is None else (None, leaf + 1, max(0, leaf - 1)):
-            if other not in reason.distances.leaves:
-                leaves = exchanged(reason.distances.leaves, place, other)
+        for distance in (None, 0) if leaf is None else (None, leaf + 1, max(0, leaf - 1)):
+            if distance not in reason.distances.leaves:
+                leaves = exchanged(reason.distances.leaves, place, distance)
                 yield replace(reason, distances=replace(reason.distances, leaves=leaves))
     for node, (level, below) in enumerate(reason.distances.nodes):
         for place in range(len(below)):
             for leaf in range(len(reason.distances.leaves)):
                 nodes = exchanged(reason.distances.nodes, node, (level, exchanged(below, place, leaf)))
                 yield replace(reason, distances=replace(reason.distances, nodes=nodes))
-    for place, goal in enumerate(reason.goals):
-        for other in reason.goals:
-            yield replace(reason, goals=exchanged(reason.goals, place, replace(goal, root=other.root)))
+    for place, ranked in enumerate(reason.goals):
+        for same in reason.goals:
+            yield replace(reason, goals=exchanged(reason.goals, place, replace(ranked, root=same.root)))
 
 
 def plans(reason: NoPlan, states: list[State]) -> Iterator[NoPlan]:
@@ -147,7 +151,7 @@ def forged(certificate: Unrealizability, states: list[State]) -> Iterator[Unreal
     """The certificate with one thing changed, in every small way."""
     match certificate.reason:
         case NoAllowedSet() as reason:
-            found: Iterator = cubes(reason, states, len(certificate.vocabulary.actions))
+            found: Iterator[Reason] = cubes(reason, states, len(certificate.vocabulary.actions))
         case NoPlan() as reason:
             found = plans(reason, states)
         case Conflict() as reason:

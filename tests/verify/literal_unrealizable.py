@@ -10,7 +10,15 @@ from itertools import product
 from math import inf
 
 from tests.semantics import literal
-from tumato_symbolic.policy.unrealizable import Conflict, Cube, Cut, NoAllowedSet, NoPlan, Unrealizability
+from tumato_symbolic.policy.unrealizable import (
+    Conflict,
+    Cube,
+    Cut,
+    NoAllowedSet,
+    NoPlan,
+    NoRestoration,
+    Unrealizability,
+)
 from tumato_symbolic.spec import Formula, Ordering, Spec, canonical_text
 
 Goal = tuple[frozenset[int], frozenset[int]]
@@ -72,6 +80,8 @@ def is_proof(meaning: Meaning, certificate: Unrealizability) -> bool:
             return _no_plan(meaning, reason)
         case Conflict() as reason:
             return _conflict(meaning, reason)
+        case NoRestoration():
+            raise NotImplementedError("traps have an oracle of their own")
 
 
 def _no_allowed_set(meaning: Meaning, reason: NoAllowedSet) -> bool:
@@ -118,9 +128,9 @@ def violated(meaning: Meaning, state: literal.State, cube: Cube) -> bool:
             if not once or spec.preconditions != "throughout" or len(given.actions) != 1:
                 return False
             (waiting,) = given.actions
-            rules = spec.actions[waiting].preconditions
+            required = spec.actions[waiting].preconditions
             late = waiting in cube.executed and waiting not in acting
-            return late and not all(literal.true(rule.formula, after) for rule in rules)
+            return late and not all(literal.true(rule.formula, after) for rule in required)
         case "idle":
             may_act = [action for action in cube.executed | still_open if literal.effects(spec, action)]
             return not may_act and not literal.safe(spec, state)

@@ -6,10 +6,10 @@ from tests.oracle import World
 from tests.reference_policy import reference_policy
 from tests.repo.documents import ROOT
 from tests.verify.policies import certified, exact_ranks
-from tumato_symbolic.diagnostics import Source
+from tumato_symbolic import parse
 from tumato_symbolic.policy import policy_from_rows
 from tumato_symbolic.semantics import ActionSet, State, action_names
-from tumato_symbolic.spec import Spec, load
+from tumato_symbolic.spec import Spec
 from tumato_symbolic.verify import CertificateUse, verify
 
 CORRIDOR_LOADED_ON = (0, 1, 0, 0)
@@ -18,7 +18,7 @@ CORRIDOR_LOADED_ON = (0, 1, 0, 0)
 @cache
 def _amr() -> Spec:
     path = ROOT / "examples" / "amr.tum"
-    return load(Source("amr.tum", path.read_text(encoding="utf-8"))).spec
+    return parse(path.read_text(encoding="utf-8"))
 
 
 @cache

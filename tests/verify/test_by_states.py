@@ -15,13 +15,15 @@ from tests.verify.test_forged_ranks import along, exact, restoring
 from tests.verify.test_forged_steps import ORDERINGS, SPECS
 from tumato_symbolic.limits import Context
 from tumato_symbolic.policy import policy_from_rows
-from tumato_symbolic.semantics import Residual, duration, nominal_agrees
+from tumato_symbolic.semantics import ActionSet, Residual, State, duration, nominal_agrees
 from tumato_symbolic.spec import TRUE, Not, Ordering, Spec
-from tumato_symbolic.verify import portfolio
+from tumato_symbolic.verify import PropertyName
 from tumato_symbolic.verify.by_states import prover, steps
 from tumato_symbolic.verify.by_states.packed import Packing, valid_states
 from tumato_symbolic.verify.by_states.prover import StateProver
+from tumato_symbolic.verify.by_states.runs import Runs
 from tumato_symbolic.verify.by_states.steps import Steps
+from tumato_symbolic.verify.decisions import LARGEST_TABLE
 
 GENERATED = [random_spec(seed, ALL_PROFILES[profile]) for profile in ALL_PROFILES for seed in (3000, 3001)]
 GOAL = Residual(frozenset((0,)), frozenset())
@@ -32,7 +34,7 @@ def _steps(spec: Spec, ordering: Ordering) -> tuple[Packing, Steps]:
     return packing, Steps(spec, packing, ordering, lambda _: None)
 
 
-def _prover(spec: Spec, rows: dict, ordering: Ordering = "any", ranks: Any = None) -> StateProver:
+def _prover(spec: Spec, rows: dict[State, ActionSet], ordering: Ordering = "any", ranks: Any = None) -> StateProver:
     policy = policy_from_rows(spec, rows) if ranks is None else certified(spec, rows, ranks)
     return StateProver(spec, policy, ordering, Context())
 
@@ -97,7 +99,7 @@ def test_how_much_there_is_to_look_at() -> None:
     build = Build({"x": "abcd"})
     one, two = build.action("x=b", ["x=c", "x=d"]), build.action("x=b", ["x=a"])
     spec = build.spec()
-    rows = {(0,): chosen(), (1,): chosen(one), (2,): chosen(one, two)}
+    rows: dict[State, ActionSet] = {(0,): chosen(), (1,): chosen(one), (2,): chosen(one, two)}
     assert _prover(spec, rows, "first").work == 1 + (1 + 3) + (1 + 3 + 2)
     assert _prover(spec, rows, "any").work == 1 + (1 + 3) + (1 + 3) * (1 + 2)
 
@@ -107,14 +109,14 @@ def test_too_many_ways(monkeypatch: pytest.MonkeyPatch) -> None:
     build = Build({"x": "ab"})
     actions = [build.action("x=b") for _ in range(4)]
     spec = build.spec()
-    rows = {(0,): chosen(*actions), (1,): chosen()}
+    rows: dict[State, ActionSet] = {(0,): chosen(*actions), (1,): chosen()}
     for most, verdict in ((16, "proved"), (15, "undecided")):
         monkeypatch.setattr(steps, "MOST_WAYS", most)
         monkeypatch.setattr(prover, "MOST_WAYS", most)
         result = _prover(spec, rows).prove("safe")
         assert result.verdict == verdict
         work = _prover(spec, rows).work
-        assert work is not None and (work == 17 if verdict == "proved" else work >= most * portfolio.LARGEST_TABLE)
+        assert work is not None and (work == 17 if verdict == "proved" else work >= most * LARGEST_TABLE)
         assert _prover(spec, rows, "first").prove("safe").verdict == "proved"
     assert result.reason == "4 actions at a time can interleave in too many ways to list"
 
@@ -169,8 +171,8 @@ def test_undecided_states_and_a_certificate(monkeypatch: pytest.MonkeyPatch) -> 
 def test_what_the_steps_get_wrong_is_a_bug(monkeypatch: pytest.MonkeyPatch) -> None:
     """Every refutation is looked at again by the explicit meaning."""
     spec, rows = restoring(2, 3)
-    for name, broken in (("safe", "allowed"), ("goals", "serves")):
-        owner: Any = Steps if broken == "allowed" else prover.Runs
+    planted: tuple[tuple[PropertyName, Any, str], ...] = (("safe", Steps, "allowed"), ("goals", Runs, "serves"))
+    for name, owner, broken in planted:
         with monkeypatch.context() as patched:
             patched.setattr(owner, broken, lambda *_: False)
             with pytest.raises(RuntimeError, match="against"):
@@ -181,7 +183,7 @@ def test_what_the_steps_get_wrong_is_a_bug(monkeypatch: pytest.MonkeyPatch) -> N
                     asked._decisions = rows  # type: ignore[assignment]
                 asked.prove(name)
     with monkeypatch.context() as patched:
-        patched.setattr(prover.Runs, "serves", lambda *_: True)
+        patched.setattr(Runs, "serves", lambda *_: True)
         late, policy = restoring(2, 2)
         with pytest.raises(RuntimeError, match="is not better"):
             _prover(late, policy).prove("minimal")

@@ -20,7 +20,9 @@ from tests.verify.test_forged_steps import ORDERINGS, SPECS
 from tumato_symbolic.limits import Budget
 from tumato_symbolic.policy import as_diagram, policy_from_rows
 from tumato_symbolic.semantics import (
+    ActionSet,
     Residual,
+    State,
     active_goals,
     disagreeing_pairs,
     duration,
@@ -244,7 +246,7 @@ def test_time_and_watchers() -> None:
         walk.check_time()
 
 
-def _witnesses(spec: Spec, rows: dict, ordering: Ordering = "any") -> tuple[ClosedLoop, Witnesses]:
+def _witnesses(spec: Spec, rows: dict[State, ActionSet], ordering: Ordering = "any") -> tuple[ClosedLoop, Witnesses]:
     policy = policy_from_rows(spec, rows)
     model = ClosedLoop(spec, as_diagram(policy), ordering)
     return model, Witnesses(model, Decisions(spec, policy), ordering)
@@ -258,7 +260,7 @@ def test_what_the_walk_gets_wrong_is_a_bug() -> None:
     never = build.action("x=a", duration=1, when=[Not(bad)])
     short = build.action("x=c", duration=1, when=[bad])
     spec = build.spec(constraint(build.goal(build.atom("x=a"))), [Not(bad)], assumptions=[])
-    rows = {(0,): chosen(), (1,): chosen(dear)}
+    rows: dict[State, ActionSet] = {(0,): chosen(), (1,): chosen(dear)}
     model, witnesses = _witnesses(spec, rows)
     walk = model.walk
 
@@ -309,8 +311,8 @@ def test_what_children_are_given() -> None:
     assert 0 <= budget.spent[1] < 100
     assert 1000 <= parallel.seconds["goals"] < 1100
     assert 0 <= parallel.seconds["minimal"] < 100
-    assert parallel.take("one", lambda: 5) == (1, 1)
-    assert parallel.take("four", lambda: 5) == 5
+    assert parallel.take("one", lambda: (5, 0)) == (1, 1)
+    assert parallel.take("four", lambda: (5, 0)) == (5, 0)
 
 
 def test_workers_share_what_may_be_remembered() -> None:

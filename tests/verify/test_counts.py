@@ -17,7 +17,7 @@ from tumato_symbolic.diagrams import DiagramBuilder
 from tumato_symbolic.limits import Budget, Context
 from tumato_symbolic.policy import Certificate, Policy, RankedGoal, as_diagram, policy_from_rows
 from tumato_symbolic.semantics import ActionSet, Residual, State, all_states, residual_goal
-from tumato_symbolic.spec import FALSE, And, Executing, Iff, Not, Or, Ordering, Spec, canonical_text, digest
+from tumato_symbolic.spec import FALSE, And, Executing, Goal, Iff, Not, Or, Ordering, Spec, canonical_text, digest
 from tumato_symbolic.verify import PropertyResult, ProverName, Verification, verify
 from tumato_symbolic.verify.by_diagrams.prover import WalkProver
 from tumato_symbolic.verify.by_states.prover import StateProver
@@ -116,7 +116,7 @@ def test_states_are_counted(name: ProverName, diagram: bool) -> None:
     inside = [(0, 0), (0, 1), (1, 0), (1, 1)]
     for decided in (inside, inside[:3]):
         for outside in ([], [(2, 0)], [(2, 0), (2, 1)]):
-            rows = {state: frozenset[int]() for state in (*decided, *outside)}
+            rows: dict[State, ActionSet] = {state: frozenset[int]() for state in (*decided, *outside)}
             answer = verify(_partly(rows, spec, diagram), spec, prover=name)
             whole = decided == inside
             assert answer.verdict == ("proved" if whole else "refuted")
@@ -143,9 +143,9 @@ def turning() -> tuple[Spec, dict[State, ActionSet], list[Residual]]:
     steps = [build.action(f"x={there}", when=[build.atom(f"x={here}")]) for here, there in ("ab", "bc", "ca")]
     places = [build.atom(f"x={letter}") for letter in "abc"]
     last = Or((places[0], And((Executing(0), places[1]))))
-    goals = [when(places[0], build.goal(last)), when(places[1], build.goal(places[2])), build.goal(last)]
+    goals: list[Goal] = [when(places[0], build.goal(last)), when(places[1], build.goal(places[2])), build.goal(last)]
     spec = build.spec(priority(*goals))
-    rows = {(number,): chosen(step) for number, step in enumerate(steps)}
+    rows: dict[State, ActionSet] = {(number,): chosen(step) for number, step in enumerate(steps)}
     residuals = [
         Residual(frozenset((0,)), frozenset((0,))),
         Residual(frozenset((1,)), frozenset()),
@@ -205,8 +205,8 @@ def test_ranks_that_a_rival_needs(name: Name) -> None:
     """Minimal takes ranks of the residual goal of a cheaper set; where the certificate has others only, it says so."""
     spec, policy = restoring(2, 2)
     other = Residual(frozenset(), frozenset())
-    right = exact(spec, policy)
-    for given, status in (({GOAL: right}, "used"), ({other: {(2,): 0}}, "incomplete"), ({}, "unneeded")):
+    right, late = exact(spec, policy), dict[State, int]({(2,): 0})
+    for given, status in (({GOAL: right}, "used"), ({other: late}, "incomplete"), ({}, "unneeded")):
         answer = verify(certified(spec, policy, given), spec, prover=name, properties=["safe", "minimal"])
         assert (answer.verdict, answer.certificate.status) == ("proved", status)
         if status == "incomplete":
@@ -223,8 +223,8 @@ def test_a_decision_without_a_successor_needs_no_rank(parts: bool, monkeypatch: 
     one, two = build.action("x=b"), build.action("x=c")
     cheap, dear = (build.action(f"x={there}", when=[bad], duration=time) for time, there in ((1, "a"), (2, "d")))
     spec = build.spec(priority(build.goal(build.atom("x=d"))), state_rules=[Not(bad)])
-    rows = {(0,): chosen(one, two), (1,): frozenset[int](), (2,): frozenset[int](), (3,): frozenset[int]()}
-    rows[(4,)] = chosen(dear)
+    decided = (chosen(one, two), chosen(), chosen(), chosen(), chosen(dear))
+    rows: dict[State, ActionSet] = {(place,): each for place, each in enumerate(decided)}
     assert chosen(cheap) != chosen(dear)
     for name in ("z3", "walk"):
         policy = certified(spec, rows, {GOAL: {(3,): 0}})
@@ -299,7 +299,7 @@ def test_decisions_are_those_for_valid_states() -> None:
     build = Build({"x": "abc", "y": "ab"})
     action = build.action("x=b")
     spec = build.spec(assumptions=[Not(build.atom("x=c"))])
-    rows = {(1, 1): chosen(action), (0, 1): chosen(), (2, 0): chosen(action)}
+    rows: dict[State, ActionSet] = {(1, 1): chosen(action), (0, 1): chosen(), (2, 0): chosen(action)}
     for diagram in (False, True):
         decisions = Decisions(spec, _partly(rows, spec, diagram))
         assert list(decisions) == [(0, 1), (1, 1)]

@@ -43,7 +43,7 @@ def along(length: int, bound: int | None = None) -> tuple[Spec, Policy]:
     build = Build({"x": places + "z"})
     actions = [build.action(f"x={there}", when=[build.atom(f"x={here}")]) for here, there in itertools.pairwise(places)]
     spec = build.spec(priority(build.goal(build.atom(f"x={places[-1]}"))), bound=bound)
-    policy = {(number,): frozenset((action.action,)) for number, action in enumerate(actions)}
+    policy: Policy = {(number,): frozenset((action.action,)) for number, action in enumerate(actions)}
     return spec, {**policy, (length,): frozenset()}
 
 
@@ -166,7 +166,7 @@ def restoring(length: int, bound: int) -> tuple[Spec, Policy]:
     cheap = build.action("x=a", when=[bad], duration=1)
     dear = build.action(f"x={places[-1]}", when=[bad], duration=2)
     spec = build.spec(priority(build.goal(build.atom(f"x={places[-1]}"))), state_rules=[Not(bad)], bound=bound)
-    policy = {(number,): frozenset((action.action,)) for number, action in enumerate(steps)}
+    policy: Policy = {(number,): frozenset((action.action,)) for number, action in enumerate(steps)}
     policy |= {(length,): frozenset(), (length + 1,): frozenset((dear.action,))}
     assert cheap.action == length
     return spec, policy
@@ -198,7 +198,7 @@ def test_a_rank_leads_out_of_the_safe_states(prover: Name) -> None:
     back = build.action("x=c", when=[build.atom("x=b")])
     unsafe = Not(build.atom("x=b"))
     spec = build.spec(priority(build.goal(build.atom("x=c"))), state_rules=[unsafe])
-    policy = {(0,): frozenset((out.action,)), (1,): frozenset((back.action,)), (2,): frozenset[int]()}
+    policy: Policy = {(0,): frozenset((out.action,)), (1,): frozenset((back.action,)), (2,): frozenset[int]()}
     assert _status(spec, policy, {(0,): 2, (1,): 1, (2,): 0}, prover, "goals")[1] == "set aside"
 
 
@@ -210,14 +210,14 @@ def going_round(bound: int | None = None, modes: str = "qp") -> tuple[Spec, Poli
     build = Build({"m": modes, "x": "abcd"})
     steps = [build.action(f"x={there}", when=[build.atom(f"x={here}")]) for here, there in ("ab", "bc", "cd", "da")]
     goals = [when(build.atom(f"m={mode}"), build.goal(build.atom(f"x={place}"))) for mode, place in ("pc", "qd")]
-    policy = {(mode, place): frozenset((step.action,)) for mode in range(2) for place, step in enumerate(steps)}
+    policy: Policy = {(mode, place): frozenset((step.action,)) for mode in range(2) for place, step in enumerate(steps)}
     return build.spec(priority(*goals), bound=bound), policy
 
 
 def _of_two(spec: Spec, policy: Policy, ranks: dict[Residual, Table], prover: Name) -> tuple[str, str, State | None]:
     answer = verify(certified(spec, policy, ranks), spec, prover=prover, properties=["safe", "goals"])
     refutation = answer.properties[1].refutation
-    return answer.properties[1].verdict, answer.certificate.status, refutation and refutation.state
+    return answer.properties[1].verdict, answer.certificate.status, refutation.state if refutation else None
 
 
 @needing_no_rival

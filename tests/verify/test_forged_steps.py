@@ -13,7 +13,8 @@ from tests.generate import ALL_PROFILES, random_spec
 from tests.semantics import literal
 from tests.semantics.build import Build, rules
 from tumato_symbolic.policy import as_diagram, policy_from_rows
-from tumato_symbolic.spec import And, Iff, Is, Not, Or, Ordering, Spec
+from tumato_symbolic.semantics import State
+from tumato_symbolic.spec import And, Formula, Iff, Is, Not, Or, Ordering, Spec
 from tumato_symbolic.verify import verify
 from tumato_symbolic.verify.by_diagrams.closed_loop import ClosedLoop
 
@@ -67,7 +68,7 @@ def test_every_outcome_is_found_and_no_other(ordering: Ordering, prover: Name) -
             if state in ends:
                 assert result.refutation is not None and result.refutation.objection is not None
                 way = result.refutation.objection.outcome
-                here = start
+                here: State = start
                 for step in way:
                     here = literal.changed(here, step.effect)
                     assert step.after == here
@@ -83,12 +84,15 @@ def ruled() -> Spec:
     two = build.action("y=b", ["x=a"], needs=["leg"], duration=2)
     three = build.action("x=b y=a", needs=["leg", "arm"], when=[Not(build.atom("x=b")), build.atom("y=b")])
     four = build.action("", ["y=a"], duration=1)
-    rules = [
+    rules: list[Formula] = [
         Iff(And((one, build.atom("y=b"))), And((one, four))),
         Not(And((two, build.atom("x=c"), Not(one)))),
         Or((Iff(three, build.atom("x=a")), Not(three), four)),
     ]
-    safe = [Not(And((build.atom("x=c"), build.atom("y=a")))), Or((build.atom("x=a"), Not(build.atom("y=b")), Is(0, 1)))]
+    safe: list[Formula] = [
+        Not(And((build.atom("x=c"), build.atom("y=a")))),
+        Or((build.atom("x=a"), Not(build.atom("y=b")), Is(0, 1))),
+    ]
     return build.spec(state_rules=safe, reaction_rules=rules, assumptions=[Or((build.atom("x=a"), Is(0, 1), Is(1, 0)))])
 
 

@@ -18,7 +18,7 @@ from tests.verify.test_unrealizable_by_hand import conflicting, line, self_confl
 from tumato_symbolic.limits import Budget
 from tumato_symbolic.policy.unrealizable import Conflict, Cut, NoAllowedSet, NoPlan, Unrealizability
 from tumato_symbolic.policy.unrealizable_file import bind
-from tumato_symbolic.spec import And, Iff, Not, Or, Ordering, Spec, canonical_text
+from tumato_symbolic.spec import And, Executing, Formula, Iff, Not, Or, Ordering, Spec, canonical_text
 from tumato_symbolic.verify import verify_unrealizable
 from tumato_symbolic.verify.unrealizability import no_plan
 from tumato_symbolic.verify.unrealizability.allowed_step import AllowedStep, FalseClaimError
@@ -67,7 +67,8 @@ CONFLICTS = {name: proof for name, proof in PROOFS.items() if isinstance(proof[1
 
 def test_there_are_conflicts_of_both_kinds() -> None:
     """Paths and loops, bounded and not, goals that share a root, and all of them proofs."""
-    kinds = {(cut.kind, spec.max_plan_length) for spec, each in CONFLICTS.values() for cut in each.reason.cuts}
+    reasons = [(spec, each.reason) for spec, each in PROOFS.values() if isinstance(each.reason, Conflict)]
+    kinds = {(cut.kind, spec.max_plan_length) for spec, reason in reasons for cut in reason.cuts}
     assert {kind for kind, _ in kinds} == {"path", "loop"}
     assert len(CONFLICTS) >= 4
     for spec, certificate in PROOFS.values():
@@ -193,7 +194,7 @@ def knotted() -> Spec:
     two = build.action("y=b", ["x=c", "x=b"], needs=["arm"])
     three = build.action("x=c", when=[build.atom("y=b")])
     four = build.action("x=b y=b", ["x=c"])
-    rules = [Iff(And((four, Not(one))), Or((two, three))), Or((Not(four), two, And((one, Not(three)))))]
+    rules: list[Formula] = [Iff(And((four, Not(one))), Or((two, three))), Or((Not(four), two, And((one, Not(three)))))]
     return build.spec(
         state_rules=[Not(build.atom("x=a")), Not(And((build.atom("x=c"), build.atom("y=b"))))], reaction_rules=rules
     )
@@ -210,9 +211,7 @@ def test_forged_cubes(number: int, ordering: Ordering) -> None:
     assert 0 < right < judged
 
 
-def _two(build: Build) -> tuple:
-    from tumato_symbolic.spec import Executing
-
+def _two(build: Build) -> tuple[Executing, Executing]:
     assert build.atom("x=a")
     return Executing(0), Executing(1)
 

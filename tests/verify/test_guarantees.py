@@ -51,7 +51,7 @@ def _allowed_policies(spec: Spec, ordering: Ordering, random: Random) -> Iterato
 
 def _by_walk(spec: Spec, rows: Rows, ordering: Ordering) -> dict[State, Guarantee | None]:
     model = ClosedLoop(spec, as_diagram(policy_from_rows(spec, rows)), ordering)
-    goals, found = WalkGoals(model), {}
+    goals, found = WalkGoals(model), dict[State, Guarantee | None]()
     for goal, pending in goals.residuals(model.decided, model.policy):
         for guarantee, states in WalkProspects(model, goals, goal).levels(pending):
             inside = [state for state in all_states(spec) if model.holds(states, state, frozenset())]

@@ -22,7 +22,7 @@ from tumato_symbolic import Policy
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.limits import Context
 from tumato_symbolic.policy import policy_from_rows
-from tumato_symbolic.semantics import Residual
+from tumato_symbolic.semantics import Residual, State
 from tumato_symbolic.spec import Ordering, Spec, load
 from tumato_symbolic.verify import PROPERTIES, ProverName, Verification, portfolio, verify, workers
 from tumato_symbolic.verify.by_diagrams import parallel, prover
@@ -76,7 +76,8 @@ def test_the_answer_does_not_depend_on_the_jobs(profile: str, ordering: Ordering
     for seed in range(400, 404):
         spec, random = random_spec(seed, ALL_PROFILES[profile]), Random(seed)
         for policy in _policies(spec, ordering, random):
-            name, jobs = random.choice(("walk", "walk", "auto", "both")), random.choice((2, 3))
+            names: tuple[ProverName, ...] = ("walk", "walk", "auto", "both")
+            name, jobs = random.choice(names), random.choice((2, 3))
             assert _ask(policy, spec, ordering, name, jobs) == _ask(policy, spec, ordering, name, 1)
     assert sum(asked) > 20, "children were asked"
 
@@ -224,7 +225,8 @@ def test_what_a_child_did_with_the_certificate_is_known(asked: list[int]) -> Non
     """Where only a child has used ranks, the certificate is used; where it lacked some, the reason is told."""
     spec, rows = restoring(2, 2)
     right, other = Residual(frozenset((0,)), frozenset()), Residual(frozenset(), frozenset())
-    for ranks, status in (({right: exact(spec, rows)}, "used"), ({other: {(2,): 0}}, "incomplete")):
+    late: dict[State, int] = {(2,): 0}
+    for ranks, status in (({right: exact(spec, rows)}, "used"), ({other: late}, "incomplete")):
         policy = certified(spec, rows, ranks)
         one, two = (
             _timeless(verify(policy, spec, properties=["safe", "minimal"], prover="walk", jobs=jobs)) for jobs in (1, 2)

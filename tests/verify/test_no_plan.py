@@ -9,7 +9,7 @@ import pytest
 from tests.generate import PROFILES
 from tests.oracle import World
 from tests.semantics.build import Build, constraint, priority
-from tests.unrealizability import assert_never_wrong, certified, changed, unrealizable_specs
+from tests.unrealizability import assert_never_wrong, certified, changed, unrealizable, unrealizable_specs
 from tumato_symbolic.diagrams import DiagramBuilder
 from tumato_symbolic.policy import Vocabulary
 from tumato_symbolic.policy.unrealizable import Layers, NoPlan, Unrealizability
@@ -69,10 +69,11 @@ def too_far(world: World, state: State) -> Sets:
     return found
 
 
-def without_plan(profile: str, count: int, ordering: Ordering) -> list[tuple[Spec, Unrealizability]]:
-    """Generated specifications in which a state has no plan, with their certificates."""
+def without_plan(profile: str, count: int, ordering: Ordering) -> list[tuple[Spec, Unrealizability, State]]:
+    """Generated specifications in which a state has no plan, with their certificates and such a state."""
     found = unrealizable_specs(profile, range(count), ordering)
-    return [(spec, certificate) for spec, certificate in found if isinstance(certificate.reason, NoPlan)]
+    reasons = [(spec, certificate, certificate.reason) for spec, certificate in found]
+    return [(spec, each, reason.state) for spec, each, reason in reasons if isinstance(reason, NoPlan)]
 
 
 def walk_first(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -85,8 +86,8 @@ def walk_first(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_several_proofs_by_both_provers(profile: str, ordering: Ordering, monkeypatch: pytest.MonkeyPatch) -> None:
     """What `synth` writes, what the runs reach, and the states that are too far: each is proved by Z3 and the walk."""
     bounds = set()
-    for spec, certificate in without_plan(profile, 16, ordering):
-        world, state = World(spec, ordering), certificate.reason.state
+    for spec, certificate, state in without_plan(profile, 16, ordering):
+        world = World(spec, ordering)
         layers = certificate_of(spec, ordering, state, reached(world, state))
         distances = certificate_of(spec, ordering, state, too_far(world, state))
         bounds.add(spec.max_plan_length is None)
@@ -106,8 +107,8 @@ def test_several_proofs_by_both_provers(profile: str, ordering: Ordering, monkey
 def test_the_walk_and_z3_refute_the_same(profile: str, ordering: Ordering, monkeypatch: pytest.MonkeyPatch) -> None:
     """Of changed layers both say the same, and neither proves what is false."""
     met = set()
-    for spec, certificate in without_plan(profile, 10, ordering):
-        world, state = World(spec, ordering), certificate.reason.state
+    for spec, certificate, state in without_plan(profile, 10, ordering):
+        world = World(spec, ordering)
         layers = certificate_of(spec, ordering, state, reached(world, state))
         for seed in range(8):
             other = changed((certificate, layers)[seed % 2], Random(seed))
@@ -131,9 +132,9 @@ def dead_end(bound: int | None = None) -> tuple[Build, Spec]:
 def test_one_closed_set_is_enough_where_no_run_is_long_enough(bound: int | None) -> None:
     """Where no run of any length reaches the goal there is one layer, with a bound as without."""
     _, spec = dead_end(bound)
-    certificate = certified(spec, "any")
-    (goal,) = certificate.reason.goals
-    assert [certificate.reason.diagram.evaluate(goal.roots[0], (x,)) for x in range(5)] == [False] * 3 + [True] * 2
+    certificate, reason = unrealizable(spec, NoPlan)
+    (goal,) = reason.goals
+    assert [reason.diagram.evaluate(goal.roots[0], (x,)) for x in range(5)] == [False] * 3 + [True] * 2
     assert len(goal.roots) == 1
     assert verify_unrealizable(certificate, spec).verdict == "proved"
 
@@ -150,7 +151,7 @@ def test_a_closed_set_must_be_closed(walking: bool, monkeypatch: pytest.MonkeyPa
         goal = World(spec, "any").options[build.state("d")][0].goal
         verdict = verify_unrealizable(certificate_of(spec, "any", build.state(start), {goal: sets}), spec)
         assert verdict.verdict == "refuted"
-        return verdict.reason
+        return verdict.reason or ""
 
     step = "from layer 1, in x=b, {act1} is allowed, leads to x=c, which is not in"
     assert f"{step} any layer, and the plan bound is not met" in refuted("e", "abde")
@@ -175,7 +176,7 @@ def test_layers_come_one_after_the_other(walking: bool, monkeypatch: pytest.Monk
         sets = [{build.state(letter) for letter in layer} for layer in layers]
         verdict = verify_unrealizable(certificate_of(harder, "any", (0,), {goal: sets}), spec)
         assert verdict.verdict == "refuted"
-        return verdict.reason
+        return verdict.reason or ""
 
     assert "from layer 1, in x=b, {act1} is allowed, leads to x=c, which is not in layers 1 to 2" in refuted(
         "ab", "ab", "abc"
@@ -191,10 +192,10 @@ def test_what_layers_say_of_unsafe_states_means_nothing(walking: bool, monkeypat
     build = Build({"x": "ab", "y": "ny"})
     build.action("x=b y=n", when=[build.atom("y=y")])
     spec = build.spec(priority(build.goal(build.atom("x=b"))), state_rules=[build.atom("y=n")])
-    certificate = certified(spec, "any")
-    (goal,) = certificate.reason.goals
-    assert len(certificate.reason.diagram.nodes) == 1
-    assert certificate.reason.diagram.evaluate(goal.roots[0], build.state("ay"))
+    certificate, reason = unrealizable(spec, NoPlan)
+    (goal,) = reason.goals
+    assert len(reason.diagram.nodes) == 1
+    assert reason.diagram.evaluate(goal.roots[0], build.state("ay"))
     assert verify_unrealizable(certificate, spec).verdict == "proved"
 
 
@@ -209,13 +210,14 @@ def test_a_state_with_several_residual_goals(bound: int | None, walking: bool, m
     build.action("y=b")
     wanted = Or((And((left, build.atom("x=d"))), And((right, build.atom("y=c"))), And((build.atom("x=d"),))))
     spec = build.spec(constraint(build.goal(wanted)), bound=bound)
-    certificate = certified(spec, "any")
-    goals = certificate.reason.goals
+    certificate, reason = unrealizable(spec, NoPlan)
+    goals = reason.goals
     assert {goal.executed for goal in goals} >= {("act0",), ("act1",)}
     assert verify_unrealizable(certificate, spec).verdict == "proved"
     for place in range(len(goals)):
-        fewer = replace(certificate.reason, goals=(*goals[:place], *goals[place + 1 :]))
-        assert "which is not listed" in verify_unrealizable(replace(certificate, reason=fewer), spec).reason
+        fewer = replace(reason, goals=(*goals[:place], *goals[place + 1 :]))
+        verdict = verify_unrealizable(replace(certificate, reason=fewer), spec)
+        assert "which is not listed" in (verdict.reason or "")
 
 
 def targets(count: int, bound: int, stranded: str = "") -> Spec:
@@ -236,25 +238,25 @@ def test_layers_that_count_are_left_to_the_walk(monkeypatch: pytest.MonkeyPatch)
     """A plan that is one step too long among many targets: the walk is asked, and one step more would be a plan."""
     monkeypatch.setattr(no_plan, "MANY_NODES", 100)
     count = 14
-    certificate = certified(targets(count, 2 * count - 1), "any")
-    assert len(certificate.reason.goals[0].roots) == 2 * count - 1
-    assert len(certificate.reason.diagram.nodes) > no_plan.MANY_NODES
+    certificate, reason = unrealizable(targets(count, 2 * count - 1), NoPlan)
+    assert len(reason.goals[0].roots) == 2 * count - 1
+    assert len(reason.diagram.nodes) > no_plan.MANY_NODES
     verdict = verify_unrealizable(certificate, targets(count, 2 * count - 1))
     assert (verdict.verdict, verdict.by_solver, verdict.by_diagrams) == ("proved", True, True)
     longer = verify_unrealizable(certificate, targets(count, 2 * count))
     assert (longer.verdict, longer.stale) == ("refuted", True)
-    assert "the plan bound is not met" in longer.reason
+    assert "the plan bound is not met" in (longer.reason or "")
 
 
 def test_what_the_runs_reach_is_written_where_it_is_smaller(monkeypatch: pytest.MonkeyPatch) -> None:
     """From where only three states can be reached, these are enough, whatever the way to the goal is elsewhere."""
     monkeypatch.setattr(unrealizability, "FEW_NODES", 50)
     spec = targets(10, 19, "zyx")
-    certificate = certified(spec, "any")
-    assert (certificate.reason.state, len(certificate.reason.goals[0].roots)) == ((0,) * 11, 1)
+    certificate, reason = unrealizable(spec, NoPlan)
+    assert (reason.state, len(reason.goals[0].roots)) == ((0,) * 11, 1)
     monkeypatch.undo()
-    other = certified(spec, "any")
-    assert len(other.reason.diagram.nodes) > 20 * len(certificate.reason.diagram.nodes)
+    other, larger = unrealizable(spec, NoPlan)
+    assert len(larger.diagram.nodes) > 20 * len(reason.diagram.nodes)
     for each in (certificate, other):
         assert verify_unrealizable(each, spec).verdict == "proved"
 
@@ -263,9 +265,9 @@ def test_what_the_runs_reach_is_written_where_it_is_smaller(monkeypatch: pytest.
 def test_z3_has_the_last_word(over: Exception, monkeypatch: pytest.MonkeyPatch) -> None:
     """The walk is asked where Z3 does not answer soon, and Z3 again where the walk gives up."""
     spec = targets(3, 5)
-    certificate, asked = certified(spec, "any"), []
+    certificate, asked = unrealizable(spec, NoPlan)[0], list[bool]()
 
-    def given_up(*_):
+    def given_up(*_: object) -> None:
         asked.append(True)
         raise over
 
@@ -283,4 +285,4 @@ def test_a_state_that_only_the_walk_finds_is_a_bug(monkeypatch: pytest.MonkeyPat
     walk_first(monkeypatch)
     monkeypatch.setattr(no_plan, "first_left", lambda *_: (0, 0, 0, 0))
     with pytest.raises(RuntimeError, match="against the walk"):
-        verify_unrealizable(certified(spec, "any"), spec)
+        verify_unrealizable(unrealizable(spec, NoPlan)[0], spec)

@@ -67,7 +67,7 @@ def test_what_synthesis_writes_is_proved_and_anything_else_is_judged_rightly(see
         if spec.restoration == "one_step":
             continue
         for ordering in ("any", "first"):
-            certificate = certified(spec, ordering)  # type: ignore[arg-type]
+            certificate = certified(spec, ordering)
             if certificate is None:
                 continue
             verdict = verify_unrealizable(certificate, spec)
@@ -78,8 +78,8 @@ def test_what_synthesis_writes_is_proved_and_anything_else_is_judged_rightly(see
             for _ in range(4):
                 other = dice.choice(list(all_states(spec)))
                 changed, state = trap ^ {other}, dice.choice((reason.state, reason.state, other))
-                found = judged(spec, state, changed, ordering).verdict  # type: ignore[arg-type]
-                assert found == ("proved" if holds_fast(spec, state, changed, ordering) else "refuted")  # type: ignore[arg-type]
+                found = judged(spec, state, changed, ordering).verdict
+                assert found == ("proved" if holds_fast(spec, state, changed, ordering) else "refuted")
 
 
 @pytest.mark.parametrize(

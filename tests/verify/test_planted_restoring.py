@@ -11,7 +11,7 @@ from tests.verify.several_steps import Rows, certified, exact
 from tests.verify.test_several_steps import PROVERS, judged_by
 from tumato_symbolic import parse
 from tumato_symbolic.policy import policy_from_rows
-from tumato_symbolic.semantics import State
+from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import Restoration
 from tumato_symbolic.verify import ProverName, verify
 
@@ -83,7 +83,7 @@ BEGIN STATE RULES severity: 1 rule: NOT P is b severity: 2 rule: P is d END STAT
 def test_runs_through_a_lower_level(last: int | None, refuted: set[str], prover: ProverName) -> None:
     """From a to b a severer rule breaks; what is restored all the same, and what is not, is known."""
     spec = replace(parse(DESCENT), restoration="fair")
-    rows = {(place,): frozenset((place,)) for place in range(2)}
+    rows: dict[State, ActionSet] = {(place,): frozenset((place,)) for place in range(2)}
     rows |= {(2,): NOTHING if last is None else frozenset((last,)), (3,): NOTHING}
     for said in (policy_from_rows(spec, rows), certified(spec, rows, exact(spec, rows, "any"))):
         answer = judged_by(spec, rows, "any", said, prover)

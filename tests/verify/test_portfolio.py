@@ -13,7 +13,7 @@ from tumato_symbolic.limits import Context, Limits
 from tumato_symbolic.policy import as_diagram, policy_from_rows
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import Spec
-from tumato_symbolic.verify import PropertyName, PropertyResult, portfolio, verify
+from tumato_symbolic.verify import PropertyName, PropertyResult, ProverName, portfolio, verify
 from tumato_symbolic.verify.by_diagrams.prover import WalkProver
 
 NAMES = ["total", "safe", "goals", "minimal"]
@@ -27,7 +27,7 @@ def _ring() -> tuple[Spec, dict[State, ActionSet]]:
     return spec, {(number,): chosen(step) for number, step in enumerate(steps)}
 
 
-def _proved_by(prover: portfolio.ProverName) -> list[str | None]:
+def _proved_by(prover: ProverName) -> list[str | None]:
     spec, rows = _ring()
     answer = verify(certified(spec, rows, exact_ranks(spec, rows, "any")), spec, prover=prover)
     assert answer.verdict == "proved"
@@ -134,7 +134,7 @@ def test_the_explicit_meaning_heeds_the_time_limit() -> None:
 
 
 @pytest.mark.parametrize("prover", ["z3", "walk", "both"])
-def test_no_time_is_undecided(prover: portfolio.ProverName) -> None:
+def test_no_time_is_undecided(prover: ProverName) -> None:
     """What nobody proves in time is undecided, with a reason."""
     spec, rows = _ring()
     answer = verify(policy_from_rows(spec, rows), spec, prover=prover, timeout=0.0)
@@ -168,7 +168,7 @@ def test_a_large_diagram_needs_no_certificate(monkeypatch: pytest.MonkeyPatch) -
 
 
 @pytest.mark.parametrize("prover", ["walk", "explicit"])
-def test_these_do_without_z3(prover: portfolio.ProverName) -> None:
+def test_these_do_without_z3(prover: ProverName) -> None:
     """With `--prover walk` or `explicit`, Z3 is not even imported."""
     code = (
         "import sys\n"

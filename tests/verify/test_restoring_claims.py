@@ -12,12 +12,12 @@ from tests.verify.test_several_steps import PROVERS, judged_by
 from tumato_symbolic import parse
 from tumato_symbolic.policy import Policy
 from tumato_symbolic.policy.records import Deviation
-from tumato_symbolic.semantics import State, all_states, allowed_sets, judge
+from tumato_symbolic.semantics import ActionSet, State, all_states, allowed_sets, judge
 from tumato_symbolic.spec import Restoration, Spec
 from tumato_symbolic.verify import ProverName, verify
 
 S, T, X, Y = (0,), (1,), (2,), (3,)
-ROWS = {S: frozenset((0,)), T: frozenset((2,)), X: frozenset[int](), Y: frozenset[int]()}
+ROWS: dict[State, ActionSet] = {S: frozenset((0,)), T: frozenset((2,)), X: frozenset[int](), Y: frozenset[int]()}
 LISTED = [Deviation(T, frozenset((1,)), S)]
 
 

@@ -324,8 +324,9 @@ def test_not_too_many_objections_at_once() -> None:
     assert [(each.kind, each.actions) for each in found] == [("precondition", (number,)) for number in range(8)]
     assert objections_to(spec, (1,) * 8, everything, "any") == []
     twice = replace(spec, actions=tuple(replace(each, preconditions=each.preconditions * 3) for each in spec.actions))
-    for chosen, ordering in ((everything, "any"), (everything, "first")):
-        assert len(objections_to(twice, (0,) * 8, chosen, ordering)) == outcomes.OBJECTIONS_AT_ONCE
+    orderings: tuple[Ordering, ...] = ("any", "first")
+    for ordering in orderings:
+        assert len(objections_to(twice, (0,) * 8, everything, ordering)) == outcomes.OBJECTIONS_AT_ONCE
 
 
 def test_an_outcome_that_is_not_found_in_time_is_open() -> None:

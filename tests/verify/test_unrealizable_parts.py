@@ -7,11 +7,19 @@ from dataclasses import replace
 import pytest
 
 from tests.semantics.build import Build, priority, when
-from tests.unrealizability import certified
+from tests.unrealizability import certified, unrealizable
 from tests.verify.test_unrealizable_by_hand import conflicting, line, self_conflicting, stuck
 from tumato_symbolic.diagrams import DiagramBuilder
 from tumato_symbolic.limits import Context
-from tumato_symbolic.policy.unrealizable import Conflict, Cube, NoAllowedSet, NoPlan, Unrealizability, Violation
+from tumato_symbolic.policy.unrealizable import (
+    Conflict,
+    Cube,
+    NoAllowedSet,
+    NoPlan,
+    Unrealizability,
+    Violation,
+    ViolationKind,
+)
 from tumato_symbolic.semantics import allowed
 from tumato_symbolic.spec import And, Not, Or, Spec
 from tumato_symbolic.verify import UnrealizabilityVerdict, verify_unrealizable
@@ -51,8 +59,8 @@ def test_claims_are_counted(spec: Spec, count: int, by_solver: bool) -> None:
 def test_sets_that_z3_looks_at_are_counted() -> None:
     """The state, and that no set is allowed in it."""
     spec = stuck()[1]
-    certificate = certificate_of(spec)
-    asked = replace(certificate, reason=replace(certificate.reason, cubes=None))
+    certificate, reason = unrealizable(spec, NoAllowedSet)
+    asked = replace(certificate, reason=replace(reason, cubes=None))
     found = verify_unrealizable(asked, spec)
     assert (found.verdict, found.obligations, found.by_solver) == ("proved", 2, True)
 
@@ -227,7 +235,7 @@ def test_a_violation_names_as_many_actions_as_it_has() -> None:
     two = build.action("x=b", when=[build.atom("y=b")], needs=["arm"])
     spec = build.spec(state_rules=[Not(build.atom("x=a"))])
     everything = frozenset((one.action, two.action))
-    for kind, named, fine in (
+    claims: list[tuple[ViolationKind, tuple[int, ...], bool]] = [
         ("precondition", (0,), True),
         ("precondition", (1,), True),
         ("precondition", (0, 1), False),
@@ -235,7 +243,8 @@ def test_a_violation_names_as_many_actions_as_it_has() -> None:
         ("resource", (0, 1), True),
         ("resource", (0,), False),
         ("resource", (0, 0), False),
-    ):
+    ]
+    for kind, named, fine in claims:
         cubes = (
             Cube(everything, frozenset(), Violation(kind, named)),
             *(Cube(frozenset((a,)), everything - {a}, Violation("precondition", (a,))) for a in range(2)),

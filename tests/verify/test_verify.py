@@ -110,7 +110,9 @@ def test_any_is_the_weaker_meaning_of_minimal(prover: ProverName) -> None:
     assert verify(policy, spec, prover=prover).verdict == "proved"
     answer = verify(policy, replace(spec, effect_ordering="first"), prover=prover)
     assert [result.verdict for result in answer.properties] == ["proved", "proved", "proved", "refuted"]
-    assert answer.properties[-1].refutation.cheaper == chosen(one, other)
+    refutation = answer.properties[-1].refutation
+    assert refutation is not None
+    assert refutation.cheaper == chosen(one, other)
 
 
 def test_only_what_is_asked_is_answered() -> None:

@@ -48,7 +48,12 @@ def test_how_a_child_ended_is_told(end: Callable[[], object], how: str) -> None:
 def test_answers_are_told_as_they_come() -> None:
     """Each with the number of its task."""
     told: list[tuple[int, object]] = []
-    tasks = [lambda: time.sleep(0.3) or "slow", lambda: "quick"]
+
+    def slow() -> str:
+        time.sleep(0.3)
+        return "slow"
+
+    tasks = [slow, lambda: "quick"]
     assert in_workers(tasks, 2, lambda number, answer: told.append((number, answer))) == ["slow", "quick"]
     assert told == [(1, "quick"), (0, "slow")]
 
@@ -107,12 +112,13 @@ def test_no_child_goes_on_after_a_failure() -> None:
     """Where one task fails, the others are ended, not waited for."""
     done = memoryview(mmap.mmap(-1, 1))
 
-    def slow() -> None:
+    def slow() -> int:
         time.sleep(1.0)
         done[0] = 1
+        return 1
 
     with pytest.raises(WorkerError):
-        in_workers([partial(int, "no number"), slow], 2)
+        in_workers([lambda: int("no number"), slow], 2)
     assert done[0] == 0
 
 
