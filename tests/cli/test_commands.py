@@ -73,7 +73,7 @@ def toy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 @pytest.mark.usefixtures("toy")
 def test_a_module_and_a_line_make_a_command(cli: Cli, tmp_path: Path) -> None:
     """It has help, options, mistakes, formats, and its outputs are guarded, with nothing else touched."""
-    assert "  count-bytes   how large a specification is" in cli("--help").out
+    assert "  count-bytes  how large a specification is" in cli("--help").out
     said = cli("count-bytes", "--help").out
     assert "Count the bytes" in said
     assert "--times N" in said

@@ -1,21 +1,70 @@
-"""`export-proof`: the command line around `tumato_symbolic.export.coq`."""
+"""`export`: the command line around the targets."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from tests.cli.conftest import Cli
+from tumato_symbolic.export.targets import TARGETS
 
 
 def test_the_theorem_goes_where_it_is_asked_for(cli: Cli, tmp_path: Path) -> None:
     """To the standard output, or to a file, with the same text."""
-    ran = cli("export-proof", "amr.json", "amr.tum")
+    ran = cli("export", "coq", "amr.json", "amr.tum")
     assert (ran.code, ran.err) == (0, "")
     assert ran.out.endswith("Print Assumptions policy_is_right.\n")
-    filed = cli("export-proof", "amr.json", "amr.tum", "-o", "amr.v")
+    filed = cli("export", "coq", "amr.json", "amr.tum", "-o", "amr.v")
     assert (filed.code, filed.out) == (0, "")
     assert "amr.v is written" in filed.err
     assert (tmp_path / "amr.v").read_text(encoding="utf-8") == ran.out
+
+
+def test_a_target_of_several_files(cli: Cli, tmp_path: Path) -> None:
+    """They stand beside each other, and none of them is an input, the standard output, or another of them."""
+    ran = cli("export", "c99", "amr.json", "amr.tum", "-o", "robot.c")
+    assert (ran.code, ran.out) == (0, "")
+    assert ran.err.startswith("robot.c and robot.h are written")
+    assert '#include "robot.h"' in (tmp_path / "robot.c").read_text(encoding="utf-8")
+    (tmp_path / "taken.h").write_text((tmp_path / "amr.tum").read_text())
+    for command, complaint in (
+        ("amr.json amr.tum", "name the first with -o, as in -o amr.c"),
+        ("amr.json amr.tum -o robot.h", "the name of another of the files"),
+        ("amr.json taken.h -o taken.c", "TUM118"),
+        ("amr.json amr.tum -o /dev/null", "TUM510"),
+        ('amr.json amr.tum -o a"b.c', "the files name each other"),
+    ):
+        ran = cli("export", "c99", *command.split())
+        assert (ran.code, ran.out) == (2, "")
+        assert complaint in ran.err
+
+
+def test_unknown_targets_and_checks_that_there_are_not(cli: Cli) -> None:
+    """Wrong usage says which targets there are, and which have a check."""
+    ran = cli("export", "java", "amr.json", "amr.tum")
+    assert ran.code == 2
+    assert "python" in ran.err
+    assert "c99" in ran.err
+    ran = cli("export", "python", "amr.json", "amr.tum", "--check")
+    assert ran.code == 2
+    assert "the target python has no such program" in ran.err
+
+
+@pytest.mark.parametrize("target", TARGETS)
+def test_every_target_is_written(cli: Cli, tmp_path: Path, target: str) -> None:
+    """To the files that the table says, with a sentence on what is guaranteed; the same bytes every time."""
+    found = TARGETS[target]
+    command = ["export", target, "amr.json", "amr.tum", "-o", found.example, *(["--check"] if found.check else [])]
+    before = {path.name for path in tmp_path.iterdir()}
+    texts = []
+    for _ in range(2):
+        assert cli(*command).code == 0
+        made = sorted(path for path in tmp_path.iterdir() if path.name not in before)
+        texts.append([path.read_text(encoding="utf-8") for path in made])
+    assert len(texts[0]) == 1 + len(found.beside) + (found.check is not None)
+    assert texts[0] == texts[1]
+    assert all(f"tumato-sym export {target}" in text for text in texts[0])
 
 
 def test_the_ordering_is_that_of_the_specification(cli: Cli, tmp_path: Path) -> None:
@@ -32,9 +81,9 @@ def test_the_ordering_is_that_of_the_specification(cli: Cli, tmp_path: Path) -> 
         (("amr.json", "weaker.tum"), "First"),
         (("amr.json", "amr.tum"), "Any"),
     ):
-        assert f"minimal spec {wanted} " in cli("export-proof", *arguments).out
+        assert f"minimal spec {wanted} " in cli("export", "coq", *arguments).out
     for meant in ("amr.tum", "writes.tum"):
-        refused = cli("export-proof", "first.json", meant)
+        refused = cli("export", "coq", "first.json", meant)
         assert (refused.code, refused.out) == (2, "")
         assert "TUM511" in refused.err
 
@@ -44,11 +93,11 @@ def test_a_policy_for_a_weaker_restoration(cli: Cli, tmp_path: Path) -> None:
     policy = (tmp_path / "amr.json").read_text()
     weaker = policy.replace('"EffectOrdering": "any"', '"EffectOrdering": "any", "Restoration": "fair"')
     (tmp_path / "fair.json").write_text(weaker)
-    refused = cli("export-proof", "fair.json", "amr.tum")
+    refused = cli("export", "coq", "fair.json", "amr.tum")
     assert (refused.code, refused.out) == (2, "")
     assert "TUM511" in refused.err
     assert "was made for `restoration: fair`, but the specification means one_step" in refused.err
-    assert cli("export-proof", "fair.json", "amr.tum", "--restoration", "one_step").code == 0
+    assert cli("export", "coq", "fair.json", "amr.tum", "--restoration", "one_step").code == 0
 
 
 def test_what_cannot_be_exported_is_2(cli: Cli) -> None:
@@ -60,6 +109,6 @@ def test_what_cannot_be_exported_is_2(cli: Cli) -> None:
         ("amr.json", "amr.tum", "-o", "nowhere/amr.v"),
         ("amr.json", "amr.tum", "-o", ""),
     ):
-        ran = cli("export-proof", *arguments)
+        ran = cli("export", "coq", *arguments)
         assert (ran.code, ran.out) == (2, "")
         assert "Traceback" not in ran.err

@@ -34,8 +34,8 @@ def _linked(file: Path, link: Callable[[Path, Path], None]) -> str:
     ("command", "input_"),
     [
         ("synth amr.tum -o OUTPUT", "amr.tum"),
-        ("export-proof amr.json amr.tum -o OUTPUT", "amr.tum"),
-        ("export-proof amr.json amr.tum -o OUTPUT", "amr.json"),
+        ("export coq amr.json amr.tum -o OUTPUT", "amr.tum"),
+        ("export coq amr.json amr.tum -o OUTPUT", "amr.json"),
         ("explain no_plan.tum --write OUTPUT", "no_plan.tum"),
     ],
 )
@@ -73,7 +73,7 @@ def test_a_file_keeps_its_mode(cli: Cli, tmp_path: Path) -> None:
     for output, command in (
         ("old.json", "synth amr.tum -o link"),
         ("old.unrealizable.json", "synth no_plan.tum -o old.json"),
-        ("old.v", "export-proof amr.json amr.tum -o link"),
+        ("old.v", "export coq amr.json amr.tum -o link"),
         ("old.tum", "explain no_plan.tum --write link"),
     ):
         target, link = tmp_path / output, tmp_path / "link"
@@ -86,7 +86,7 @@ def test_a_file_keeps_its_mode(cli: Cli, tmp_path: Path) -> None:
         assert link.readlink() == Path(target.name)
         link.unlink()
     link.symlink_to("new.v")
-    cli("export-proof", "amr.json", "amr.tum", "-o", "link")
+    cli("export", "coq", "amr.json", "amr.tum", "-o", "link")
     assert (tmp_path / "new.v").exists()
     assert link.is_symlink()
 
@@ -103,7 +103,7 @@ def test_nothing_is_left_of_a_failure(cli: Cli, tmp_path: Path, monkeypatch: pyt
             patched.setattr(os if failing == "fsync" else Path, failing, fail)
             for command in (
                 "synth amr.tum -o amr.json",
-                "export-proof amr.json amr.tum -o warned.tum",
+                "export coq amr.json amr.tum -o warned.tum",
                 "explain no_plan.tum --write warned.tum",
             ):
                 before = {path: path.read_bytes() for path in tmp_path.iterdir()}
@@ -115,7 +115,7 @@ def test_nothing_is_left_of_a_failure(cli: Cli, tmp_path: Path, monkeypatch: pyt
     ("command", "text"),
     [
         ("synth amr.tum -o", '"Type": "policy"'),
-        ("export-proof amr.json amr.tum -o", "Print Assumptions"),
+        ("export coq amr.json amr.tum -o", "Print Assumptions"),
         ("explain no_plan.tum --write", "BEGIN ASSUMPTIONS"),
     ],
 )
@@ -176,7 +176,7 @@ def test_a_protected_file_is_left_alone(cli: Cli, tmp_path: Path, monkeypatch: p
 
 def test_the_standard_input_is_read_once(cli: Cli) -> None:
     """Two inputs from one stream are wrong usage."""
-    for command in ("verify - -", "why - - a=b", "export-proof - -", "check - -", "decide - --stdin"):
+    for command in ("verify - -", "why - - a=b", "export coq - -", "check - -", "decide - --stdin"):
         ran = cli(*command.split())
         assert ran.code == 2
         assert "only one input can be the standard input" in ran.err

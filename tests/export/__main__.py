@@ -1,7 +1,7 @@
 """The theorem of every example: `python -m tests.export`, or `make proofs`.
 
 Builds `proofs/coq`, writes the theorem of every policy in `proofs/` whose specification has at most 1,000 states, as
-`tumato-sym export-proof` does, and compiles it. Exits with 1 where one is refused or rests on an assumption. Where Coq
+`tumato-sym export coq` does, and compiles it. Exits with 1 where one is refused or rests on an assumption. Where Coq
 is not installed it says so, and exits with 0: then nothing is claimed.
 """
 
@@ -63,7 +63,7 @@ def _proved(policy: Path, folder: Path) -> bool:
         return True
     theorem = folder / "exported.v"
     with redirect_stderr(StringIO()) as said:
-        exported = tumato_sym(["export-proof", str(policy), str(spec), "-o", str(theorem)])
+        exported = tumato_sym(["export", "coq", str(policy), str(spec), "-o", str(theorem)])
     if exported != 0:
         print(f"  {name}: NOT exported\n{said.getvalue()}", flush=True)
         return False

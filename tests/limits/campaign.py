@@ -24,7 +24,7 @@ LATE = 2.0
 _PROGRAM = (sys.executable, "-c", "from tumato_symbolic.cli.main import entry; entry()")
 
 _SPEC_ALONE = ("synth", "explain", "check")
-COMMANDS = (*_SPEC_ALONE, "verify", "rules", "why", "export-proof")
+COMMANDS = (*_SPEC_ALONE, "verify", "rules", "why", "export")
 
 _CODES = {"ok": 0, "realizable": 0, "proved": 0, "refuted": 1, "unrealizable": 1, "error": 2, "undecided": 3}
 
@@ -122,8 +122,8 @@ def _arguments(command: str, spec: Path) -> list[str]:
         case "why":
             state = [] if made is None else [f"{name}={values[0]}" for name, values in made.vocabulary.variables]
             return [policy.name, spec.name, *(state or ["X=on"]), "--output-format", "json"]
-        case "export-proof":
-            return [policy.name, spec.name, "-o", "proof.v"]
+        case "export":
+            return ["coq", policy.name, spec.name, "-o", "proof.v"]
         case _:
             return [policy.name, spec.name, "--output-format", "json"]
 
@@ -141,7 +141,7 @@ def _judge(command: str, code: int, out: bytes, err: bytes) -> Iterator[str]:
     if code not in (0, 1, 2, 3) or b"Traceback" in err:
         yield f"it exits with {code}: {err[-300:].decode(errors='replace')}"
         return
-    if command == "export-proof":
+    if command == "export":
         if code == 3 and b"undecided" not in out + err:
             yield "it does not say that it is undecided"
         return

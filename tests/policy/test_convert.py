@@ -115,13 +115,13 @@ def test_a_table_takes_each_combination_of_nodes_once(monkeypatch: pytest.Monkey
     size, looked_at = 12, list[tuple[object, ...]]()
     rows = {state: frozenset({sum(state) % 2}) for state in product(range(2), repeat=size)}
     vocabulary = Vocabulary(tuple((f"v{number}", ("a", "b")) for number in range(size)), ("even", "odd"))
-    together = convert._together
+    together = convert.together
 
     def counted(*arguments: Any) -> Any:
         looked_at.append(arguments)
         return together(*arguments)
 
-    monkeypatch.setattr(convert, "_together", counted)
+    monkeypatch.setattr(convert, "together", counted)
     diagram = Policy(vocabulary, as_diagram(Policy(vocabulary, Table(rows))))
     assert rows_of(diagram, 2**size) == rows
     assert len(looked_at) == 2 * size + 1

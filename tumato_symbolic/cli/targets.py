@@ -38,12 +38,12 @@ def settled(options: AnyOptions) -> AnyOptions:
 def certificate_path(output: str) -> Path | None:
     """Where the certificate belongs that there is no policy to write to `output`; None where there is no file."""
     target = Path(output)
-    if output == STANDARD_OUTPUT or _is_stream(target):
+    if output == STANDARD_OUTPUT or is_stream(target):
         return None
     return target.with_name(f"{target.name.removesuffix('.json').removesuffix('.policy')}.unrealizable.json")
 
 
-def _is_stream(path: Path) -> bool:
+def is_stream(path: Path) -> bool:
     """Whether a name stands for an open file, a device or a pipe: nothing belongs beside it."""
     try:
         return open_file(path) is not None or not stat.S_ISREG(path.stat().st_mode)

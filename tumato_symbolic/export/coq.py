@@ -11,6 +11,7 @@ from textwrap import indent
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.export.efforts import nominal_sums
+from tumato_symbolic.export.request import Request
 from tumato_symbolic.policy import Policy, as_table, bind
 from tumato_symbolic.semantics import (
     ActionSet,
@@ -48,7 +49,7 @@ MOST_STATES = 30_000
 _HEAD = """\
 (* Compiling this file proves that the policy below is sound, complete and minimal for the specification below.
    What that means is written in Semantics.v, that the checker tells the truth is proved in Correct.v (proofs/coq).
-   Written by `tumato-sym export-proof`; comments are for readers and prove nothing. *)
+   Written by `tumato-sym export coq`; comments are for readers and prove nothing. *)
 
 From Coq Require Import List NArith.
 From Tumato Require Import Semantics Checker Correct.
@@ -67,6 +68,11 @@ Proof. exact (checker_sound spec {ordering} decisions {efforts} accepted). Qed.
 
 Print Assumptions policy_is_right.
 """
+
+
+def files(request: Request) -> tuple[str]:
+    """The text of the theorem."""
+    return (export(request.policy, request.spec, request.ordering),)
 
 
 def export(policy: Policy, spec: Spec, ordering: Ordering) -> str:

@@ -12,8 +12,8 @@ from tumato_symbolic.policy.records import Certificate, DecisionDiagram, Table, 
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import Ordering, Spec
 
-_Roots: TypeAlias = tuple[Reference, ...]
-_Branches: TypeAlias = tuple[int, list[_Roots]]
+Roots: TypeAlias = tuple[Reference, ...]
+Branches: TypeAlias = tuple[int, list[Roots]]
 
 
 def policy_from_rows(
@@ -88,12 +88,12 @@ def _cubes(decisions: DecisionDiagram, sizes: tuple[int, ...]) -> Iterator[tuple
     """Disjoint sets of decided states, given by the variables that are fixed, and the decision of each."""
     diagram = decisions.diagram
     levels = [len(diagram.order)] * len(diagram.leaves) + [level for level, _ in diagram.nodes]
-    known: dict[_Roots, ActionSet | _Branches | None] = {}
-    pending: list[tuple[_Roots, dict[int, int]]] = [((decisions.defined, *decisions.roots), {})]
+    known: dict[Roots, ActionSet | Branches | None] = {}
+    pending: list[tuple[Roots, dict[int, int]]] = [((decisions.defined, *decisions.roots), {})]
     while pending:
         roots, fixed = pending.pop()
         if roots not in known:
-            known[roots] = _together(diagram, levels, sizes, roots)
+            known[roots] = together(diagram, levels, sizes, roots)
         found = known[roots]
         if isinstance(found, frozenset):
             yield fixed, found
@@ -102,9 +102,9 @@ def _cubes(decisions: DecisionDiagram, sizes: tuple[int, ...]) -> Iterator[tuple
             pending += [(below, {**fixed, variable: value}) for value, below in enumerate(branches)]
 
 
-def _together(
-    diagram: Diagram[bool], levels: Sequence[int], sizes: Sequence[int], roots: _Roots
-) -> ActionSet | _Branches | None:
+def together(
+    diagram: Diagram[bool], levels: Sequence[int], sizes: Sequence[int], roots: Roots
+) -> ActionSet | Branches | None:
     """What roots say together: the first of where something is decided, each other one of where its action is executed.
 
     The decision; None where there is none; or the first variable that matters, and the roots for each of its values.

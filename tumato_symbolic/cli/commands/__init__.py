@@ -16,7 +16,7 @@ COMMANDS: Final = {
     "synth": "compute, prove and write a policy",
     "explain": "why there is no policy, and possible changes",
     "verify": "prove a policy, whatever its origin",
-    "export-proof": "write a policy as a theorem for Coq",
+    "export": "write a policy for another tool or language",
     "decide": "what to do in a state",
     "rules": "a policy as a short list of rules",
     "why": "why a policy decides as it does in a state",

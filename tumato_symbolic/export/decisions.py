@@ -1,0 +1,110 @@
+"""The decisions of a policy as one shared tree of questions: what targets for programming languages print."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from tumato_symbolic.diagrams import room_for
+from tumato_symbolic.policy import Policy, as_diagram
+from tumato_symbolic.policy.convert import Roots, together
+from tumato_symbolic.semantics import ActionSet
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What is done: a set of actions, by their numbers in order; None where the policy does not decide."""
+
+    actions: tuple[int, ...] | None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Question:
+    """Which value a variable has; `below` goes on with what follows from each."""
+
+    variable: int
+    below: tuple[Tree, ...]
+
+    def groups(self) -> list[tuple[tuple[int, ...], Tree]]:
+        """The different trees below, each with the values that lead to it."""
+        found: dict[int, list[int]] = {}
+        for value, tree in enumerate(self.below):
+            found.setdefault(id(tree), []).append(value)
+        return [(tuple(values), self.below[values[0]]) for values in found.values()]
+
+
+Tree: TypeAlias = Answer | Question
+"""Equal parts are the same object."""
+
+
+def tree_of(policy: Policy, most: int) -> Tree | None:
+    """All decisions in one tree; None where it takes more than `most` different questions.
+
+    Policies for many independent things have none of a useful size: there, use one diagram for each action
+    (`as_diagram`).
+    """
+    decisions = as_diagram(policy)
+    with room_for(len(decisions.diagram.order)):
+        builder = _Builder(policy, most)
+        try:
+            return builder.at((decisions.defined, *decisions.roots))
+        except _TooLarge:
+            return None
+
+
+class _TooLarge(Exception):  # noqa: N818 - no error: some policies have no small tree
+    """A tree was given up."""
+
+
+class _Builder:
+    def __init__(self, policy: Policy, most: int) -> None:
+        self._diagram = as_diagram(policy).diagram
+        self._sizes = policy.vocabulary.sizes
+        self._levels = [len(self._diagram.order)] * len(self._diagram.leaves)
+        self._levels += [level for level, _ in self._diagram.nodes]
+        self._most = most
+        self._known: dict[Roots, Tree] = {}
+        self._answers: dict[ActionSet | None, Answer] = {}
+        self._questions: dict[tuple[int, ...], Question] = {}
+
+    def at(self, roots: Roots) -> Tree:
+        """The tree of what some roots say together."""
+        found = self._known.get(roots)
+        if found is None:
+            said = together(self._diagram, self._levels, self._sizes, roots)
+            if isinstance(said, tuple):
+                variable, branches = said
+                found = self._question(variable, tuple([self.at(each) for each in branches]))
+            else:
+                found = self._answers.setdefault(said, Answer(None if said is None else tuple(sorted(said))))
+            self._known[roots] = found
+            if len(self._known) > self._most:
+                raise _TooLarge
+        return found
+
+    def _question(self, variable: int, below: tuple[Tree, ...]) -> Tree:
+        if all(each is below[0] for each in below):
+            return below[0]
+        return self._questions.setdefault((variable, *map(id, below)), Question(variable, below))
+
+
+def questions(tree: Tree) -> list[Question]:
+    """Every different question once, those below before those above."""
+    done: dict[int, Question] = {}
+
+    def visit(here: Tree) -> None:
+        if isinstance(here, Question) and id(here) not in done:
+            for each in here.below:
+                visit(each)
+            done[id(here)] = here
+
+    visit(tree)
+    return list(done.values())
+
+
+def size_written_out(tree: Tree) -> int:
+    """How many answers the tree has when nothing is shared, and equal answers of one question are given once."""
+    sizes: dict[int, int] = {}
+    for question in questions(tree):
+        sizes[id(question)] = sum(sizes.get(id(below), 1) for _, below in question.groups())
+    return sizes.get(id(tree), 1)

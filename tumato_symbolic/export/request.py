@@ -1,0 +1,38 @@
+"""What every target is given."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from tumato_symbolic.policy import Policy
+from tumato_symbolic.spec import Ordering, Spec
+
+_PROMISE = (
+    "Where `tumato-sym verify` proves the policy, every set of actions decided here is safe to execute in the state "
+    "that was asked about, {whatever}, and nominal effects reach the goals; for that, the robot's code must ask only "
+    "when nothing is being executed, with the state that it sees then, start exactly the actions of the set, {again}, "
+    "and keep an action that it halted from having an effect later."
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Request:
+    """A policy in the names of its specification, and how it is to be written.
+
+    `name` is that of the file, without its ending. `check` asks for the program that checks what is written.
+    """
+
+    policy: Policy
+    spec: Spec
+    ordering: Ordering
+    name: str
+    check: bool = False
+
+    @property
+    def promise(self) -> str:
+        """What is guaranteed, and what the code around a decision must do: a sentence for every file."""
+        if self.ordering == "first":
+            again = "halt the others as soon as one of them has an effect, see that effect before it asks again"
+            return _PROMISE.format(whatever="whatever effect occurs first", again=again)
+        again = "see every effect before it asks again"
+        return _PROMISE.format(whatever="whatever effects occur, in any order", again=again)

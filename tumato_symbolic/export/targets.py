@@ -1,0 +1,41 @@
+"""The table of targets: what `tumato-sym export` can write."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib import import_module
+from typing import TYPE_CHECKING, Final, TypeAlias, cast
+
+if TYPE_CHECKING:
+    from tumato_symbolic.export.request import Request
+
+Texts: TypeAlias = tuple[str, ...]
+"""The text of FILE, then those of the files beside it, then that of the program that checks it, if it is asked for."""
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """A format. Its module has the same name, and a function `files` from a `Request` to `Texts`.
+
+    `example` is a usual name of FILE. `beside` are the endings of files that are written beside FILE in any case,
+    `check` that of the program which `--check` adds.
+    """
+
+    purpose: str
+    example: str
+    beside: tuple[str, ...] = ()
+    check: str | None = None
+
+
+TARGETS: Final = {
+    "python": Target("a module for Python 3.8 or later", "amr.py"),
+    "c99": Target("a source and its header in C99", "amr.c", beside=(".h",)),
+    "coq": Target("a theorem for Coq", "amr.v"),
+}
+"""Every target in the order of the help."""
+
+
+def load(name: str) -> Callable[[Request], Texts]:
+    """What writes a target."""
+    return cast("Callable[[Request], Texts]", import_module(f"tumato_symbolic.export.{name}").files)
