@@ -104,13 +104,15 @@ class Actions:
 
     def _parts(self, predicates: tuple[ast.Predicate, ...], where: str) -> tuple[tuple[Rule, ...], bool]:
         """The predicates of a list, and whether all of them are right."""
+        self._predicates.look_for_values(predicates)
         found = [self._predicates.rule(each, where) for each in predicates]
         right = tuple(each for each in found if each is not None)
         return right, len(right) == len(found)
 
     def _nominal(self, predicates: tuple[ast.Predicate, ...], action: str, span: Span) -> Assignment:
         parts, right = self._parts(predicates, "an effect")
-        return (self._effects.nominal(parts, action, span) if right else None) or ()
+        conditional = any(isinstance(each, ast.Implication) for each in predicates)
+        return (self._effects.nominal(parts, action, span, conditional) if right else None) or ()
 
     def _alternative(self, predicates: tuple[ast.Predicate, ...], action: str, span: Span) -> list[Alternative]:
         parts, right = self._parts(predicates, "an effect")

@@ -47,9 +47,14 @@ _NUMBER_SLOTS = {"value", "other", "low", "high", "values", "items"}
 """Where a number may stand for a name."""
 
 
-def written_out(tree: ast.Specification, findings: Findings) -> ast.Specification | None:
-    """The tree without copies and quantifiers; None, and reports, where they cannot be made."""
-    copier = _Copier(tree, findings)
+def written_out(
+    tree: ast.Specification, findings: Findings, lost: frozenset[str] = frozenset()
+) -> ast.Specification | None:
+    """The tree without copies and quantifiers; None, and reports, where they cannot be made.
+
+    Parameters whose names were lost in a passage that could not be read are not reported as unknown.
+    """
+    copier = _Copier(tree, findings, lost)
     if not copier.is_right():
         return None
     try:
@@ -72,8 +77,9 @@ def copies_in(node: object) -> bool:
 class _Copier:
     """One pass that checks the headers, one that counts, and one that makes the copies."""
 
-    def __init__(self, tree: ast.Specification, findings: Findings) -> None:
+    def __init__(self, tree: ast.Specification, findings: Findings, lost: frozenset[str]) -> None:
         self._tree = tree
+        self._lost = lost
         self._findings = findings
         self._lists = _named_lists(tree)
         self._combinations: dict[int, Combinations] = {}
@@ -104,6 +110,8 @@ class _Copier:
         unknown = [each for each in named if each not in scope]
         if not unknown:
             return True
+        if unknown[0] in self._lost:
+            return False
         known = f"the parameters are {listed(list(scope))}" if scope else "braces stand inside `for` … `end for`"
         self._findings.add(Code.TUM201, f"there is no parameter {quoted(unknown[0])}", name.span, known)
         return False

@@ -30,8 +30,11 @@ class Effects:
         self._findings = findings
         self._budget = Budget(MAX_EFFECT_WORK)
 
-    def nominal(self, parts: Sequence[Rule], action: str, span: Span) -> Assignment | None:
-        """The one assignment that nominal effects denote; None, and a report, where it is not one."""
+    def nominal(self, parts: Sequence[Rule], action: str, span: Span, conditional: bool) -> Assignment | None:
+        """The one assignment that nominal effects denote; None, and a report, where it is not one.
+
+        `conditional`: an implication stands among them, which was hardly meant to be about the state afterwards.
+        """
         found = self._assignments(parts, _SHOWN + 1, action, span)
         if found is None:
             return None
@@ -51,7 +54,9 @@ class Effects:
             Code.TUM305,
             f"the nominal effects of {quoted(action)} leave more than one assignment: {shown}{more}",
             span,
-            "name the expected one here and put the others under `alternative effects:`",
+            _conditional_effect()
+            if conditional
+            else "name the expected one here and put the others under `alternative effects:`",
         )
         return None
 
@@ -92,6 +97,12 @@ class Effects:
     def _worded(self, assignment: Assignment) -> str:
         pairs = [f"{self._variables[each].name} is {self._variables[each].values[value]}" for each, value in assignment]
         return quoted(", ".join(pairs))
+
+
+def _conditional_effect() -> str:
+    from tumato_symbolic.syntax.habits import CONDITIONAL_EFFECT
+
+    return CONDITIONAL_EFFECT
 
 
 def _conjunction(parts: Sequence[Rule]) -> Formula:

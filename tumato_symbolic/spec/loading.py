@@ -31,7 +31,7 @@ def load(source: Source) -> Loaded:
     if tree is not None and _MAY_COPY.search(source.text):
         from tumato_symbolic.spec.copies import copies_in, written_out
 
-        tree = None if parsed.diagnostics and copies_in(tree) else written_out(tree, findings)
+        tree = None if parsed.diagnostics and copies_in(tree) else written_out(tree, findings, parsed.lost)
     if tree is None:
         return Loaded(None, _ordered((*parsed.diagnostics, *findings.diagnostics), findings))
     resolution = resolve(parsed, tree, source, findings)

@@ -23,6 +23,13 @@ MAX_TERMS = 100_000
 MAX_TERMS_IN_ALL = 1_000_000
 """The same, for all predicates of a specification together."""
 
+_NONE = {
+    "an effect": "`none` stands alone: an outcome without change is a line of its own, `alternative effects: none`",
+    "a precondition": "leave it out",
+    "a list of resources": "leave it out",
+}
+"""The way out where `none` is one of several."""
+
 
 @dataclass(frozen=True, slots=True)
 class Mention:
@@ -55,6 +62,8 @@ class Predicates:
         self._terms = 0
         self._written = 0
         self._gave_up = False
+        self._meant: dict[Span, str | None] = {}
+        self._where: str | None = None
         self.used_aliases: set[int] = set()
         self._references = tuple(self._references_of(each.predicate) for each in names.aliases)
         for number in range(len(names.aliases)):
@@ -65,6 +74,7 @@ class Predicates:
 
         `no_executing_in` names the place where `executing` has no meaning, or is None where it has one.
         """
+        self._where = no_executing_in
         resolved = self._resolve(predicate)
         self._use(self._references_of(predicate))
         if resolved is None:
@@ -95,12 +105,32 @@ class Predicates:
             self._unknown(name, kind)
         return None
 
+    def look_for_values(self, predicates: tuple[ast.Predicate, ...]) -> None:
+        """Look through predicates that are joined for values that stand alone, as in `S is a OR b`."""
+        if any(isinstance(each, ast.Reference) and each.name.text not in self._names.table for each in predicates):
+            from tumato_symbolic.spec.lone_values import lone_values
+
+            self._meant.update(lone_values(predicates, self._names))
+
     def _unknown(self, name: ast.Name, kind: Kind) -> None:
+        if kind == "alias" and name.span in self._meant:
+            meant = self._meant[name.span]
+            if meant is not None:
+                self._findings.add(Code.TUM201, f"there is no alias {quoted(name.text)}", name.span, f"write `{meant}`")
+            return
+        where = "a list of resources" if kind == "resource" else self._where
+        if name.text in ("none", "nothing") and where in _NONE:
+            way_out = _NONE[where] if name.text == "none" else "write `none`, which stands alone"
+            self._findings.add(Code.TUM201, f"there is no {kind} {quoted(name.text)}", name.span, way_out)
+            return
         near = self._findings.similar(name.text, self._names.of_kind(kind))
         if near is None and kind == "alias":
             near = self._findings.similar(name.text, self._names.of_kind("state variable"))
             if near is not None:
                 near = f"{near} is …"
+            owners = [number for number, values in enumerate(self._names.values) if name.text in values]
+            if len(owners) == 1:
+                near = f"{self._names.variables[owners[0]].name} is {name.text}"
         known = self._names.of_kind(kind)
         way_out = f"did you mean `{near}`?" if near else f"there is no {kind} at all"
         if near is None and known:
@@ -142,6 +172,7 @@ class Predicates:
             case ast.Negation(operand):
                 return self._combined(predicate, (operand,))
             case ast.Conjunction(operands) | ast.Disjunction(operands):
+                self.look_for_values(operands)
                 return self._combined(predicate, operands)
             case ast.Implication(left, right) | ast.Equivalence(left, right):
                 return self._combined(predicate, (left, right))

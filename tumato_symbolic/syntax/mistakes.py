@@ -7,12 +7,14 @@ from collections.abc import Callable
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Note, Span
 from tumato_symbolic.diagnostics.wording import MAX_QUOTED, listed, quoted
+from tumato_symbolic.syntax.entry_habits import ENTRIES
+from tumato_symbolic.syntax.habits import PREDICATES
 from tumato_symbolic.syntax.situation import Situation
 from tumato_symbolic.syntax.tokens import BLOCKS, COMPARING, HARD, MAX_DIGITS, Token
 
 _OPERATORS = ("AND", "OR", "IFONLYIF", "THEN")
 _FORMS = {
-    "state": "write `state NAME can be VALUE, VALUE`",
+    "state": "write `state NAME can be VALUE, VALUE`, or `state NAME can be 0..3`",
     "define": "write `define NAME as PREDICATE`",
     "resource": "write `resource NAME`",
     "controlled": "write `controlled resources: NAME, NAME`",
@@ -86,7 +88,9 @@ def _block_title(here: Situation) -> Diagnostic | None:
         Code.TUM105,
         f"there is no block named {quoted(' '.join(words))}" if words else "`BEGIN` needs the name of a block",
         here.token.span,
-        help=f"did you mean `BEGIN {' '.join(here.meant_title)}`?"
+        help="did you mean `BEGIN STATE RULES` or `BEGIN REACTION RULES`?"
+        if words == ["RULES"]
+        else f"did you mean `BEGIN {' '.join(here.meant_title)}`?"
         if here.meant_title
         else f"the blocks are {listed(titles)}",
     )
@@ -233,6 +237,11 @@ def _misspelled(here: Situation) -> Diagnostic | None:
 def _comma(here: Situation) -> Diagnostic | None:
     if here.token.text != "," or "AND" not in here.expected:
         return None
+    listed_values = here.at(-2).text in ("is", "not") and here.at(2).text not in ("is", "in", "not", *COMPARING)
+    if listed_values and here.at(1).kind in ("word", "number"):
+        name, no = (here.at(-4).text, "not ") if here.at(-2).text == "not" else (here.at(-3).text, "")
+        form = f"{name} {no}in {{{here.at(-1).text}, {here.at(1).text}}}"
+        return Diagnostic(Code.TUM105, "unexpected `,`", here.token.span, help=f"write `{form}`")
     return Diagnostic(
         Code.TUM105,
         "a comma joins predicates in the fields of actions only",
@@ -243,17 +252,20 @@ def _comma(here: Situation) -> Diagnostic | None:
 
 def _unexpected(here: Situation) -> Diagnostic:
     opened = here.last("(") if ")" in here.expected else None
+    needless = here.token.text == ")" and "AND" in here.expected
     return Diagnostic(
         Code.TUM105,
         f"{_shown(here.token)} where {_wanted(here)} is expected",
         here.token.span,
-        help=_form(here),
+        help="write `)` before this" if opened else "leave it out: no parenthesis is open" if needless else _form(here),
         notes=(Note("this parenthesis is open", opened.span),) if opened else (),
     )
 
 
 def _form(here: Situation) -> str | None:
     """The form of the item that is half read, unless it is a predicate in it that is wrong."""
+    if here.expected == {"at_start", "throughout"}:
+        return "write `preconditions: at_start` or `preconditions: throughout`"
     latest = here.last(*_FORMS)
     in_predicate = here.wants_predicate or here.expected & {"AND", ")"}
     after = here.previous.text if here.previous else ""
@@ -289,6 +301,8 @@ _DETECTORS: tuple[Callable[[Situation], Diagnostic | None], ...] = (
     _wrong_end,
     _unclosed_block,
     _block_title,
+    *ENTRIES,
+    *PREDICATES,
     _character,
     _malformed,
     _wrong_case,

@@ -14,7 +14,7 @@ from tumato_symbolic.syntax.grammar import Grammar, grammar
 from tumato_symbolic.syntax.nesting import MAX_NESTING, deepest
 from tumato_symbolic.syntax.parsed import Parsed
 from tumato_symbolic.syntax.stack import Row, Stack
-from tumato_symbolic.syntax.tokens import BLOCKS, COMPARING, HARD, TITLES, Token, tokenize
+from tumato_symbolic.syntax.tokens import BLOCKS, HARD, TITLES, Token, tokenize
 
 if TYPE_CHECKING:
     from tumato_symbolic.syntax.situation import Situation
@@ -173,36 +173,27 @@ class _Run:
 
     def _recover(self) -> None:
         """Report the token at `index`, and make the parser ready to go on with the token at the new `index`."""
+        from tumato_symbolic.syntax.mending import mending
         from tumato_symbolic.syntax.mistakes import explain
 
+        if self._ends_lost_copies():
+            self.index += 2
+            return
         situation = self._situation()
-        self.found.append(explain(situation))
-        if not self._mend(situation):
+        found = explain(situation)
+        self.found.append(found)
+        meant = mending(situation, found)
+        if meant is not None and self._supply(*meant.words):
+            self.index += meant.passed
+        else:
             self._panic()
 
-    def _mend(self, situation: Situation) -> bool:
-        """Put right what is surely meant. False where nothing is, or where it would not fit."""
-        if situation.end_words and situation.title:
-            line = situation.end_words[0].line
-            while self.tokens[self.index].kind == "word" and self.tokens[self.index].line == line:
-                self.index += 1
-            return self._supply(*situation.title[len(situation.end_words) - 1 :])
-        if situation.block_is_unclosed and situation.title:
-            return self._supply("END", *situation.title)
-        if (meant := situation.in_another_case or situation.misspelled) is not None:
-            return self._replace(1, meant)
-        if rest := situation.meant_title_rest:
-            return self._replace(len(rest), *rest)
-        if situation.expected == {":"} and not situation.lacks_goal_type:
-            token = self.tokens[self.index]
-            return self._replace(int(token.kind == "other" or token.text in COMPARING), ":")
-        if situation.expected == {"priority", "constraint"} and situation.token.kind == "word":
-            return self._replace(1, "priority")
-        if situation.lacks_goal_type and situation.token.text == "when":
-            return self._supply("goal", "type", ":", "priority")
-        if situation.lacks_goal_type and situation.token.text == ":" and self.stack.fits("type"):
-            return self._replace(-1, "type", ":", "priority")
-        return False
+    def _ends_lost_copies(self) -> bool:
+        """Whether `end for` stands here and its `for` was passed over after a mistake."""
+        if self.tokens[self.index].text != "end" or self.tokens[self.index + 1].text != "for" or "for" not in self.lost:
+            return False
+        self.lost.discard("for")
+        return True
 
     def _situation(self) -> Situation:
         """What surrounds the token at `index`, or the one before it where that was taken for something else.
@@ -232,12 +223,6 @@ class _Run:
         if not isinstance(top, ast.Name) or top.span != self.tokens[before].span or top.text not in _RESTARTS:
             return False
         return any(self._can_restart(depth, before) for depth in self.stack.topmost())
-
-    def _replace(self, tokens: int, *words: str) -> bool:
-        """Feed words instead of the next tokens, so many of them; False where they do not fit."""
-        fits = self._supply(*words)
-        self.index += tokens if fits else 0
-        return fits
 
     def _supply(self, *words: str) -> bool:
         """Feed words that are missing from the text, as far as they fit; whether they all do."""

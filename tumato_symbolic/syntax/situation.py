@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 
 from tumato_symbolic.diagnostics.wording import MAX_QUOTED
-from tumato_symbolic.syntax.tokens import BLOCKS, HARD, Token
+from tumato_symbolic.syntax.tokens import BLOCKS, COMPARING, HARD, Token
 
 _PREDICATE = frozenset({"NAME", "(", "executing", "true", "false"})
 
@@ -35,6 +35,16 @@ class Situation:
     def previous(self) -> Token | None:
         """The token before it."""
         return self.tokens[self.index - 1] if self.index else None
+
+    def at(self, offset: int) -> Token:
+        """The token so many further on; the last one, which is the end, where there is none."""
+        place = self.index + offset
+        return self.tokens[place if 0 <= place < len(self.tokens) else -1]
+
+    def declares(self, name: str) -> bool:
+        """Whether the text declares a state variable of this name."""
+        pairs = zip(self.tokens, self.tokens[1:], strict=False)
+        return any(first.text == "state" and second.text == name for first, second in pairs)
 
     @property
     def begin(self) -> int | None:
@@ -75,8 +85,97 @@ class Situation:
         return self.expected >= _PREDICATE
 
     @property
+    def in_effects(self) -> bool:
+        """Whether a list of effects is half read."""
+        field = self.last("effects", "preconditions", "resources", "rule", "assume", "goal", "when", "define")
+        return field is not None and field.text == "effects"
+
+    @property
+    def in_alternatives(self) -> bool:
+        """Whether a list of alternative effects is half read."""
+        field = self.last("alternative", "nominal", "preconditions", "resources")
+        return field is not None and field.text == "alternative"
+
+    @property
+    def begins_comment(self) -> bool:
+        """Whether the token begins a comment in another language, rather than a text that is no specification."""
+        begins = self.token.kind == "other" and (self.token.text[0] in "#%" or self.token.text == "--")
+        return begins and (self.index > 0 or any(each.text == "BEGIN" for each in self.tokens))
+
+    @property
+    def goes_on(self) -> str | None:
+        """What joins the token's line to what follows on it; None where the token ends an entry."""
+        after = self.at(1)
+        if after.line != self.token.line or after.kind not in ("word", "number") or after.text in ("BEGIN", "END"):
+            return None
+        if "AND" in self.expected:
+            return (
+                ("," if "," in self.expected else "AND") if self.at(2).text in ("is", "in", "not", *COMPARING) else None
+            )
+        return "," if "," in self.expected and (self.at(2).text in (",", ";") or self.at(2).text in HARD) else None
+
+    def compared(self) -> tuple[str, bool, int] | None:
+        """Of `S is not …` just before the token: the variable, whether `not` stands there, and where `…` begins."""
+        for length in (0, 1):
+            first, second = self.at(-1 - length), self.at(-2 - length)
+            if first.text == "not" and second.text == "is":
+                return self.at(-3 - length).text, True, self.index - length
+            if first.text == "is":
+                return second.text, False, self.index - length
+        return None
+
+    def closing_brace(self) -> int:
+        """The place after the brace that closes the set with which the token begins."""
+        end = self.index + 1
+        while self.tokens[end].text != "}" and self.tokens[end].kind in ("word", "number", "symbol"):
+            end += 1
+        return end + 1 if self.tokens[end].text == "}" else end
+
+    def words_on_line(self, line: int) -> int:
+        """How many words follow one another from the token on, on this line."""
+        end = self.index
+        while self.tokens[end].kind == "word" and self.tokens[end].line == line:
+            end += 1
+        return end - self.index
+
+    @property
+    def tokens_on_line(self) -> int:
+        """How many tokens the token's line has from it on."""
+        following = self.tokens[self.index :]
+        return next(place for place, each in enumerate(following) if each.line > self.token.line or each.kind == "end")
+
+    @property
+    def block_in_another_case(self) -> tuple[str, ...]:
+        """`BEGIN` or `END` and the title, where the token begins both and the title is in another case."""
+        begin = self.token.text.upper()
+        if begin not in ("BEGIN", "END") or begin not in self.expected:
+            return ()
+        titles = [self.title] if begin == "END" else BLOCKS
+        for title in titles:
+            written = tuple(self.at(1 + place).text for place in range(len(title)))
+            if title and written != title and tuple(each.upper() for each in written) == title:
+                return (begin, *title)
+        return ()
+
+    @property
+    def lacks_comma(self) -> bool:
+        """Whether something else stands between values that a comma should."""
+        if "," not in self.expected or "state" not in self.expected or "AND" in self.expected:
+            return False
+        return self.token.text.lower() in ("or", "and", "|", "||", "/") or self.begins_value
+
+    @property
+    def begins_value(self) -> bool:
+        """Whether the token is a value in a list, and no comma before it."""
+        is_value = self.token.kind in ("word", "number") and self.token.text not in HARD | {"or", "and", "to"}
+        signed = self.token.kind == "number" and self.token.text[0] in "+-"
+        return is_value and not signed and not (self.in_another_case or self.misspelled) and self.at(1).text != "can"
+
+    @property
     def in_another_case(self) -> str | None:
         """The keyword that the token would be in upper or lower case."""
+        if self.token.text.lower() == "end" and self.at(1).text == "for":
+            return None
         keywords = {each.lower(): each for each in self._keywords()}
         return keywords.get(self.token.text.lower()) if self.token.kind == "word" else None
 
