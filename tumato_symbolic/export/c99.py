@@ -7,6 +7,7 @@ from string import Template
 from textwrap import fill, indent
 
 from tumato_symbolic.diagrams import Reference
+from tumato_symbolic.export.c99_check import check
 from tumato_symbolic.export.c99_names import Names
 from tumato_symbolic.export.decisions import Answer, Question, Tree, size_written_out, tree_of
 from tumato_symbolic.export.request import Request
@@ -87,7 +88,7 @@ $decide}
 
 
 def files(request: Request) -> tuple[str, ...]:
-    """The texts of the source and of the header."""
+    """The texts of the source, of the header, and of the program that checks them where it is asked for."""
     names = Names.of(request)
     header = _HEADER.substitute(
         promise=fill(request.promise, 117, initial_indent="   ", subsequent_indent="   "),
@@ -107,7 +108,7 @@ def files(request: Request) -> tuple[str, ...]:
         invalid="\n        || ".join(_range_checks(names)) or "state == (void *)0",
         decide="".join(_decide(request.policy, names)),
     )
-    return source, header
+    return (source, header, check(request)) if request.check else (source, header)
 
 
 def _types(names: Names) -> Iterator[str]:

@@ -30,7 +30,7 @@ class Target:
 
 TARGETS: Final = {
     "python": Target("a module for Python 3.8 or later", "amr.py"),
-    "c99": Target("a source and its header in C99", "amr.c", beside=(".h",)),
+    "c99": Target("a source and its header in C99", "amr.c", beside=(".h",), check="_check.c"),
     "coq": Target("a theorem for Coq", "amr.v"),
 }
 """Every target in the order of the help."""

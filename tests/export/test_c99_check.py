@@ -1,0 +1,142 @@
+"""The program that checks an exported policy in C: it accepts right policies, and no others."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import chain, islice
+from pathlib import Path
+
+import pytest
+
+from tests.export.c_compiler import compile_c, needs_cc
+from tests.export.cases import generated, stepwise
+from tests.export.compiler import Case
+from tests.export.policies import EXAMPLES, example, request, write
+from tests.profiles import ALL_PROFILES
+from tumato_symbolic import parse
+from tumato_symbolic.diagnostics import Code, UserError
+from tumato_symbolic.export import c99
+from tumato_symbolic.export.c99_check import MOST_STATES
+from tumato_symbolic.export.request import Request
+from tumato_symbolic.policy import Table
+from tumato_symbolic.semantics import judge
+from tumato_symbolic.spec import Restoration
+
+_COUNTS = re.compile(r"undecided (\d+), not allowed (\d+), goals not reached (\d+), safety not restored (\d+)")
+
+
+def counts(requests: Sequence[Request], folder: Path) -> list[tuple[int, tuple[int, ...]]]:
+    """For policies of one specification, the exit code of the check and the faults that it counts.
+
+    The sources are compiled into one program, as functions of different names.
+    """
+    first = replace(requests[0], check=True)
+    _, _, check = write(folder, first, c99.files(first), (".c", ".h", "_check.c"))
+    parts = []
+    for number, made in enumerate(requests):
+        (folder / f"decide{number}.c").write_text(c99.files(made)[0], encoding="utf-8")
+        parts.append(f'#define policy_decide decide{number}\n#include "decide{number}.c"\n#undef policy_decide\n')
+    listed = ", ".join(f"decide{number}" for number in range(len(requests)))
+    (folder / "policies.c").write_text(
+        '#include "policy.h"\n#include <stdlib.h>\n'
+        + "".join(f"policy_status decide{n}(const policy_state *s, policy_actions *a);\n" for n in range(len(requests)))
+        + "".join(parts)
+        + f"static policy_status (*const all[])(const policy_state *, policy_actions *) = {{ {listed} }};\n"
+        + "policy_status policy_decide(const policy_state *s, policy_actions *a)\n"
+        + '{\n    return all[atoi(getenv("POLICY"))](s, a);\n}\n'
+    )
+    program = compile_c([folder / "policies.c", check], folder)
+    found = []
+    for number in range(len(requests)):
+        ran = subprocess.run([program], env={"POLICY": str(number)}, capture_output=True, text=True, check=False)
+        said = _COUNTS.search(ran.stdout)
+        assert said is not None, (ran.stdout, ran.stderr)
+        found.append((ran.returncode, tuple(map(int, said.groups()))))
+    return found
+
+
+def expected(case: Case) -> tuple[int, tuple[int, ...]]:
+    """What the explicit meaning counts."""
+    found = judge(case.spec, case.rows, case.ordering)
+    faults = tuple(map(len, (found.missing, found.not_allowed, found.goal_missed, found.not_restored)))
+    return int(any(faults)), faults
+
+
+def _compare(cases: Sequence[Case], folder: Path) -> tuple[int, int]:
+    """How many policies were right and wrong, where the program and the meaning agree on all of them."""
+    right = wrong = 0
+    groups: dict[tuple[int, str], list[Case]] = {}
+    for case in cases:
+        groups.setdefault((id(case.spec), case.ordering), []).append(case)
+    for number, same in enumerate(groups.values()):
+        place = folder / str(number)
+        place.mkdir()
+        requests = [replace(request(case.spec, case.rows), ordering=case.ordering) for case in same]
+        truth = [expected(case) for case in same]
+        assert counts(requests, place) == truth
+        right += sum(not code for code, _ in truth)
+        wrong += sum(code for code, _ in truth)
+    return right, wrong
+
+
+@needs_cc
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_the_policy_of_every_example_is_accepted(name: str, tmp_path: Path) -> None:
+    """With the longest run that the explicit meaning knows."""
+    made = replace(example(name), check=True)
+    source, _, check = write(tmp_path, made, c99.files(made), (".c", ".h", "_check.c"))
+    ran = subprocess.run([compile_c([source, check], tmp_path)], capture_output=True, text=True, check=False)
+    assert ran.returncode == 0, ran.stdout
+    assert isinstance(made.policy.decisions, Table)
+    judged = judge(made.spec, made.policy.decisions.rows, made.ordering)
+    assert f"longest run to a goal: {judged.longest_run}\n" in ran.stdout
+
+
+@needs_cc
+def test_changed_policies_of_the_robot_are_refused(tmp_path: Path) -> None:
+    """Another decision in any one state of the paper's example: accepted only where that is right as well."""
+    made = example("amr")
+    assert isinstance(made.policy.decisions, Table)
+    rows = made.policy.decisions.rows
+    sets = [frozenset(), *(frozenset((n,)) for n in range(8)), frozenset((3, 6)), frozenset((1, 6))]
+    changed = [{**rows, state: chosen} for state in rows for chosen in sets if chosen != rows[state]]
+    holed = [{other: chosen for other, chosen in rows.items() if other != state} for state in list(rows)[:4]]
+    right, wrong = _compare([Case(made.spec, each, "any") for each in [*changed, *holed]], tmp_path)
+    assert wrong > 250
+    assert right < 40
+
+
+@needs_cc
+@pytest.mark.parametrize("profile", ALL_PROFILES)
+def test_it_agrees_with_the_explicit_meaning(profile: str, tmp_path: Path) -> None:
+    """On right and wrong policies of generated specifications, under both orderings, fault by fault."""
+    realizable = (found for seed in range(60, 120) if (found := generated(profile, seed, 6)))
+    right, wrong = _compare(list(chain.from_iterable(islice(realizable, 4))), tmp_path)
+    assert wrong > 0
+    assert right > 0
+
+
+@needs_cc
+@pytest.mark.parametrize("restoration", ["one_step", "bounded", "fair"])
+def test_it_agrees_where_safety_takes_several_steps(restoration: Restoration, tmp_path: Path) -> None:
+    """And with severities of state rules."""
+    cases = [case for seed in range(40, 43) for case in stepwise(seed, restoration, 1 + seed % 3)]
+    right, wrong = _compare(cases, tmp_path)
+    assert wrong > 0
+    assert right > 0
+
+
+def test_too_many_states_are_refused() -> None:
+    """The program goes through each; the other files can be had without it."""
+    count = MOST_STATES.bit_length()
+    variables = "\n".join(f"state S{number} can be a, b" for number in range(count))
+    made = request(parse(f"BEGIN STATE VECTOR\n{variables}\nEND STATE VECTOR"), {(0,) * count: frozenset()})
+    assert len(c99.files(made)) == 2
+    with pytest.raises(UserError) as error:
+        c99.files(replace(made, check=True))
+    (diagnostic,) = error.value.diagnostics
+    assert diagnostic.code is Code.TUM508
+    assert "leave out --check" in str(diagnostic.help)

@@ -1,0 +1,138 @@
+"""A program in C99 that runs the closed loop of an exported policy: all states, all effects, in every order."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from string import Template
+
+from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
+from tumato_symbolic.export.c99_names import Names
+from tumato_symbolic.export.c99_program import PROGRAM
+from tumato_symbolic.export.closed_loop import ClosedLoop, preconditions
+from tumato_symbolic.export.request import Request
+from tumato_symbolic.semantics import count_states
+from tumato_symbolic.spec import Assignment, Connectives, Executing, Formula, Is, fold
+
+MOST_STATES = 10_000_000
+"""The program holds a byte for every state, valid or not, and goes through all of them."""
+
+
+def check(request: Request) -> str:
+    """The text of the program. Raises `UserError` (TUM508) where there are too many states."""
+    count = count_states(request.spec)
+    if count > MOST_STATES:
+        message = f"the specification has {count:,} states; the check in C goes through each, for up to {MOST_STATES:,}"
+        help_ = "leave out --check; `tumato-sym verify` proves all states at once"
+        raise UserError((Diagnostic(Code.TUM508, message, help=help_),))
+    names, loop = Names.of(request), ClosedLoop.of(request)
+    return Template(PROGRAM).substitute(
+        header=f"{request.name}.h",
+        p=names.prefix,
+        u=names.upper,
+        state_count=count,
+        variable_count=max(1, len(loop.variables)),
+        action_count=max(1, len(loop.actions)),
+        required_count=max(1, len(loop.required)),
+        goal_count=max(1, len(loop.goals)),
+        level_count=len(loop.levels),
+        bound=loop.bound or 0,
+        one_effect=int(loop.ordering == "first"),
+        several_steps=int(loop.several_steps),
+        fair=int(loop.restoration == "fair"),
+        preconditions_last=int(loop.preconditions_last),
+        sizes=", ".join(str(len(variable.values)) for variable in loop.variables) or "1",
+        variable_names=", ".join(f'"{variable.name}"' for variable in loop.variables) or '""',
+        value_names="".join(_value_names(loop)),
+        tables="".join(_tables(loop)),
+        fields="".join(_fields(names)),
+        valid=_formula(loop.valid),
+        levels="".join(f"    if (!{_formula(each)}) return {n};\n" for n, each in enumerate(loop.levels)),
+        preconditions="".join(_cases(_formula(preconditions(action)) for action in loop.actions)),
+        chosen="".join(_chosen(loop, names)),
+        reaction_rules=_formula(loop.reaction_rules),
+        when=_array("when", [_formula(each.when) for each in loop.required]),
+        required=_broken("when", [_formula(each.rule) for each in loop.required]),
+        active=_array("active", [_formula(each.when) for each in loop.goals]),
+        goals=_broken("active", [_formula(goal.body) for goal in loop.goals]),
+    )
+
+
+def _value_names(loop: ClosedLoop) -> Iterator[str]:
+    for number, variable in enumerate(loop.variables):
+        values = ", ".join(f'"{value}"' for value in variable.values)
+        yield f"static const char *const values_of_{number}[] = {{ {values} }};\n"
+    named = ", ".join(f"values_of_{number}" for number in range(len(loop.variables))) or "0"
+    yield f"static const char *const *const value_names[] = {{ {named} }};\n"
+
+
+def _tables(loop: ClosedLoop) -> Iterator[str]:
+    """Assignments, one after the other; where the nominal ones and the effects of each action are among them."""
+    assignments: list[str] = []
+
+    def place(assignment: Assignment) -> tuple[int, int]:
+        first = len(assignments)
+        assignments.extend(f"{{ {variable}, {value} }}" for variable, value in assignment)
+        return first, len(assignments)
+
+    nominal = [place(action.nominal) for action in loop.actions]
+    first, effects = 0, []
+    ranges = []
+    for action in loop.actions:
+        effects += [place(effect) for effect in action.effects]
+        ranges.append((first, len(effects)))
+        first = len(effects)
+    yield f"static const int assignments[][2] = {{ {', '.join(assignments) or '{ 0, 0 }'} }};\n"
+    for name, entries in (("nominal_of", nominal), ("effects", effects), ("effects_of", ranges)):
+        listed = ", ".join(f"{{ {begin}, {end} }}" for begin, end in entries)
+        yield f"static const int {name}[][2] = {{ {listed or '{ 0, 0 }'} }};\n"
+    excluded = [f"{{ {first}, {second} }}" for first, second in loop.excluded]
+    yield f"static const int excluded[][2] = {{ {', '.join([*excluded, '{ -1, -1 }'])} }};\n"
+
+
+def _fields(names: Names) -> Iterator[str]:
+    for number, (type_, field) in enumerate(zip(names.types, names.fields, strict=True)):
+        yield f"    state.{field} = ({type_})s[{number}];\n"
+    if not names.fields:
+        yield "    state.nothing = 0;\n"
+
+
+def _cases(formulas: Iterator[str]) -> Iterator[str]:
+    for number, formula in enumerate(formulas):
+        yield f"    case {number}: return {formula};\n"
+
+
+def _chosen(loop: ClosedLoop, names: Names) -> Iterator[str]:
+    """Which entries of the actions are executed; `possible` becomes 0 where an action can start in no case."""
+    for action, cases in zip(names.actions, loop.cases, strict=True):
+        yield f"    if ({names.prefix}_executes(&actions, {action})) {{\n"
+        if len(cases) == 1:
+            yield f"        chosen[{cases[0]}] = 1;\n        *possible &= can_start({cases[0]}, s);\n"
+        else:
+            yield from (f"        chosen[{case}] = (char)can_start({case}, s);\n" for case in cases)
+            yield f"        *possible &= {' | '.join(f'chosen[{case}]' for case in cases)};\n"
+        yield "    }\n"
+
+
+def _array(name: str, formulas: list[str]) -> str:
+    return "".join(f"    {name}[{number}] = (char){formula};\n" for number, formula in enumerate(formulas))
+
+
+def _broken(name: str, formulas: list[str]) -> str:
+    return "".join(f"    if ({name}[{number}] && !{formula}) return 0;\n" for number, formula in enumerate(formulas))
+
+
+def _formula(formula: Formula) -> str:
+    return fold(formula, _atom, _C)
+
+
+def _atom(atom: Is | Executing) -> str:
+    return f"(s[{atom.variable}] == {atom.value})" if isinstance(atom, Is) else f"(chosen[{atom.action}] != 0)"
+
+
+_C: Connectives[str] = Connectives(
+    constant=lambda value: "1" if value else "0",
+    negation=lambda text: f"(!{text})",
+    conjunction=lambda texts: f"({' && '.join(texts)})" if texts else "1",
+    disjunction=lambda texts: f"({' || '.join(texts)})" if texts else "0",
+    equivalence=lambda left, right: f"({left} == {right})",
+)

@@ -1,0 +1,142 @@
+"""A policy at work, as guarded commands over named values: decide, let effects happen, halt, decide again.
+
+From every valid state, whenever nothing is being executed, the policy chooses a set of actions. Then, under `any`, the
+actions that have not taken effect take one of their effects each, in any order, until the robot halts the rest, which
+it may do after any effect; under `first`, one action takes one effect, or all nominal effects happen at once. A set
+whose actions have no effects changes nothing. What has to hold, and when, is said here as formulas; targets print them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+from tumato_symbolic.export.request import Request
+from tumato_symbolic.semantics import exclude_each_other
+from tumato_symbolic.spec import (
+    FALSE,
+    FORMULAS,
+    TRUE,
+    Action,
+    And,
+    Formula,
+    Ordering,
+    Restoration,
+    Rule,
+    Spec,
+    Variable,
+    active_bodies,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Required:
+    """Where `when` holds in the state of a decision, `rule` has to hold after every effect of what was decided."""
+
+    when: Formula
+    rule: Formula
+
+
+@dataclass(frozen=True, slots=True)
+class ActiveGoal:
+    """Where `when` holds in the state of a decision, the run from there has to reach `body`.
+
+    Atoms `executing` in it mean that first decision.
+    """
+
+    when: Formula
+    body: Formula
+
+
+@dataclass(frozen=True, slots=True)
+class ClosedLoop:
+    """A specification as conditions on the steps of a policy.
+
+    `cases[action]` are the numbers of the entries of `actions` that share the name of an action of the policy: the one
+    whose preconditions hold when it starts is executed. `excluded` are pairs of entries that must not be executed
+    together. `levels[n]` holds where the `n + 1` most severe tiers of state rules do. `several_steps` tells that goals
+    count in safe states only, and that `restoration` asks for more than the required rules.
+    """
+
+    variables: tuple[Variable, ...]
+    actions: tuple[Action, ...]
+    cases: tuple[tuple[int, ...], ...]
+    valid: Formula
+    levels: tuple[Formula, ...]
+    reaction_rules: Formula
+    excluded: tuple[tuple[int, int], ...]
+    required: tuple[Required, ...]
+    goals: tuple[ActiveGoal, ...]
+    bound: int | None
+    ordering: Ordering
+    restoration: Restoration
+    several_steps: bool
+    preconditions_last: bool
+
+    @property
+    def safe(self) -> Formula:
+        """Where all state rules hold, besides the assumptions."""
+        return conjunction((self.valid, self.levels[-1]))
+
+    @classmethod
+    def of(cls, request: Request) -> ClosedLoop:
+        """The closed loop of a policy and its specification."""
+        spec = request.spec
+        names = request.policy.vocabulary.actions
+        cases = tuple(tuple(n for n, each in enumerate(spec.actions) if each.name == name) for name in names)
+        active = active_bodies(spec.goals, lambda formula: formula, FORMULAS)
+        return cls(
+            spec.variables,
+            spec.actions,
+            cases,
+            _all(spec.assumptions),
+            tuple(_levels(spec)),
+            _all(spec.reaction_rules),
+            tuple(pair for pair in combinations(range(len(spec.actions)), 2) if _excluded(spec, *pair)),
+            tuple(_required(spec)),
+            tuple(ActiveGoal(when, spec.bodies[body].formula) for body, when in sorted(active.items())),
+            spec.max_plan_length,
+            request.ordering,
+            spec.restoration,
+            spec.restores_stepwise,
+            spec.preconditions == "throughout",
+        )
+
+
+def conjunction(formulas: Sequence[Formula]) -> Formula:
+    """All of some formulas."""
+    formulas = [each for each in formulas if each != TRUE]
+    if FALSE in formulas:
+        return FALSE
+    return And(tuple(formulas)) if len(formulas) > 1 else formulas[0] if formulas else TRUE
+
+
+def preconditions(action: Action) -> Formula:
+    """All that has to hold where an action starts."""
+    return _all(action.preconditions)
+
+
+def _all(rules: Sequence[Rule]) -> Formula:
+    return conjunction([rule.formula for rule in rules])
+
+
+def _excluded(spec: Spec, first: int, second: int) -> bool:
+    return spec.actions[first].name != spec.actions[second].name and exclude_each_other(spec, first, second)
+
+
+def _levels(spec: Spec) -> Iterator[Formula]:
+    for count in range(1, len(spec.tiers) + 1):
+        yield conjunction([_all(tier) for tier in spec.tiers[:count]])
+
+
+def _required(spec: Spec) -> Iterator[Required]:
+    """What `semantics.required_rules` says, rule by rule."""
+    yield from (Required(TRUE, rule.formula) for rule in spec.assumptions)
+    more_severe: list[Rule] = []
+    for tier in spec.tiers:
+        concerned = _all(more_severe)
+        for rule in tier:
+            when = concerned if spec.restoration == "one_step" else conjunction((concerned, rule.formula))
+            yield Required(when, rule.formula)
+        more_severe += tier
