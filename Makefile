@@ -3,12 +3,13 @@ PYTHON ?= python3
 VENV ?= .venv
 BIN := $(VENV)/bin
 
-.PHONY: help demo test proofs mutants mutants-code readers check format regenerate constraints bench bench-compare clean
+.PHONY: help demo test tools proofs mutants mutants-code readers check format regenerate constraints bench bench-compare clean
 
 help:
 	@echo "make demo        install what is needed into $(VENV) and show the main job on a mobile robot"
 	@echo "make test        install the development tools too; lint, types, import walls, tests"
 	@echo "make check       all of that but the tests"
+	@echo "make tools       install tools that some tests of exports need, which are skipped without them"
 	@echo "make proofs      compile the theorems in proofs/coq, and that of every example's policy (needs Coq)"
 	@echo "make mutants     20,000 changed policies, certificates and specifications through every prover (half an hour)"
 	@echo "make mutants-code  300 faults in the trusted base, each through the tests meant for it (ten minutes)"
@@ -32,6 +33,10 @@ check: $(VENV)/.development
 
 test: check
 	$(BIN)/python -m pytest -n auto --dist worksteal
+
+tools: $(VENV)/.development
+	@$(BIN)/python -c '$(GROUP)' tools <pyproject.toml >$(VENV)/tools.txt
+	$(INSTALL) -r $(VENV)/tools.txt
 
 proofs: $(VENV)/.development
 	@$(BIN)/python -m tests.export
@@ -67,7 +72,7 @@ clean:
 
 # Stamps: what is installed is installed again only when pyproject.toml or constraints.txt changes.
 INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt
-GROUP := import sys, tomllib; print(*tomllib.load(sys.stdin.buffer)["dependency-groups"]["dev"], sep="\n")
+GROUP := import sys, tomllib; print(*tomllib.load(sys.stdin.buffer)["dependency-groups"][sys.argv[1]], sep="\n")
 
 $(VENV)/.made:
 	@$(PYTHON) -c 'import sys; sys.exit(None if sys.version_info >= (3, 11) else "Python 3.11 or newer is needed (make PYTHON=…)")'
@@ -80,7 +85,7 @@ $(VENV)/.runtime: pyproject.toml constraints.txt | $(VENV)/.made
 	@touch $@
 
 $(VENV)/development.txt: pyproject.toml | $(VENV)/.made
-	@$(BIN)/python -c '$(GROUP)' <pyproject.toml >$@.new && mv $@.new $@
+	@$(BIN)/python -c '$(GROUP)' dev <pyproject.toml >$@.new && mv $@.new $@
 
 $(VENV)/.development: pyproject.toml constraints.txt $(VENV)/development.txt | $(VENV)/.made
 	$(INSTALL) -e . -r $(VENV)/development.txt

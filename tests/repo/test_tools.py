@@ -32,6 +32,7 @@ def test_what_is_installed_is_pinned() -> None:
     assert all(pins.values())
     assert len(pins) == len(lines), "each once"
     assert "pip" not in pins, "it is what installs"
+    assert all("==" in text for text in PROJECT["dependency-groups"]["tools"])
     for text in (*PROJECT["project"]["dependencies"], *PROJECT["dependency-groups"]["dev"]):
         wanted = Requirement(text)
         assert wanted.specifier.contains(pins[canonicalize_name(wanted.name)]), text
@@ -73,7 +74,7 @@ def test_the_workflow_runs_ci_on_every_supported_version() -> None:
 def test_ci_runs_what_a_change_has_to_pass() -> None:
     """`.ci/run` calls targets that the Makefile has; `make test` begins with `make check`."""
     targets = set(re.findall(r"^make --no-print-directory (\w+)", (ROOT / ".ci/run").read_text(), re.MULTILINE))
-    assert targets == {"proofs", "test"}
+    assert targets == {"proofs", "test", "tools"}
     assert all(re.search(rf"^{target}: ", MAKEFILE, re.MULTILINE) for target in targets)
     assert re.search(r"^test: check$", MAKEFILE, re.MULTILINE)
 

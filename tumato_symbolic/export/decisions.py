@@ -1,13 +1,14 @@
-"""The decisions of a policy as one shared tree of questions: what targets for programming languages print."""
+"""The decisions of a policy as one shared tree of questions, and as a list of rules: what targets print."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from tumato_symbolic.diagrams import room_for
-from tumato_symbolic.policy import Policy, as_diagram
+from tumato_symbolic.diagrams import EVERYTHING, LEAVES, Diagram, Sets, room_for
+from tumato_symbolic.policy import DecisionDiagram, Policy, Vocabulary, as_diagram
 from tumato_symbolic.policy.convert import Roots, together
+from tumato_symbolic.policy.rules import minimal_rules
 from tumato_symbolic.semantics import ActionSet
 
 
@@ -108,3 +109,39 @@ def size_written_out(tree: Tree) -> int:
     for question in questions(tree):
         sizes[id(question)] = sum(sizes.get(id(below), 1) for _, below in question.groups())
     return sizes.get(id(tree), 1)
+
+
+@dataclass(frozen=True, slots=True)
+class DecisionRule:
+    """A rule of an ordered list of which the first that matches decides: where it matches, and what is done then.
+
+    `condition` gives the values, by name, that some variables may have. `actions` is None where nothing is decided.
+    """
+
+    condition: tuple[tuple[str, tuple[str, ...]], ...]
+    actions: tuple[str, ...] | None
+
+
+def rules_of(policy: Policy) -> tuple[DecisionRule, ...]:
+    """A short list of rules that says of every state what the policy says; its last rule matches always.
+
+    Raises `UserError` (TUM508) where there is none.
+    """
+    found = minimal_rules(_with_undecided(policy))
+    return tuple(DecisionRule(rule.condition, None if _UNDECIDED in rule.actions else rule.actions) for rule in found)
+
+
+_UNDECIDED = ""
+"""Takes the place of an action where nothing is decided; no action has that name."""
+
+
+def _with_undecided(policy: Policy) -> Policy:
+    """The policy that decides every state: where this one does not, it does `_UNDECIDED` and nothing else."""
+    decisions, vocabulary = as_diagram(policy), policy.vocabulary
+    with room_for(len(decisions.diagram.order)):
+        sets = Sets(decisions.diagram.order, vocabulary.sizes)
+        *executed, defined = sets.take(decisions.diagram, (*decisions.roots, decisions.defined), LEAVES)
+        roots = [*(sets.both(each, defined) for each in executed), sets.without(EVERYTHING, defined)]
+        diagram = Diagram(sets.order, (False, True), tuple(sets.nodes_from(2)))
+    total = DecisionDiagram(diagram, tuple(roots), EVERYTHING)
+    return Policy(Vocabulary(vocabulary.variables, (*vocabulary.actions, _UNDECIDED)), total)
