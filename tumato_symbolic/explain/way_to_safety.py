@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from tumato_symbolic.semantics import (
     AT_ONCE,
     ActionSet,
-    EffectSequence,
     Effort,
+    Move,
     Quality,
     Restorations,
     State,
@@ -28,15 +28,6 @@ MOST_STATES = 5_000
 
 
 @dataclass(frozen=True, slots=True)
-class RestoringStep:
-    """One step on the way: what is executed, the effects that take place (None: all nominal ones), where they lead."""
-
-    chosen: ActionSet
-    outcome: EffectSequence | None
-    after: State
-
-
-@dataclass(frozen=True, slots=True)
 class WayToSafety:
     """The way from an unsafe state to a safe one: the worst case where it is bounded, else the nominal run.
 
@@ -45,7 +36,7 @@ class WayToSafety:
 
     effort: Effort
     bounded: bool
-    steps: tuple[RestoringStep, ...]
+    steps: tuple[Move, ...]
 
 
 class RestoringFrom:
@@ -66,7 +57,7 @@ class RestoringFrom:
     def way(self, state: State) -> WayToSafety | None:
         """The way from an unsafe state that is decided; None where it does not end, or is too long to look at."""
         self._visit([state])
-        steps: list[RestoringStep] = []
+        steps: list[Move] = []
         here, effort, bounded = state, AT_ONCE, True
         while not is_safe(self._spec, here):
             chosen = self._met.get(here)
@@ -81,7 +72,7 @@ class RestoringFrom:
             here = steps[-1].after
         return WayToSafety(effort, bounded, tuple(steps))
 
-    def _worst_step(self, state: State, chosen: ActionSet) -> RestoringStep:
+    def _worst_step(self, state: State, chosen: ActionSet) -> Move:
         """The step into one of the worst states that a set may lead to; nominal where that is one of them."""
         worst = self._restorations.worst
 
@@ -91,10 +82,10 @@ class RestoringFrom:
         nominal = self._nominal_step(state, chosen)
         ways = outcomes(self._spec, state, chosen, self._ordering)
         after = max(ways, key=effort, default=nominal.after)
-        return nominal if effort(nominal.after) >= effort(after) else RestoringStep(chosen, ways[after], after)
+        return nominal if effort(nominal.after) >= effort(after) else Move(chosen, after, ways[after])
 
-    def _nominal_step(self, state: State, chosen: ActionSet) -> RestoringStep:
-        return RestoringStep(chosen, None, successor(self._spec, state, chosen))
+    def _nominal_step(self, state: State, chosen: ActionSet) -> Move:
+        return Move(chosen, successor(self._spec, state, chosen))
 
     def _next(self, state: State, chosen: ActionSet) -> list[State]:
         return [*outcomes(self._spec, state, chosen, self._ordering), successor(self._spec, state, chosen)]

@@ -60,8 +60,9 @@ def _unsafe(place: Place, decision: Decision) -> Iterator[str]:
     else:
         yield f"Safety is restored in {time}, if every effect is the nominal one; else the policy tries again:"
     for number, step in enumerate(way.steps, 1):
-        happens = "all nominal effects" if step.outcome is None else effects_text(place, step.outcome) or "no effect"
-        yield f"  {number}. {place.actions(step.chosen)}: {happens}; {_after(place, step.after)}"
+        deviation = step.deviation
+        happens = "all nominal effects" if deviation is None else effects_text(place, deviation) or "no effect"
+        yield f"  {number}. {place.actions(step.decision)}: {happens}; {_after(place, step.after)}"
 
 
 def _after(place: Place, state: State) -> str:
@@ -200,7 +201,9 @@ def _way_json(spec: Spec, decision: Decision) -> dict[str, object]:
     found: dict[str, object] = {"level": level(spec, decision.state), "levels": len(spec.tiers), "bounded": None}
     if way is None:
         return found
-    steps = [{"actions": list(action_names(spec, step.chosen)), "state": named(spec, step.after)} for step in way.steps]
+    steps = [
+        {"actions": list(action_names(spec, step.decision)), "state": named(spec, step.after)} for step in way.steps
+    ]
     return {**found, "bounded": way.bounded, "duration": way.effort[0], "steps": steps}
 
 

@@ -6,8 +6,8 @@ from tumato_symbolic.semantics.guarantees import Guarantee, Prospects, guarantee
 from tumato_symbolic.semantics.judge import Judgement, better_sets, judge
 from tumato_symbolic.semantics.partial import settled_truth
 from tumato_symbolic.semantics.restoration import AT_ONCE, Effort, Quality, Restorations, longer, restored
-from tumato_symbolic.semantics.runs import Run, follow
-from tumato_symbolic.semantics.shortcomings import Move, Shortcoming, Shortcomings, shows
+from tumato_symbolic.semantics.runs import End, Run, follow
+from tumato_symbolic.semantics.shortcomings import Shortcoming, Shortcomings, shows
 from tumato_symbolic.semantics.states import (
     NOTHING,
     ActionSet,
@@ -43,15 +43,19 @@ from tumato_symbolic.semantics.step import (
     successor,
     takes_effect,
 )
+from tumato_symbolic.semantics.traces import Disturbance, Event, Move, Trace, moves_from
 
 __all__ = [
     "AT_ONCE",
     "NOTHING",
     "ActionSet",
     "ActiveGoals",
+    "Disturbance",
     "EffectSequence",
     "EffectStep",
     "Effort",
+    "End",
+    "Event",
     "Guarantee",
     "Judgement",
     "Move",
@@ -64,6 +68,7 @@ __all__ = [
     "Shortcoming",
     "Shortcomings",
     "State",
+    "Trace",
     "action_names",
     "active_goals",
     "all_states",
@@ -89,6 +94,7 @@ __all__ = [
     "judge",
     "level",
     "longer",
+    "moves_from",
     "named",
     "next_states",
     "nominal_agrees",

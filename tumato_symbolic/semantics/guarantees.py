@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from math import inf
 from typing import Literal, TypeAlias
 
@@ -83,10 +84,15 @@ class Prospects:
         self._steps = steps
         places = {*steps, *(state for step in steps.values() for state in step.following)}
         self._met = frozenset(state for state in places if reached(spec, goal, state))
-        self.surviving: list[frozenset[State]] = [self._nominally(frozenset(places))]
-        while len(self.surviving) < 2 or self.surviving[-1] != self.surviving[-2]:
-            self.surviving.append(self._nominally(self.surviving[-1]))
-        self.forced = self._forced()
+        self._places = frozenset(places)
+
+    @cached_property
+    def surviving(self) -> list[frozenset[State]]:
+        """`W_0, W_1, …`, the last two being the same."""
+        found = [self._nominally(self._places)]
+        while len(found) < 2 or found[-1] != found[-2]:
+            found.append(self._nominally(found[-1]))
+        return found
 
     def _nominally(self, deviating: frozenset[State]) -> frozenset[State]:
         """`μX. c ∪ {t : δ ∈ X, D(t) ⊆ deviating}`."""
@@ -99,7 +105,8 @@ class Prospects:
             found |= more
         return frozenset(found)
 
-    def _forced(self) -> dict[State, int]:
+    @cached_property
+    def forced(self) -> dict[State, int]:
         """`μX. c ∪ {t : Next ⊆ X}`, layer by layer."""
         found = dict.fromkeys(self._met, 0)
         while more := {

@@ -4,25 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, TypeAlias
 
 from tumato_symbolic.semantics.goals import reached, residual_goal
 from tumato_symbolic.semantics.states import ActionSet, State
 from tumato_symbolic.semantics.step import nominal_agrees, successor
 from tumato_symbolic.spec import Spec
 
+End: TypeAlias = Literal["goal", "bound", "loop", "undefined"]
+"""How an execution ends: in the goal, at a bound, in a loop (the last state was met before), or without a decision."""
+
 
 @dataclass(frozen=True, slots=True)
 class Run:
     """The nominal run from `states[0]`, as far as it matters.
 
-    `end` tells how it ended: in the goal, at the plan bound, in a loop (the last state was met before), or in a state
-    without a decision. `decisions` has one entry for every step taken.
+    `end` tells how it ended; the bound is that of plans. `decisions` has one entry for every step taken.
     """
 
     states: tuple[State, ...]
     decisions: tuple[ActionSet, ...]
-    end: Literal["goal", "bound", "loop", "undefined"]
+    end: End
 
     @property
     def steps(self) -> int:

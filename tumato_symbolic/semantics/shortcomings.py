@@ -12,20 +12,12 @@ from itertools import islice
 from tumato_symbolic.semantics.goals import Residual, reached, residual_goal
 from tumato_symbolic.semantics.guarantees import Guarantee
 from tumato_symbolic.semantics.states import ActionSet, State
-from tumato_symbolic.semantics.step import EffectSequence, nominal_agrees, outcomes_in_turn, successor
+from tumato_symbolic.semantics.step import nominal_agrees, outcomes_in_turn, successor
+from tumato_symbolic.semantics.traces import Move, moves_from
 from tumato_symbolic.spec import Ordering, Spec
 
 MOST_OUTCOMES = 2_000
 """Of a step, so many outcomes are looked at for a short example, before the first that serves is taken."""
-
-
-@dataclass(frozen=True, slots=True)
-class Move:
-    """A step of the policy with one of its outcomes: the nominal one, or a deviation with the way to it."""
-
-    decision: ActionSet
-    after: State
-    deviation: EffectSequence | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,13 +69,7 @@ class Shortcomings:
                 return self._led_astray(state, guarantee.deviations or 0)
 
     def _moves(self, state: State) -> Iterator[Move]:
-        """The nominal outcome, then the others, the shortest ways first."""
-        chosen = self._policy[state]
-        nominal = successor(self._spec, state, chosen)
-        yield Move(chosen, nominal)
-        for after, way in outcomes_in_turn(self._spec, state, chosen, self._ordering):
-            if after != nominal:
-                yield Move(chosen, after, way)
+        return moves_from(self._spec, state, self._policy[state], self._ordering)
 
     def _endless(self, state: State) -> Shortcoming:
         """Outcomes from where the goal is never forced, until a state is met again; soon, where that is easy."""
