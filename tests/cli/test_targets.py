@@ -37,6 +37,7 @@ def _linked(file: Path, link: Callable[[Path, Path], None]) -> str:
         ("export coq amr.json amr.tum -o OUTPUT", "amr.tum"),
         ("export coq amr.json amr.tum -o OUTPUT", "amr.json"),
         ("explain no_plan.tum --write OUTPUT", "no_plan.tum"),
+        ("run amr.json amr.tum --faults none --itf OUTPUT", "amr.json"),
     ],
 )
 def test_an_input_is_never_the_output(cli: Cli, tmp_path: Path, name: str, command: str, input_: str) -> None:
@@ -64,7 +65,7 @@ def test_every_option_that_names_an_output_is_covered(cli: Cli) -> None:
     """An option whose help mentions writing a file says with `writes=` what is written there."""
     for name in COMMANDS:
         said = " ".join(cli(name, "--help").out.split())
-        names_a_file = "--write" in said or "--output FILE" in said
+        names_a_file = any(each in said for each in ("--write", "--output FILE", "--itf FILE"))
         assert bool(load(name).Options.outputs()) == names_a_file, name
 
 

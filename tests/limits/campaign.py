@@ -24,9 +24,19 @@ LATE = 2.0
 _PROGRAM = (sys.executable, "-c", "from tumato_symbolic.cli.main import entry; entry()")
 
 _SPEC_ALONE = ("synth", "explain", "check")
-COMMANDS = (*_SPEC_ALONE, "verify", "rules", "why", "export")
+COMMANDS = (*_SPEC_ALONE, "verify", "rules", "why", "run", "export")
 
-_CODES = {"ok": 0, "realizable": 0, "proved": 0, "refuted": 1, "unrealizable": 1, "error": 2, "undecided": 3}
+_CODES = {
+    "ok": 0,
+    "realizable": 0,
+    "proved": 0,
+    "refuted": 1,
+    "unrealizable": 1,
+    "met": 0,
+    "missed": 1,
+    "error": 2,
+    "undecided": 3,
+}
 
 
 @dataclass(frozen=True)
@@ -122,6 +132,8 @@ def _arguments(command: str, spec: Path) -> list[str]:
         case "why":
             state = [] if made is None else [f"{name}={values[0]}" for name, values in made.vocabulary.variables]
             return [policy.name, spec.name, *(state or ["X=on"]), "--output-format", "json"]
+        case "run":
+            return [policy.name, spec.name, "--faults", "random", "--runs", "50", "--output-format", "json"]
         case "export":
             return ["coq", policy.name, spec.name, "-o", "proof.v"]
         case _:

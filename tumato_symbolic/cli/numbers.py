@@ -37,6 +37,14 @@ def seconds(text: str) -> float:
     return value
 
 
+def probability(text: str) -> float:
+    """A number from 0 to 1."""
+    value = float(text) if _DECIMAL.fullmatch(text) and len(text) <= _LONGEST else -1.0
+    if not 0 <= value <= 1:
+        raise _not(text, "a number from 0 to 1", too_large=False)
+    return value
+
+
 def _not(text: str, what: str, *, too_large: bool) -> argparse.ArgumentTypeError:
     reason = f"is more than {MOST:,}" if too_large else f"is not {what}"
     return argparse.ArgumentTypeError(f"{quoted(text)[1:-1]} {reason}")

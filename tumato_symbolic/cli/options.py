@@ -32,9 +32,13 @@ class CommandOptions:
     own_seconds: ClassVar[float | None] = None
     """How long the command takes at most where no limit is asked for."""
 
-    shows_progress: ClassVar[bool] = True
     reports_interruption: ClassVar[bool] = False
     """Whether what is known is reported after Ctrl-C as well."""
+
+    @property
+    def shows_progress(self) -> bool:
+        """Whether a terminal shows how long the work gets on."""
+        return True
 
     @property
     def policy(self) -> str:

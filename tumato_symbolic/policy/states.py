@@ -24,7 +24,7 @@ def check_state(vocabulary: Vocabulary, state: Mapping[str, str]) -> None:
         raise UserError(problems)
 
 
-def _problems(vocabulary: Vocabulary, state: Mapping[str, str]) -> Iterator[Diagnostic]:
+def _problems(vocabulary: Vocabulary, state: Mapping[str, str], whole: bool = True) -> Iterator[Diagnostic]:
     known = dict(vocabulary.variables)
     for name, value in state.items():
         if name not in known:
@@ -39,12 +39,12 @@ def _problems(vocabulary: Vocabulary, state: Mapping[str, str]) -> Iterator[Diag
             message = f"{show(name)} has no value {show(value)}"
             yield Diagnostic(Code.TUM504, message, help=way_out(value, known[name], "values"))
     for name, values in known.items():
-        if name not in state:
+        if whole and name not in state:
             yield Diagnostic(Code.TUM503, f"{show(name)} has no value", help=f"its values: {listed(values)}")
 
 
-def parse_assignments(vocabulary: Vocabulary, words: Sequence[str]) -> dict[str, str]:
-    """The state that words such as `S_Location=corridor` describe.
+def parse_assignments(vocabulary: Vocabulary, words: Sequence[str], *, whole: bool = True) -> dict[str, str]:
+    """The state that words such as `S_Location=corridor` describe; where it need not be `whole`, a part of one.
 
     Raises `UserError` (TUM503, TUM504, TUM509) where they do not give every variable exactly one of its values.
     """
@@ -58,7 +58,7 @@ def parse_assignments(vocabulary: Vocabulary, words: Sequence[str]) -> dict[str,
         elif state.setdefault(name, value) != value:
             message = f"{show(name)} is given two values, {show(state[name])} and {show(value)}"
             problems.append(Diagnostic(Code.TUM509, message))
-    problems.extend(islice(_problems(vocabulary, state), MOST))
+    problems.extend(islice(_problems(vocabulary, state, whole), MOST))
     if problems:
         raise UserError(tuple(problems[:MOST]))
     return state

@@ -1,4 +1,4 @@
-"""What `verify` found in a folder of policies and certificates, for a person and for programs."""
+"""What `verify` found in a folder of policies and certificates, for a person, a program and GitHub."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Literal
 
 from tumato_symbolic.diagnostics import UserError, render
 from tumato_symbolic.report import unrealizable, verified
-from tumato_symbolic.report.findings import Finding, finding_json, findings_of, undecided
+from tumato_symbolic.report.findings import finding_json, github_command, github_commands
 from tumato_symbolic.report.layout import Paint, count, seconds
 from tumato_symbolic.report.proof import states_covered
 from tumato_symbolic.report.unrealizable import VerifiedUnrealizable
@@ -138,19 +138,19 @@ def _blamed(entry: Entry) -> str:
     return entry.error.source.name if entry.error is not None and entry.error.source is not None else entry.path
 
 
-def findings(folder: Folder) -> list[Finding]:
-    """What was found of every file, and a notice with the summary."""
-    found: list[Finding] = []
+def as_github(folder: Folder) -> str:
+    """The workflow commands of every file, and a notice with the summary."""
+    commands = []
     for entry in folder.entries:
         match entry.done:
             case Verified():
-                found += verified.findings(entry.done)
+                commands.append(verified.as_github(entry.done))
             case VerifiedUnrealizable():
-                found += unrealizable.findings(entry.done)
+                commands.append(unrealizable.as_github(entry.done))
             case None if entry.missing:
-                found.append(Finding("error", _MISSING, entry.path, title="missing"))
+                commands.append(github_command("error", _MISSING, entry.path, None, "missing"))
             case None if entry.error is not None:
-                found += findings_of(entry.error.diagnostics, _blamed(entry))
+                commands.append(github_commands(entry.error.diagnostics, _blamed(entry)))
             case None:
-                found.append(undecided(str(entry.limit), entry.path))
-    return [*found, Finding("notice", _summary(folder))]
+                commands.append(github_command("error", f"undecided: {entry.limit}", entry.path))
+    return "\n".join([*commands, github_command("notice", _summary(folder))])

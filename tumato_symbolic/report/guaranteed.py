@@ -6,8 +6,9 @@ from collections.abc import Iterator
 
 from tumato_symbolic.report.cubes import cube_json, cube_text
 from tumato_symbolic.report.layout import Paint, count
-from tumato_symbolic.report.objections import Place, effects_text, outcome_json
-from tumato_symbolic.semantics import Guarantee, Move, Shortcoming, State, action_names, named
+from tumato_symbolic.report.objections import Place
+from tumato_symbolic.report.traces import move_json, move_text
+from tumato_symbolic.semantics import Guarantee, Shortcoming, named
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.verify.guarantees.result import Guarantees, Level
 
@@ -69,7 +70,7 @@ def shortcoming_lines(place: Place, found: Shortcoming) -> Iterator[str]:
     here = found.state
     for number, move in enumerate(found.moves, 1):
         if number <= _MOVES or number == len(found.moves):
-            yield f"{number}. {place.actions(move.decision)}: {_happens(place, here, move)}"
+            yield f"{number}. {place.actions(move.decision)}: {move_text(place, here, move)}"
         elif number == _MOVES + 1:
             yield f"… and {count(len(found.moves) - _MOVES - 1, 'more step')}"
         here = move.after
@@ -78,13 +79,6 @@ def shortcoming_lines(place: Place, found: Shortcoming) -> Iterator[str]:
         return
     yield f"Then the state is {place.state(here)},"
     yield f"and the nominal run from there never meets the goal; its goal is {place.goals(here)}"
-
-
-def _happens(place: Place, here: State, move: Move) -> str:
-    changed = tuple((number, value) for number, value in enumerate(move.after) if value != here[number])
-    if move.deviation is None:
-        return f"as intended ({place.assignment(changed)})"
-    return effects_text(place, move.deviation) or "nothing happens"
 
 
 def guarantees_json(spec: Spec, found: Guarantees) -> dict[str, object]:
@@ -114,14 +108,7 @@ def shortcoming_json(spec: Spec, found: Shortcoming) -> dict[str, object]:
     """Why a state is guaranteed no more; `loop` is where the moves begin that may recur, counted from 0."""
     return {
         "state": named(spec, found.state),
-        "moves": [
-            {
-                "decision": list(action_names(spec, move.decision)),
-                "deviation": None if move.deviation is None else outcome_json(spec, move.deviation),
-                "after": named(spec, move.after),
-            }
-            for move in found.moves
-        ],
+        "moves": [move_json(spec, move) for move in found.moves],
         "loop": found.loop,
         "rest": None if found.loop is not None else [named(spec, state) for state in found.rest],
     }

@@ -146,13 +146,14 @@ def _ended(known: _Known, options: Options) -> int:
     if options.output_format == "text":
         _written(known, options)
     else:
-        from tumato_symbolic.report import explained_data
+        from tumato_symbolic import __version__
+        from tumato_symbolic.report import explained_data, sarif
 
         show_as(
             options,
             json=lambda: explained_data.as_json(known.done),
-            findings=lambda: explained_data.findings(known.done),
-            incomplete=explained_data.incomplete(known.done),
+            github=lambda: explained_data.as_github(known.done),
+            sarif=lambda: sarif.as_sarif(known.done, __version__),
         )
     return _code(known)
 

@@ -1,0 +1,235 @@
+"""`tumato-sym run`: execute a policy, step by step or many times."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+from tumato_symbolic.cli import arguments
+from tumato_symbolic.cli.console import note, write, writing
+from tumato_symbolic.cli.exits import NO, YES
+from tumato_symbolic.cli.numbers import probability, whole
+from tumato_symbolic.cli.options import STANDARD_OUTPUT, CommandOptions, OutputFormat, Target, argument
+from tumato_symbolic.cli.output import show_as
+from tumato_symbolic.limits import Context, LimitReachedError
+
+if TYPE_CHECKING:
+    from tumato_symbolic.explain.decision import Decisions
+    from tumato_symbolic.report.objections import Place
+    from tumato_symbolic.semantics import State, Trace
+    from tumato_symbolic.simulation import Faults, Starts
+    from tumato_symbolic.spec import Ordering, Restoration
+
+ABOUT = """\
+Execute a policy from a state: step by step, or by itself.
+
+Without one of the options --faults, --disturb, --steps and --runs, every step waits for a line on the standard input:
+Enter lets all effects be nominal, a number chooses another outcome, `s VAR=VALUE` disturbs the state, `b` goes back,
+`w` says why the policy decides so, `?` lists this, `q` ends. Variables without a value are drawn by chance, so that the
+policy decides the state.
+
+By itself, a run ends once the goals are met that were active at its start (or after the last disturbance). `worst`
+looks for the longest way to the goal that outcomes in any order can force: from the state that is given, or from all
+states that have the given values.
+"""
+
+EXAMPLES = """\
+examples:
+  tumato-sym run policy.json amr.tum S_Location=corridor S_Battery=low S_Load=free S_Conveyor=on
+  tumato-sym run policy.json amr.tum --faults random --disturb 0.1 --runs 1000 --seed 7
+  tumato-sym run policy.json amr.tum --faults worst --itf worst.itf.json
+"""
+
+_STEPS = 1_000
+
+
+@dataclass(frozen=True, slots=True)
+class Options(CommandOptions):
+    """What may be typed after `run`."""
+
+    policy: str = arguments.policy()
+    specs: tuple[str, ...] = arguments.specs()
+    assignments: tuple[str, ...] = arguments.state("*", "where to start: values of variables")
+    faults: Literal["none", "random", "worst"] | None = argument(
+        "--faults",
+        choices=("none", "random", "worst"),
+        help="which outcomes there are: the nominal ones (none, the default), any by chance (random), or those that "
+        "keep the goal away longest (worst)",
+    )
+    disturb: float | None = argument(
+        "--disturb",
+        type=probability,
+        metavar="P",
+        help="after a step, change one variable to another value with this probability (default: 0)",
+    )
+    steps: int | None = argument(
+        "--steps", type=whole(1), metavar="N", help=f"how many steps a run has at most (default: {_STEPS:,})"
+    )
+    runs: int | None = argument("--runs", type=whole(1), metavar="N", help="how many runs there are (default: 1)")
+    seed: int = argument(
+        "--seed",
+        type=whole(0),
+        default=0,
+        metavar="N",
+        help="what chance depends on: the same seed gives the same runs (default: 0)",
+    )
+    itf: str | None = argument(
+        "--itf",
+        metavar="FILE",
+        help="write the run as an ITF trace, the format of Apalache",
+        writes=Target("trace", "--itf", "trace.itf.json"),
+    )
+    timeout: float | None = arguments.timeout()
+    memory: int | None = arguments.memory()
+    effect_ordering: Ordering | None = arguments.effect_ordering("the specification's, else any")
+    restoration: Restoration | None = arguments.restoration()
+    output_format: OutputFormat = arguments.output_format("json")
+
+    @property
+    def by_itself(self) -> bool:
+        """Whether nobody is asked what happens."""
+        return any(each is not None for each in (self.faults, self.disturb, self.steps, self.runs))
+
+    @property
+    def shows_progress(self) -> bool:
+        """Not where every step is shown."""
+        return self.by_itself
+
+    def mistake(self) -> str | None:
+        """Step by step there is somebody to ask; the worst case leaves nothing to chance."""
+        if not self.by_itself:
+            if "-" in self.inputs():
+                return "step by step, the standard input is for commands; add --faults none for a run by itself"
+            if self.output_format != "text" or self.timeout or self.memory:
+                return "--output-format, --timeout and --memory are for runs by themselves; add --faults none for one"
+        if self.faults == "worst" and (self.disturb is not None or self.steps or self.runs):
+            return "--faults worst looks at all runs of any length; --disturb, --steps and --runs are for other faults"
+        if self.itf is not None and (self.runs or 1) > 1:
+            return "--itf writes one run, and there are several"
+        return None
+
+
+class _Loaded(NamedTuple):
+    """What is executed, from where: `start` is None where not every variable is given a value."""
+
+    place: Place
+    policy: Decisions
+    ordering: Ordering
+    start: State | None
+    starts: Starts
+
+
+def run(options: Options, context: Context) -> int:
+    """Exit with 0 where every run meets its goal; step by step, once the user has seen enough."""
+    from tumato_symbolic.policy import UndecidedState
+    from tumato_symbolic.simulation import NoStartError
+
+    loaded = _load(options, context)
+    try:
+        if not options.by_itself:
+            return _step_by_step(loaded, options)
+        return _worst(loaded, options, context) if options.faults == "worst" else _many(loaded, options, context)
+    except (NoStartError, UndecidedState) as error:
+        note(f"tumato-sym: {error}")
+        return NO
+
+
+def _load(options: Options, context: Context) -> _Loaded:
+    from tumato_symbolic.cli.inputs import errors_in, read_spec
+    from tumato_symbolic.explain.decision import Decisions
+    from tumato_symbolic.policy import Policy, bind, parse_assignments
+    from tumato_symbolic.report.objections import Place
+    from tumato_symbolic.simulation import Starts
+
+    context.tell("reading the specification")
+    source, spec, _ = read_spec(options.specs[0], options.restoration)
+    context.tell(f"reading {options.policy}")
+    policy = Policy.load(options.policy)
+    with errors_in(source):
+        policy = bind(policy, spec)
+    asked = parse_assignments(policy.vocabulary, options.assignments, whole=False)
+    given = {
+        number: variable.values.index(asked[variable.name])
+        for number, variable in enumerate(spec.variables)
+        if variable.name in asked
+    }
+    start = tuple(given[number] for number in range(len(spec.variables))) if len(given) == len(spec.variables) else None
+    ordering = options.effect_ordering or spec.ordering
+    return _Loaded(Place(spec, source.name), Decisions(spec, policy), ordering, start, Starts(spec, policy, given))
+
+
+def _step_by_step(loaded: _Loaded, options: Options) -> int:
+    from tumato_symbolic.cli.stepping import Session
+    from tumato_symbolic.simulation import Dice
+
+    start = loaded.start or loaded.starts.draw(Dice(options.seed))
+    say = note if options.report_apart else write
+    session = Session(loaded.place, options.policy, loaded.policy, loaded.ordering, say)
+    _write_itf(loaded.place, session.run(start), options)
+    return YES
+
+
+def _worst(loaded: _Loaded, options: Options, context: Context) -> int:
+    from tumato_symbolic.report import simulated
+    from tumato_symbolic.simulation import MOST_OUTCOMES, worst_case
+
+    starts = loaded.starts.all(MOST_OUTCOMES)
+    trace = starts and worst_case(loaded.place.spec, loaded.policy, starts, loaded.ordering, context)
+    if not starts or not trace:
+        reason = f"more than {MOST_OUTCOMES:,} outcomes can follow, which are too many to look at one by one"
+        raise LimitReachedError(f"{reason}; `verify --guarantees` looks at all states at once")
+    done = simulated.WorstCase(loaded.place, options.policy, len(starts), trace)
+    _write_itf(loaded.place, trace, options)
+    show_as(options, text=lambda _: simulated.worst_as_text(done), json=lambda: simulated.worst_as_json(done))
+    return YES if trace.end == "goal" else NO
+
+
+def _many(loaded: _Loaded, options: Options, context: Context) -> int:
+    from tumato_symbolic.report import simulated
+    from tumato_symbolic.simulation import Dice, Simulation, executed, summarized
+
+    runs, spec, faults = options.runs or 1, loaded.place.spec, _faults(options)
+    disturb = options.disturb or 0.0
+    simulation = Simulation(spec, loaded.policy, loaded.ordering, faults, disturb, options.steps or _STEPS)
+    dice = Dice(options.seed)
+    kept: list[Trace] = []
+
+    def traces() -> Iterator[Trace]:
+        for _ in range(runs):
+            context.check()
+            trace = executed(simulation, loaded.start or loaded.starts.draw(dice), dice)
+            if runs == 1:
+                kept.append(trace)
+            yield trace
+
+    context.tell("executing the policy")
+    summary = summarized(spec, traces())
+    if kept:
+        _write_itf(loaded.place, kept[0], options)
+    shown = kept[0] if kept else None if summary.missed is None else summary.missed[1]
+    done = simulated.Simulated(loaded.place, options.policy, faults, disturb, options.seed, summary, shown)
+    show_as(options, text=lambda _: simulated.as_text(done), json=lambda: simulated.as_json(done))
+    return YES if summary.met == summary.runs else NO
+
+
+def _faults(options: Options) -> Faults:
+    return "random" if options.faults == "random" else "none"
+
+
+def _write_itf(place: Place, trace: Trace, options: Options) -> None:
+    """The trace as a file, where one is asked for."""
+    if options.itf is None:
+        return
+    from pathlib import Path
+
+    from tumato_symbolic.policy.saving import save_text
+    from tumato_symbolic.report.layout import dump
+    from tumato_symbolic.report.traces import trace_itf
+
+    text = f"{dump(trace_itf(place, trace))}\n"
+    if options.itf == STANDARD_OUTPUT:
+        write(text)
+    else:
+        with writing():
+            save_text(text, Path(options.itf), "trace")
