@@ -80,6 +80,7 @@ NASTY = (
     *("_Bool", "__LINE__", "_x", "x", "x_x", "a", "a_b", "b", "b_c", "A_B", "A_b", "n0", "v0", "None", "def", "lambda"),
     *("executes", "status", "action", "ACTION_COUNT", "main", "MODULE", "VAR", "proctype", "atomic", "Next", "EXTENDS"),
     *("module", "init", "case", "esac", "next", "self_", "in", "xor", "union", "phase", "pc", "waiting", "assert"),
+    *("waiting_x", "executed_a", "kept_0", "active_0", "first_b", "rule", "acting", "valid", "met", "TRUE"),
 )
 """Names that are words of some language, words of ours, or alike once they are put together."""
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from string import Template
-from textwrap import fill, indent
+from textwrap import indent
 
 from tumato_symbolic.diagrams import Reference
 from tumato_symbolic.export.c99_check import check
 from tumato_symbolic.export.c99_names import Names
 from tumato_symbolic.export.decisions import Answer, Question, Tree, size_written_out, tree_of
-from tumato_symbolic.export.request import Request
+from tumato_symbolic.export.request import Request, commented
 from tumato_symbolic.policy import Policy, as_diagram
 
 MOST_QUESTIONS = 20_000
@@ -91,7 +91,7 @@ def files(request: Request) -> tuple[str, ...]:
     """The texts of the source, of the header, and of the program that checks them where it is asked for."""
     names = Names.of(request)
     header = _HEADER.substitute(
-        promise=fill(request.promise, 117, initial_indent="   ", subsequent_indent="   "),
+        promise=commented(request.promise, "   "),
         guard=f"{names.upper}_H",
         p=names.prefix,
         u=names.upper,

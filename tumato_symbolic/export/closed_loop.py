@@ -16,11 +16,15 @@ from tumato_symbolic.export.request import Request
 from tumato_symbolic.semantics import exclude_each_other
 from tumato_symbolic.spec import (
     FALSE,
-    FORMULAS,
     TRUE,
     Action,
     And,
+    Connectives,
+    Constant,
     Formula,
+    Iff,
+    Not,
+    Or,
     Ordering,
     Restoration,
     Rule,
@@ -85,7 +89,7 @@ class ClosedLoop:
         spec = request.spec
         names = request.policy.vocabulary.actions
         cases = tuple(tuple(n for n, each in enumerate(spec.actions) if each.name == name) for name in names)
-        active = active_bodies(spec.goals, lambda formula: formula, FORMULAS)
+        active = active_bodies(spec.goals, lambda formula: formula, _SHORT)
         return cls(
             spec.variables,
             spec.actions,
@@ -110,6 +114,25 @@ def conjunction(formulas: Sequence[Formula]) -> Formula:
     if FALSE in formulas:
         return FALSE
     return And(tuple(formulas)) if len(formulas) > 1 else formulas[0] if formulas else TRUE
+
+
+def disjunction(formulas: Sequence[Formula]) -> Formula:
+    """Some of some formulas."""
+    formulas = [each for each in formulas if each != FALSE]
+    if TRUE in formulas:
+        return TRUE
+    return Or(tuple(formulas)) if len(formulas) > 1 else formulas[0] if formulas else FALSE
+
+
+def negation(formula: Formula) -> Formula:
+    """What holds where a formula does not."""
+    if isinstance(formula, Constant):
+        return Constant(not formula.value)
+    return formula.operand if isinstance(formula, Not) else Not(formula)
+
+
+_SHORT: Connectives[Formula] = Connectives(Constant, negation, conjunction, disjunction, Iff)
+"""Formulas of formulas, without constants where these make no difference."""
 
 
 def preconditions(action: Action) -> Formula:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from textwrap import fill
 
 from tumato_symbolic.policy import Policy
 from tumato_symbolic.spec import Ordering, Spec
@@ -13,6 +14,11 @@ _PROMISE = (
     "when nothing is being executed, with the state that it sees then, start exactly the actions of the set, {again}, "
     "and keep an action that it halted from having an effect later."
 )
+
+
+def commented(text: str, mark: str) -> str:
+    """A text as lines of a comment that each begin with `mark`."""
+    return fill(text, 117, initial_indent=mark, subsequent_indent=mark)
 
 
 @dataclass(frozen=True, slots=True)

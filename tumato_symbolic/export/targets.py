@@ -32,6 +32,7 @@ TARGETS: Final = {
     "python": Target("a module for Python 3.8 or later", "amr.py"),
     "c99": Target("a source and its header in C99", "amr.c", beside=(".h",), check="_check.c"),
     "btcpp": Target("a tree for BehaviorTree.CPP 4", "amr.xml"),
+    "nusmv": Target("a model for NuSMV, with its claims", "amr.smv"),
     "coq": Target("a theorem for Coq", "amr.v"),
 }
 """Every target in the order of the help."""

@@ -1,0 +1,82 @@
+"""NuSMV and SPIN, where they are installed."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+from collections.abc import Sequence
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+_BY_PYTHON = """
+import sys
+from pynusmv.init import init_nusmv
+from pynusmv_lower_interface.nusmv.cmd.cmd import Cmd_SecureCommandExecute as execute
+with init_nusmv():
+    for line in open(sys.argv[2]):
+        if line.strip() != "quit":
+            execute(line)
+"""
+"""Commands of NuSMV through the Python package `pynusmv`, of which there are wheels for Python 3.6."""
+
+
+@cache
+def nusmv() -> tuple[str, ...] | None:
+    """How NuSMV is called with a file of commands."""
+    for name in ("NuSMV", "nusmv"):
+        if shutil.which(name):
+            return name, "-source"
+    versions = Path(os.environ.get("PYENV_ROOT", Path.home() / ".pyenv")) / "versions"
+    for python in (shutil.which("python3.6"), *map(str, versions.glob("3.6.*/bin/python"))):
+        if python is not None:
+            asked = subprocess.run([python, "-c", "import pynusmv"], capture_output=True, check=False, env=_plain())
+            if asked.returncode == 0:
+                return python, "-c", _BY_PYTHON, "-source"
+    return None
+
+
+def _plain() -> dict[str, str]:
+    """The environment for another Python, which has its own packages."""
+    kept = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    path = os.environ.get("TUMATO_PYNUSMV")
+    return kept if path is None else {**kept, "PYTHONPATH": path}
+
+
+needs_nusmv = pytest.mark.skipif(
+    nusmv() is None,
+    reason="there is no NuSMV, and no Python 3.6 with pynusmv (TUMATO_PYNUSMV is its folder): no model is checked",
+)
+
+
+def nusmv_verdicts(texts: Sequence[str], folder: Path) -> list[dict[str, bool]]:
+    """Which of its claims hold of each model, by name."""
+    commands = []
+    for number, text in enumerate(texts):
+        (folder / f"{number}.smv").write_text(text, encoding="utf-8")
+        commands += [f"read_model -i {number}.smv", "go", "check_property", f"show_property -o {number}.txt", "reset"]
+    (folder / "commands").write_text("".join(f"{command}\n" for command in [*commands, "quit"]))
+    command = nusmv()
+    assert command is not None
+    ran = subprocess.run(
+        [*command, "commands"], cwd=folder, env=_plain(), capture_output=True, text=True, errors="replace", check=False
+    )
+    found = []
+    for number in range(len(texts)):
+        path = folder / f"{number}.txt"
+        assert path.exists(), ran.stderr + ran.stdout
+        listed = re.findall(r"\[CTL +(True|False|Unchecked) +\S+ +(\w+)\]", path.read_text(encoding="utf-8"))
+        assert listed
+        assert all(verdict != "Unchecked" for verdict, _ in listed)
+        found.append({name: verdict == "True" for verdict, name in listed})
+    return found
+
+
+SPIN = shutil.which("spin")
+
+needs_spin = pytest.mark.skipif(
+    SPIN is None or shutil.which("cc") is None, reason="spin or cc is not installed: no model is checked by SPIN"
+)
