@@ -31,8 +31,17 @@ def test_json_has_what_it_promises(cli: Cli) -> None:
     assert report["failing_states"] == 112
     assert {"kind", "count", "cubes", "example", "core"} <= set(report["failures"][0])
     assert {"kind", "text", "line"} <= set(report["failures"][0]["core"][0])
-    assert all(repair["verified"] and ("drop" in repair or "edit" in repair) for repair in report["repairs"])
+    assert all(repair["verified"] and {"add", "drop", "edit"} & set(repair) for repair in report["repairs"])
+    assert not any(repair["gives_up_safety"] for repair in report["repairs"])
     assert {"states", "assumption"} <= set(report["realizable_part"])
+
+
+def test_all_repairs_are_a_word_of_the_command_line(cli: Cli) -> None:
+    """`--repairs all` lists what gives up safety as well, marked; other words are refused."""
+    report = json.loads(cli("explain", "no_plan.tum", "--repairs", "all", "--output-format", "json").out)
+    given_up = [repair["gives_up_safety"] for repair in report["repairs"]]
+    assert given_up == sorted(given_up)
+    assert cli("explain", "no_plan.tum", "--repairs", "every").code == 2
 
 
 def test_nothing_remains_and_nothing_is_written(cli: Cli, tmp_path: Path) -> None:

@@ -36,8 +36,11 @@ def examine(job: Job) -> tuple[Job, Counter[str], list[str]]:
             counts["cubes"] += len(reason.cubes)
             counts[f"cores of {reason.kind}"] += len(reason.cores)
             counts["empty cores"] += sum(not core for core in reason.cores)
-        counts["repairs by dropping"] += sum(repair.drops for repair in explanation.repairs)
-        counts["repairs by weakening"] += sum(not repair.drops for repair in explanation.repairs)
+        for repair in explanation.repairs:
+            counts["repairs that add"] += bool(repair.additions)
+            counts["repairs that drop lines"] += repair.drops
+            counts["repairs that change lines"] += any(change.text is not None for change in repair.changes)
+            counts["repairs that give up safety"] += repair.gives_up_safety
         counts["unavoidable"] += explanation.unavoidable is not None
         counts["realizable parts"] += explanation.part is not None
         counts["parts with a choice"] += explanation.part is not None and not explanation.part.unique

@@ -2,17 +2,31 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import product
+from random import Random
 
 from tests.generate import NOWHERE
 from tests.oracle import Together, World, conflict_is_minimal, decide_world
+from tests.printing import print_spec
+from tests.restoration.oracle import decide_stepwise
 from tumato_symbolic import parse
+from tumato_symbolic.explain.additions import NewAction, NoGoalWhile, Setting
 from tumato_symbolic.explain.elements import Element, elements_of, keep_only, replace_rule, rule_of
 from tumato_symbolic.explain.explanation import Explanation, Reason, Repair
+from tumato_symbolic.report.possible_changes import added_lines
 from tumato_symbolic.semantics import State, all_states, allowed_sets, is_valid
-from tumato_symbolic.spec import And, Formula, Is, Or, Ordering, Rule, Spec
+from tumato_symbolic.spec import (
+    And,
+    Formula,
+    Is,
+    Or,
+    Ordering,
+    Rule,
+    Spec,
+)
 
 SAMPLED = 4
 """Of so many states of every reason the core is checked."""
@@ -90,19 +104,22 @@ class _TogetherWhereDefined(Together):
 
 def realizable(spec: Spec, ordering: Ordering) -> bool:
     """By the explicit meaning."""
+    if spec.restores_stepwise:
+        return decide_stepwise(spec, ordering).policy is not None
     return decide_world(World(spec, ordering)).kind == "realizable"
 
 
 def _wrong_repairs(explanation: Explanation) -> Iterator[str]:
     spec, ordering = explanation.spec, explanation.ordering
     everything = frozenset(elements_of(spec))
-    sizes = [len(repair.changes) for repair in explanation.repairs if repair.drops]
+    sizes = [len(repair.changes) for repair in explanation.repairs if repair.changes and not repair.gives_up_safety]
     if sizes != sorted(sizes):
         yield "the repairs are not ordered by size"
     for repair in explanation.repairs:
-        yield from (
-            _wrong_drop(spec, ordering, repair, everything) if repair.drops else _wrong_edit(spec, ordering, repair)
-        )
+        if not realizable(repaired(spec, repair), ordering):
+            yield f"a repair does not repair: {repair}"
+        if repair.changes:
+            yield from _too_much(spec, ordering, repair, everything)
     assumptions = frozenset(each for each in everything if each.kind == "assumption")
     if (explanation.unavoidable is None) != realizable(keep_only(spec, assumptions), ordering):
         yield "whether there is hope is wrong"
@@ -110,20 +127,50 @@ def _wrong_repairs(explanation: Explanation) -> Iterator[str]:
         yield "there is hope, but no repair"
 
 
-def _wrong_drop(spec: Spec, ordering: Ordering, repair: Repair, everything: frozenset[Element]) -> Iterator[str]:
-    dropped = frozenset(change.element for change in repair.changes)
-    if any(element.kind == "assumption" for element in dropped):
+def _too_much(spec: Spec, ordering: Ordering, repair: Repair, everything: frozenset[Element]) -> Iterator[str]:
+    """A repair that drops an assumption, or where fewer lines would do."""
+    spec = repaired(spec, Repair(additions=repair.additions))
+    touched = frozenset(change.element for change in repair.changes)
+    if any(element.kind == "assumption" for element in touched):
         yield "a repair drops an assumption"
-    if not realizable(keep_only(spec, everything - dropped), ordering):
-        yield f"a repair does not repair: {dropped}"
-    for element in dropped:
-        if realizable(keep_only(spec, everything - (dropped - {element})), ordering):
-            yield f"a repair is not minimal: {dropped}"
+    for element in touched:
+        if realizable(keep_only(spec, everything - (touched - {element})), ordering):
+            yield f"a repair is not minimal: {touched}"
 
 
-def _wrong_edit(spec: Spec, ordering: Ordering, repair: Repair) -> Iterator[str]:
-    if not realizable(edited(spec, repair), ordering):
-        yield f"an edit does not repair: {repair}"
+def repaired(spec: Spec, repair: Repair) -> Spec:
+    """The specification that is read when a repair is made in the text of it."""
+    spec = edited(spec, repair)
+    names = [f"act{number}" for number in range(len(spec.actions))]
+    renamed = (replace(action, name=name) for action, name in zip(spec.actions, names, strict=True))
+    text = print_spec(replace(spec, actions=tuple(renamed)), Random(0))
+    for addition in repair.additions:
+        lines = added_lines(spec, addition)
+        match addition:
+            case Setting():
+                text = re.sub(r" *restoration: \w+\n", "", text) + "\n".join(("BEGIN CONFIG", *lines, "END CONFIG\n"))
+                text = _one_config(text)
+            case NewAction():
+                name = f"act{len(names)}"
+                names.append(name)
+                text = text.replace("END ACTIONS", "\n".join([*lines, "END ACTIONS"]).replace("NAME", name))
+            case NoGoalWhile():
+                before, _, goals = text.partition("BEGIN GOALS")
+                if "…" in lines:
+                    goals, _, after = goals.rpartition("END GOALS")
+                    inside = "\n".join(lines).replace("…", goals)
+                    text = f"{before}BEGIN GOALS\n{inside}\nEND GOALS{after}"
+                else:
+                    free = "\n".join(lines)
+                    text = f"{before}BEGIN GOALS{goals.replace('priority', 'priority ' + free, 1)}"
+    return parse(text)
+
+
+def _one_config(text: str) -> str:
+    """A text whose CONFIG blocks are one."""
+    blocks = re.findall(r"BEGIN CONFIG\n(.*?)END CONFIG\n", text, re.DOTALL)
+    rest = re.sub(r"BEGIN CONFIG\n.*?END CONFIG\n", "", text, flags=re.DOTALL)
+    return f"{rest}BEGIN CONFIG\n{''.join(blocks)}END CONFIG\n"
 
 
 def edited(spec: Spec, repair: Repair) -> Spec:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import re
 from collections.abc import Callable
+from typing import Literal
 
 from tumato_symbolic.diagnostics.wording import quoted
 
@@ -25,6 +26,16 @@ def whole(least: int, what: str = "") -> Callable[[str], int]:
             kind = "a positive number" if least == 1 and what else f"a whole number, at least {least}"
             raise _not(text, f"{kind}{what and f' of {what}'}", too_large=value > MOST)
         return value
+
+    return read
+
+
+def whole_or_all(least: int) -> Callable[[str], int | Literal["all"]]:
+    """Reads a whole number from `least` on, or the word `all`."""
+    number = whole(least)
+
+    def read(text: str) -> int | Literal["all"]:
+        return "all" if text == "all" else number(text)
 
     return read
 

@@ -17,6 +17,7 @@ from tumato_symbolic.explain.explanation import (
     RealizablePart,
     Stage,
     Unexplained,
+    Wanted,
     so_far,
     stopped,
 )
@@ -50,14 +51,14 @@ def explain(
     *,
     max_cubes: int = MAX_CUBES,
     cores: int = 1,
-    wanted_repairs: int = 3,
+    wanted_repairs: Wanted = 3,
     backend: Backend | None = None,
     context: Context | None = None,
 ) -> Found:
     """Why `spec` has no policy: all failing states by reason, repairs, and the largest realizable part.
 
     `max_cubes` caps each list of cubes, `cores` is how many cores each reason gets, `wanted_repairs` how many ways to
-    drop elements are looked for. Raises `UserError` where no state is valid.
+    change lines are looked for. Raises `UserError` where no state is valid.
     """
     *_, found = explained(
         spec,
@@ -77,7 +78,7 @@ def explained(
     *,
     max_cubes: int = MAX_CUBES,
     cores: int = 1,
-    wanted_repairs: int = 3,
+    wanted_repairs: Wanted = 3,
     backend: Backend | None = None,
     context: Context | None = None,
 ) -> Iterator[Found]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Final, Literal, TypeAlias
 
+from tumato_symbolic.explain.additions import Addition
 from tumato_symbolic.explain.cubes import StateCube
 from tumato_symbolic.explain.elements import Element
 from tumato_symbolic.explain.environment import Restriction
@@ -65,14 +66,24 @@ class Change:
 
 @dataclass(frozen=True, slots=True)
 class Repair:
-    """Changes that together make the specification realizable; synthesis has said so."""
+    """Additions and changes that together make the specification realizable; synthesis has said so."""
 
-    changes: tuple[Change, ...]
+    changes: tuple[Change, ...] = ()
+    additions: tuple[Addition, ...] = ()
 
     @property
     def drops(self) -> bool:
-        """Whether everything in it is dropped."""
-        return all(change.text is None for change in self.changes)
+        """Whether all that it does is to drop lines."""
+        return not self.additions and all(change.text is None for change in self.changes)
+
+    @property
+    def gives_up_safety(self) -> bool:
+        """Whether a state rule is dropped, or holds less than before."""
+        return any(change.element.kind == "state-rule" for change in self.changes)
+
+
+Wanted: TypeAlias = int | Literal["all"]
+"""How many ways to change lines are looked for; `all`: also those that give up safety."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,10 +139,11 @@ class Explanation:
     """Why there is no policy, and what would change that; what is known of it by now.
 
     Every stage adds its part: `groups` (`states`), `part`, `reasons` with `omitted` (the failing states whose reason is
-    not among them), what comes near (`near`), and `repairs`. `repairs_complete`: there are no other ways to drop.
-    `unavoidable` says why there is none. `finished` are the stages that have said all they can, `left_out` those that
-    were cut short; while work goes on, some are neither. `restorability` tells what would restore the states that one
-    step does not restore.
+    not among them), what comes near (`near`), and `repairs`, of which those come first that keep all state rules.
+    `repairs_complete`: there are no other ways to drop, of those that were asked for. `unavoidable` says why there is
+    none. `others_untried`: the search for repairs that keep all state rules was cut short. `finished` are the stages
+    that have said all they can, `left_out` those that were cut short; while work goes on, some are neither.
+    `restorability` tells what would restore the states that one step does not restore.
     """
 
     spec: Spec
@@ -145,6 +157,7 @@ class Explanation:
     repairs: tuple[Repair, ...] = ()
     repairs_complete: bool = False
     unavoidable: str | None = None
+    others_untried: bool = False
     finished: tuple[Stage, ...] = ()
     left_out: tuple[LeftOut, ...] = ()
     restorability: Restorability | None = None
@@ -200,5 +213,4 @@ def so_far(found: Explanation, stage: Stage) -> str:
         case "near":
             return "not all reasons were looked at"
         case "repairs":
-            drops = sum(repair.drops for repair in found.repairs)
-            return f"the first {drops}" if drops else "none was found"
+            return f"the first {len(found.repairs)}" if found.repairs else "none was found"

@@ -1,137 +1,162 @@
-"""What to drop so that there is a policy: every minimal way, the smallest first, each one tried."""
+"""What to change so that there is a policy, each way tried; what gives up safety comes last."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from types import MappingProxyType
 from typing import Literal, TypeAlias
 
-from tumato_symbolic.explain.conflicts import conflict_core
-from tumato_symbolic.explain.cores import core_of, element_list, typical_state
-from tumato_symbolic.explain.elements import Element, ElementKind, Elements, without
+from tumato_symbolic.explain.adding import Trouble, composed, derived, settings, single_additions
+from tumato_symbolic.explain.additions import Addition, with_additions
+from tumato_symbolic.explain.cores import element_list
+from tumato_symbolic.explain.dropping import ROUNDS, Search, droppable, harmless, serves_without
+from tumato_symbolic.explain.elements import Element, Elements, without
 from tumato_symbolic.explain.explanation import Change, Explanation, Repair
 from tumato_symbolic.explain.failing_states import FailingStates
 from tumato_symbolic.explain.requirements import Requirements
 from tumato_symbolic.explain.trial import trial
 from tumato_symbolic.explain.weaken import weakening
 from tumato_symbolic.explain.work import Work
+from tumato_symbolic.limits import LimitReachedError
 from tumato_symbolic.synthesis import Realizable, Unrealizable
-from tumato_symbolic.synthesis.solver import HittingSets
 
-ROUNDS = 300
-"""So many candidates are tried at most."""
+SHARE = 0.6
+"""The part of its time in which repairs are looked for that keep all state rules; the rest is for the others."""
 
-_PENALTIES: dict[ElementKind, int] = {
-    "plan-bound": 0,
-    "state-rule": 2,
-    "reaction-rule": 1,
-    "alternative": 1,
-    "precondition": 3,
-    "resource": 3,
-    "assumption": 0,
-}
-"""Of repairs of one size, those come first that do not pretend that the robot can do what it cannot."""
-
-Unavoidable: TypeAlias = Literal["failing", "conflict"]
-"""Why nothing helps: with everything dropped but the assumptions, states still fail, or goals conflict."""
+MOST_LINES = 2
+"""Beside a repair, others that take more lines are told only up to so many."""
 
 MOST_WEAKENED = 3
-"""A repair of more elements is of no practical use."""
+"""Of a repair of more elements no line is changed rather than dropped."""
+
+Unavoidable: TypeAlias = Literal["failing", "conflict"]
+"""Why no dropping helps: with everything dropped but the assumptions, states still fail, or goals conflict."""
 
 
 def repairs_found(work: Work, found: Explanation) -> Iterator[Explanation]:
-    """Inclusion-minimal sets of elements whose dropping makes the specification realizable, the smallest first.
+    """Ways to make the specification realizable: first what can be added, then the smallest sets of lines to drop.
 
-    A repair hits every core. Smallest sets that hit all known cores are tried; one that does not do shows a new core.
-    Single elements, and the first repair where it is small, are weakened as well.
+    No state rule is dropped or weakened, but where nothing else serves, or all ways are asked for.
     """
-    requirements, wanted = work.requirements, work.wanted_repairs
+    requirements = work.requirements
     work.context.tell("repairs: finding out whether there is one")
-    unavoidable = _unavoidable(requirements)
-    if unavoidable is not None or wanted < 1:
-        yield replace(found, unavoidable=unavoidable, repairs_complete=unavoidable is not None)
+    found = replace(found, unavoidable=_unavoidable(requirements))
+    if work.wanted_repairs == 0:
+        yield replace(found, repairs_complete=found.unavoidable is not None)
         return
-    search = _Search(work.oracle, (frozenset(reason.core) for reason in found.reasons))
-    for number in range(wanted):
-        work.context.tell(f"repairs: {number + 1} of {wanted}")
-        dropped = search.next()
-        if dropped is None:
-            yield replace(found, repairs_complete=search.complete)
-            return
-        elements = element_list(requirements, dropped)
-        found = replace(found, repairs=(*found.repairs, Repair(tuple(Change(each, None) for each in elements))))
-        yield found
-        worth_it = len(dropped) <= (MOST_WEAKENED if number == 0 else 1)
-        weaker = weakening(requirements, dropped) if worth_it else None
-        if weaker is not None:
-            texts: dict[Element, str | None] = {edit.element: edit.text for edit in weaker.edits}
-            changes = tuple(Change(each, texts.get(each)) for each in elements)
-            found = replace(found, repairs=(*found.repairs, Repair(changes)))
-            yield found
-
-
-def _droppable(elements: Iterable[Element]) -> list[Element]:
-    """Never assumptions: without them there are more states."""
-    return [each for each in elements if each.kind != "assumption"]
+    try:
+        with work.within(SHARE):
+            for known in _keeping_rules(work, found):
+                yield (found := known)
+    except LimitReachedError:
+        requirements.manager.context.check()
+        found = replace(found, others_untried=True)
+    if found.unavoidable is None and (not found.repairs or work.wanted_repairs == "all"):
+        for known in _giving_up_rules(work, found):
+            yield (found := known)
+    if found.others_untried:
+        raise LimitReachedError(work.share_met())
+    yield found
 
 
 def _unavoidable(requirements: Requirements) -> Unavoidable | None:
-    outcome = trial(requirements, without(requirements.spec, _droppable(requirements.elements)))
+    outcome = trial(requirements, without(requirements.spec, droppable(requirements)))
     if isinstance(outcome, Realizable):
         return None
     conflicts = not isinstance(outcome, Unrealizable) or outcome.failures[0].kind == "conflict"
     return "conflict" if conflicts else "failing"
 
 
-class _Search:
-    """Implicit hitting sets: candidates, and the cores that they miss."""
+def _keeping_rules(work: Work, found: Explanation) -> Iterator[Explanation]:
+    """The repairs that drop and weaken no state rule."""
+    requirements = work.requirements
+    work.context.tell("repairs: trying what could be added")
+    trouble = Trouble.of(work.oracle)
+    joint = () if found.restorability is None else (each.effects for each in found.restorability.joint)
+    for additions in single_additions(trouble, joint):
+        yield (found := _with(found, Repair(additions=additions)))
+    if found.unavoidable is None and serves_without(requirements, harmless(requirements)):
+        search = Search(work.oracle, (frozenset(each.core) for each in found.reasons), harmless(requirements))
+        for known in _searched(work, found, search, requirements):
+            yield (found := known)
+    elif found.unavoidable is None:
+        yield (found := replace(found, repairs_complete=True))
+    if found.repairs:
+        return
+    work.context.tell("repairs: trying what could be added together")
+    together = composed(trouble, environment=False)
+    if together is not None:
+        yield _with(found, Repair(additions=together))
+        return
+    for setting in settings(requirements.spec):
+        other = derived(requirements, with_additions(requirements.spec, (setting,)))
+        if serves_without(other, harmless(other)):
+            search = Search(FailingStates(other), (), harmless(other))
+            yield from _searched(work, found, search, other, (setting,))
+            return
+    together = composed(trouble, environment=True)
+    if together is not None:
+        yield _with(found, Repair(additions=together))
 
-    def __init__(self, oracle: FailingStates, cores: Iterable[Elements]) -> None:
-        self._oracle = oracle
-        requirements = oracle.requirements
-        self._numbers = {element: number for number, element in enumerate(_droppable(requirements.elements))}
-        penalties = [_PENALTIES[element.kind] for element in self._numbers]
-        self._hitting = HittingSets(penalties, requirements.manager.context.seconds_left)
-        self._rounds = ROUNDS
-        self.complete = False
-        """Whether there are no other repairs than those that were found."""
-        for core in cores:
-            self._must_hit(core)
 
-    def next(self) -> Elements | None:
-        """The smallest repair that was not found yet; None where there is none, or none is found in so many rounds."""
-        elements = list(self._numbers)
-        while self._rounds:
-            self._rounds -= 1
-            self._oracle.requirements.manager.context.check()
-            candidate = self._hitting.smallest()
-            if candidate is None:
-                self.complete = True
-                return None
-            dropped = frozenset(elements[number] for number in candidate)
-            missed = self._missed_core(dropped)
-            if missed is None:
-                self._hitting.exclude(sorted(candidate))
-                return dropped
-            self._must_hit(missed)
-        return None
+def _giving_up_rules(work: Work, found: Explanation) -> Iterator[Explanation]:
+    """The repairs that drop or weaken a state rule."""
+    requirements = work.requirements
+    cores = (frozenset(each.core) for each in found.reasons)
+    rules = frozenset(each for each in requirements.elements if each.kind == "state-rule")
+    search = Search(work.oracle, cores, droppable(requirements), rules)
+    for repair in found.repairs:
+        if repair.changes and not repair.additions:
+            search.exclude(frozenset(change.element for change in repair.changes))
+    yield from _searched(work, found, search, requirements)
 
-    def _must_hit(self, core: Elements) -> None:
-        self._hitting.require([self._numbers[element] for element in _droppable(core)])
 
-    def _missed_core(self, dropped: Elements) -> Elements | None:
-        """A core without any dropped element; None where the specification without them is realizable."""
-        requirements = self._oracle.requirements
-        kept = requirements.everything - dropped
-        stuck = requirements.stuck(kept)
-        if stuck != requirements.false:
-            return core_of(self._oracle, "no-allowed-set", typical_state(requirements, stuck), kept)
-        failing = self._oracle.failing(kept, requirements.valid)
-        if failing != requirements.false:
-            return core_of(self._oracle, "no-plan", typical_state(requirements, failing), kept)
-        outcome = trial(requirements, without(requirements.spec, dropped))
-        if isinstance(outcome, Realizable):
-            return None
-        if isinstance(outcome, Unrealizable):
-            return conflict_core(requirements, outcome.failures[0].states, kept)
-        return kept  # whatever is kept is to blame: the next candidate has to drop more
+def _searched(
+    work: Work,
+    found: Explanation,
+    search: Search,
+    requirements: Requirements,
+    additions: tuple[Addition, ...] = (),
+) -> Iterator[Explanation]:
+    """The repairs of a search beside some additions, as many as are wanted; one at least, where there is one."""
+    number, wanted = 0, work.wanted_repairs
+    while wanted == "all" or number < wanted:
+        number += 1
+        work.context.tell(f"repairs: {number}" if wanted == "all" else f"repairs: {number} of {wanted}")
+        dropped = search.next()
+        if dropped is None and not found.repairs and not search.complete:
+            dropped, number = search.any_repair(), ROUNDS
+        if dropped is None:
+            found = replace(found, repairs_complete=search.complete)
+            break
+        if wanted != "all" and number > 1 and len(dropped) > max(MOST_LINES, len(found.repairs[-1].changes)):
+            break
+        try:
+            repair = _lightest(requirements, dropped, additions)
+        except LimitReachedError:
+            yield _with(found, _dropping(requirements, dropped, additions))
+            raise
+        yield (found := _with(found, repair))
+    yield found
+
+
+def _with(found: Explanation, repair: Repair) -> Explanation:
+    return replace(found, repairs=(*found.repairs, repair))
+
+
+def _lightest(requirements: Requirements, dropped: Elements, additions: tuple[Addition, ...]) -> Repair:
+    """A repair with lines changed rather than dropped where that can be."""
+    weaker = weakening(requirements, dropped) if len(dropped) <= MOST_WEAKENED else None
+    texts = {edit.element: edit.text for edit in weaker.edits} if weaker is not None else {}
+    return _dropping(requirements, dropped, additions, texts)
+
+
+def _dropping(
+    requirements: Requirements,
+    dropped: Elements,
+    additions: tuple[Addition, ...],
+    texts: Mapping[Element, str] = MappingProxyType({}),
+) -> Repair:
+    elements = element_list(requirements, dropped)
+    return Repair(tuple(Change(each, texts.get(each)) for each in elements), additions)

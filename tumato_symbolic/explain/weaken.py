@@ -2,25 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from itertools import combinations
 from typing import TypeAlias
 
+from tumato_symbolic.explain.additions import every_state
 from tumato_symbolic.explain.as_predicates import cube_formula, predicate_text
 from tumato_symbolic.explain.cubes import StateCube
 from tumato_symbolic.explain.elements import Element, Elements, rule_of, without
 from tumato_symbolic.explain.failing_states import failing
+from tumato_symbolic.explain.minimize import minimal
 from tumato_symbolic.explain.requirements import Requirements
 from tumato_symbolic.explain.trial import is_realizable, trial
 from tumato_symbolic.semantics import count_states
-from tumato_symbolic.spec import And, Or, Rule, Spec
+from tumato_symbolic.spec import Action, And, Or, Rule, Spec, variables_of
 from tumato_symbolic.synthesis import Realizable
+
+MOST_VARIABLES = 3
+"""An exception is about so many variables at most."""
 
 TRIES = 400
 """So many exceptions are looked at for one repair at most."""
 
 MOST_STATES = 10_000
 """In larger specifications no exceptions are looked for that settle conflicts of goals."""
+
+_LITERAL = re.compile(r"(NOT )?\w+ is \w+")
+"""A predicate that needs no parentheses."""
 
 _Test: TypeAlias = Callable[[Requirements, Elements], bool]
 """Whether the specification that is left when some elements are dropped will do."""
@@ -46,8 +56,9 @@ class Weakening:
 def weakening(requirements: Requirements, repair: Elements) -> Weakening | None:
     """A repair in which as much as possible is changed rather than dropped; None where nothing can be.
 
-    A rule or a precondition gets the exception `OR c` for one cube `c`, which is as small as can be: with one value of
-    one variable less it would not do. The plan bound is raised as little as possible. Verified by synthesis.
+    A rule or a precondition gets the exception `OR c` for one cube `c`, of as few variables and values as can be, which
+    has a variable in common with it and leaves something of it. The plan bound is raised as little as possible.
+    Verified by synthesis.
     """
     for suffices in (_no_state_fails, _is_realizable):
         found = _weakened(requirements, repair, suffices)
@@ -93,25 +104,66 @@ def _raised(requirements: Requirements, bound: Element, others: Elements) -> tup
 def _excepted(
     requirements: Requirements, element: Element, others: Elements, suffices: _Test
 ) -> tuple[Requirements, Edit] | None:
-    """The rule with the smallest exception that this search finds; None where it must be dropped whole."""
+    """The rule with an exception of as few variables as can be, and then of as few values; None where none will do.
+
+    An exception that leaves nothing of the rule is none.
+    """
     spec, rule = requirements.spec, rule_of(requirements.spec, element)
     if rule is None:
         return None
-    everything: StateCube = tuple(tuple(range(len(variable.values))) for variable in spec.variables)
-    cube, tries = everything, 0
-    for variable, values in enumerate(everything):
-        for value in values if len(values) > 1 else ():
-            smaller = tuple(kept for kept in cube[variable] if kept != value)
-            candidate = (*cube[:variable], smaller, *cube[variable + 1 :])
-            tries += 1
-            if tries > TRIES:
-                return None
-            if smaller and suffices(requirements.changed(element, _with_exception(spec, rule, candidate)), others):
-                cube = candidate
-    if cube == everything:
-        return None
-    wider = _with_exception(spec, rule, cube)
-    return requirements.changed(element, wider), Edit(element, wider.text)
+    own, everything, tries = variables_of(rule.formula), every_state(spec), 0
+
+    def enough(cube: StateCube) -> bool:
+        nonlocal tries
+        tries += 1
+        return tries <= TRIES and suffices(requirements.changed(element, _with_exception(spec, rule, cube)), others)
+
+    for variables in _variable_sets(spec, element, rule):
+        cube = _smallest(spec, variables, enough)
+        if tries > TRIES:
+            return None
+        wider = _with_exception(spec, rule, cube)
+        related = any(cube[variable] != everything[variable] for variable in own)
+        if related and requirements.formula(wider.formula) != requirements.valid:
+            return requirements.changed(element, wider), Edit(element, wider.text)
+    return None
+
+
+def _variable_sets(spec: Spec, element: Element, rule: Rule) -> Iterator[tuple[int, ...]]:
+    """The sets of variables that an exception may be about, the smallest first; those of the rule before others.
+
+    One is the rule's own; the others have to do with these: of a precondition, the same action requires or changes
+    them; of a rule, some action or rule has both.
+    """
+    own = variables_of(rule.formula)
+    actions = [spec.actions[element.number]] if element.kind == "precondition" else spec.actions
+    groups = [_variables(action) for action in actions]
+    if element.kind != "precondition":
+        groups += [variables_of(each.formula) for each in (*spec.state_rules, *spec.reaction_rules)]
+    related = frozenset[int]().union(*(group for group in groups if group & own))
+    candidates = [*sorted(own), *sorted(related - own)]
+    for size in range(1, MOST_VARIABLES + 1):
+        yield from (each for each in combinations(candidates, size) if own.intersection(each))
+
+
+def _variables(action: Action) -> frozenset[int]:
+    """What an action requires and changes."""
+    required = frozenset[int]().union(*(variables_of(each.formula) for each in action.preconditions))
+    return required.union(variable for effect in action.effects for variable, _ in effect)
+
+
+def _smallest(spec: Spec, variables: tuple[int, ...], enough: Callable[[StateCube], bool]) -> StateCube:
+    """A cube over some variables that is enough, and is not when one value is taken away."""
+    everything = every_state(spec)
+    pairs = [(variable, value) for variable in variables for value in everything[variable]]
+
+    def cube(kept: frozenset[tuple[int, int]]) -> StateCube:
+        return tuple(
+            tuple(value for value in values if (variable, value) in kept) if variable in variables else values
+            for variable, values in enumerate(everything)
+        )
+
+    return cube(minimal(pairs, lambda kept: all(cube(kept)) and enough(cube(kept))))
 
 
 def _is_realizable(requirements: Requirements, dropped: Elements) -> bool:
@@ -130,5 +182,7 @@ def _no_state_fails(requirements: Requirements, dropped: Elements) -> bool:
 def _with_exception(spec: Spec, rule: Rule, cube: StateCube) -> Rule:
     exception = cube_formula(spec, cube)
     text = predicate_text(spec, exception)
-    text = f"({text})" if isinstance(exception, And | Or) else text
-    return Rule(Or((rule.formula, exception)), f"({' '.join(rule.text.split())}) OR {text}", rule.span)
+    text = f"({text})" if isinstance(exception, And) else text
+    own = " ".join(rule.text.split())
+    own = own if _LITERAL.fullmatch(own) else f"({own})"
+    return Rule(Or((rule.formula, exception)), f"{own} OR {text}", rule.span)

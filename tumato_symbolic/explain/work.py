@@ -9,6 +9,7 @@ from functools import cached_property
 
 from tumato_symbolic.explain.cores import Failing, failing_states, typical_state
 from tumato_symbolic.explain.cubes import Cover, StateCube, disjoint_cubes, set_of
+from tumato_symbolic.explain.explanation import Wanted
 from tumato_symbolic.explain.failing_states import FailingStates
 from tumato_symbolic.explain.requirements import Requirements
 from tumato_symbolic.limits import Context
@@ -27,7 +28,7 @@ class Work:
     outcome: Unrealizable
     max_cubes: int
     cores: int
-    wanted_repairs: int
+    wanted_repairs: Wanted
 
     @cached_property
     def failing(self) -> Failing:
@@ -72,14 +73,16 @@ class Work:
 
     @contextmanager
     def within(self, share: float) -> Iterator[None]:
-        """Let work take a share of the time that is left. Raises `LimitReachedError` when it is used up."""
-        left, manager = self.context.seconds_left(), self.requirements.manager
-        manager.context = self.context.within(None if left is None else share * left)
+        """Let work take a share of the time that is left to it. Raises `LimitReachedError` when it is used up."""
+        manager = self.requirements.manager
+        before = manager.context
+        left = before.seconds_left()
+        manager.context = before.within(None if left is None else share * left)
         try:
             with manager.within_memory():
                 yield
         finally:
-            manager.context = self.context
+            manager.context = before
 
     def share_met(self) -> str:
         """That a stage used up its share of the time limit."""

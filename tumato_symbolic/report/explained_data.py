@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Code, Span
+from tumato_symbolic.explain.additions import NewAction, NoGoalWhile, Setting
 from tumato_symbolic.explain.as_predicates import predicate_text
 from tumato_symbolic.explain.elements import Element, span_of, text_of
 from tumato_symbolic.explain.environment import Restriction
@@ -26,7 +27,7 @@ from tumato_symbolic.report.explained import Explained
 from tumato_symbolic.report.failures import FAILURE_CODES
 from tumato_symbolic.report.findings import finding_json, github_command, github_commands
 from tumato_symbolic.report.layout import count
-from tumato_symbolic.report.possible_changes import environment_text, left_out_lines
+from tumato_symbolic.report.possible_changes import added_lines, controlled, environment_text, left_out_lines
 from tumato_symbolic.report.restorable import restorable_json
 from tumato_symbolic.semantics import action_names, active_goals, named
 from tumato_symbolic.spec import Spec
@@ -161,8 +162,17 @@ def _repair_json(spec: Spec, repair: Repair) -> dict[str, object]:
         for change in repair.changes
         if change.text is not None
     ]
-    report: dict[str, object] = {"drop": dropped} if dropped else {}
-    return report | ({"edit": edits} if edits else {}) | {"verified": True}
+    added = [
+        {"kind": _ADDED[type(addition)], "text": "\n".join(added_lines(spec, addition))}
+        for addition in repair.additions
+    ]
+    parts = {"add": added, "drop": dropped, "edit": edits}
+    report: dict[str, object] = {name: part for name, part in parts.items() if part}
+    taken = [spec.variables[variable].name for variable in sorted(controlled(spec, repair))]
+    return report | {"environment": taken, "gives_up_safety": repair.gives_up_safety, "verified": True}
+
+
+_ADDED: dict[type, str] = {Setting: "setting", NewAction: "action", NoGoalWhile: "goal"}
 
 
 def _part_json(spec: Spec, part: RealizablePart | None) -> dict[str, object]:

@@ -4,33 +4,44 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from tumato_symbolic.explain.additions import Addition, NewAction, NoGoalWhile, Setting, conditions_of
+from tumato_symbolic.explain.as_predicates import cube_formula, predicate_text
 from tumato_symbolic.explain.environment import Restriction
 from tumato_symbolic.explain.explanation import Change, Explanation, RealizablePart, Repair, Stage
 from tumato_symbolic.report.cubes import cube_text
 from tumato_symbolic.report.element_roles import KINDS, declared, where
 from tumato_symbolic.report.layout import count, enumeration
 from tumato_symbolic.report.objections import Place
-from tumato_symbolic.spec import Spec
+from tumato_symbolic.spec import Is, Spec, canonical_text
 
 _LONGEST_ASSUMPTION = 1_500
 _LONGEST_CONDITION = 80
+_MOST_CHANGES = 6
 
 
 def repair_pieces(place: Place, found: Explanation) -> Iterator[str]:
-    """Repairs, each as it is found."""
-    if found.unavoidable is not None:
+    """Repairs, each as it is found; those that give up safety last, under a heading of their own."""
+    lacking = found.unavoidable is not None and found.is_over("repairs")
+    for number, repair in enumerate(found.repairs, 1):
+        if repair.gives_up_safety and not any(each.gives_up_safety for each in found.repairs[: number - 1]):
+            yield f"\nGives up safety ({_why_given_up(found)}; each was tried and gives a policy):"
+        elif number == 1:
+            yield "\nPossible changes (each was tried and gives a policy; whether it is safe is for you to judge):"
+        yield "\n".join([f"  {number}. {_summary(place.spec, repair)}", *_lines(place, repair)])
+    if lacking:
         why = "states still fail" if found.unavoidable == "failing" else "the goals still conflict"
         yield (
             f"\nNo repair by dropping: with every rule, precondition, alternative, resource and bound dropped, {why}.\n"
             "The robot needs another action or effect, or other goals."
         )
-    elif found.repairs:
-        yield "\nPossible changes (each was tried and gives a policy; whether it is safe is for you to judge):"
-        for number, repair in enumerate(found.repairs, 1):
-            lines = (f"     {line}" for change in repair.changes for line in _change(place, change))
-            yield "\n".join([f"  {number}. {_summary(repair)}", *lines])
-    elif "repairs" in found.finished:
+    elif "repairs" in found.finished and not found.repairs:
         yield "\nNo repair was looked for, or none was found within the limits."
+
+
+def _why_given_up(found: Explanation) -> str:
+    if any(not repair.gives_up_safety for repair in found.repairs):
+        return "all repairs were asked for"
+    return "nothing else was found in time" if found.others_untried else "nothing else that was tried serves"
 
 
 _NAMES: dict[Stage, str] = {
@@ -51,10 +62,67 @@ def left_out_lines(found: Explanation) -> Iterator[str]:
         yield "`--timeout SECONDS` gives it more time."
 
 
-def _summary(repair: Repair) -> str:
-    if repair.drops:
-        return "drop this" if len(repair.changes) == 1 else "drop these"
-    return "or change this" if len(repair.changes) == 1 else "or change these"
+def _summary(spec: Spec, repair: Repair) -> str:
+    """What to do, in a line; first what it takes from the environment."""
+    added, changed = len(repair.additions), len(repair.changes)
+    drops = all(change.text is None for change in repair.changes)
+    parts = []
+    if added:
+        parts.append("add this" if added == 1 else "add these")
+    if changed:
+        parts.append(f"{'drop' if drops else 'change'} {'this' if changed == 1 else 'these'}")
+    summary = " and ".join(parts)
+    if any(isinstance(addition, NewAction) for addition in repair.additions):
+        summary += ", if the robot can do it"
+    taken = [spec.variables[variable].name for variable in sorted(controlled(spec, repair))]
+    return f"{summary}; no action controls {enumeration(taken, 'or')}" if taken else summary
+
+
+def controlled(spec: Spec, repair: Repair) -> frozenset[int]:
+    """The variables of the environment that the new actions of a repair change."""
+    effects = (each.effects for each in repair.additions if isinstance(each, NewAction))
+    return spec.environment & {variable for written in effects for variable, _ in written}
+
+
+def _lines(place: Place, repair: Repair) -> Iterator[str]:
+    """What to add and what to change, line by line."""
+    for addition in repair.additions:
+        head = f"     {_where_added(place.spec, addition)}: "
+        for number, line in enumerate(added_lines(place.spec, addition)):
+            yield f"{' ' * len(head) if number else head}+ {line}"
+    changes = repair.changes[:_MOST_CHANGES]
+    yield from (f"     {line}" for change in changes for line in _change(place, change))
+    if len(repair.changes) > len(changes):
+        yield f"     … and {len(repair.changes) - len(changes)} more (--output-format json lists them)"
+
+
+def _where_added(spec: Spec, addition: Addition) -> str:
+    match addition:
+        case Setting():
+            return "in CONFIG"
+        case NewAction():
+            return "in ACTIONS"
+        case NoGoalWhile():
+            return "before the goals" if _in_order(spec) else "around the goals"
+
+
+def added_lines(spec: Spec, addition: Addition) -> list[str]:
+    """The lines of an addition, as they stand in a specification."""
+    match addition:
+        case Setting(restoration):
+            return [f"restoration: {restoration}"]
+        case NewAction(condition, effects):
+            start = [] if condition is None else [predicate_text(spec, cube_formula(spec, condition))]
+            written = ", ".join(canonical_text(spec, Is(variable, value)) for variable, value in effects)
+            return ["action NAME", *(f"preconditions: {each}" for each in start), f"nominal effects: {written}"]
+        case NoGoalWhile():
+            conditions = [predicate_text(spec, each) for each in conditions_of(spec, addition)]
+            free = [f"when {condition} then goal: true" for condition in conditions]
+            return free if _in_order(spec) else ["goal type: priority", *free, "BEGIN GOALS", "…", "END GOALS"]
+
+
+def _in_order(spec: Spec) -> bool:
+    return spec.goals is not None and spec.goals.kind == "priority"
 
 
 def _change(place: Place, change: Change) -> Iterator[str]:

@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING, ClassVar
 from tumato_symbolic.cli import arguments
 from tumato_symbolic.cli.console import note, wants_colour, write, writing
 from tumato_symbolic.cli.exits import NO, UNDECIDED, YES
-from tumato_symbolic.cli.numbers import whole
+from tumato_symbolic.cli.numbers import whole, whole_or_all
 from tumato_symbolic.cli.options import STANDARD_OUTPUT, CommandOptions, OutputFormat, Target, argument
 from tumato_symbolic.cli.output import show_as
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.limits import Context
 
 if TYPE_CHECKING:
+    from tumato_symbolic.explain.explanation import Wanted
     from tumato_symbolic.report.explained import Explained
     from tumato_symbolic.spec import Ordering, Restoration
 
@@ -55,8 +56,12 @@ class Options(CommandOptions):
     cores: int = argument(
         "--cores", type=whole(1), default=1, metavar="N", help="give up to N reasons for each group (default: 1)"
     )
-    repairs: int = argument(
-        "--repairs", type=whole(0), default=3, metavar="N", help="look for N ways to drop lines (default: 3)"
+    repairs: Wanted = argument(
+        "--repairs",
+        type=whole_or_all(0),
+        default=3,
+        metavar="N",
+        help="look for N ways to change lines (default: 3), or for `all`, also those that give up safety",
     )
     write: str | None = argument(
         "--write",

@@ -1,0 +1,177 @@
+"""Tests that advice never trades safety away (`advice.py` counts on hundreds of specifications)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+
+from tests.explain.advice import examine_generated, examine_text
+from tests.explain.oracle import repaired
+from tests.explain.robots import BRAKE, FORKLIFT, NEAR, ROBOTS, TAUT, battery
+from tests.explain.variants import VARIANTS
+from tumato_symbolic import Realizable, parse, synthesize
+from tumato_symbolic.diagnostics import Source
+from tumato_symbolic.explain.additions import NewAction, NoGoalWhile, Setting
+from tumato_symbolic.explain.explain import explain
+from tumato_symbolic.explain.explanation import Explanation, Wanted
+from tumato_symbolic.explain.repairs import SHARE
+from tumato_symbolic.limits import Context, Limits
+from tumato_symbolic.report.explained import Explained, as_text
+from tumato_symbolic.report.explained_data import as_json
+
+ONLY_BY_RULES = next(each.text for each in VARIANTS if each.name == "rule_too_strong")
+"""Nothing but giving up a state rule serves."""
+
+STOPPED_BY_PEOPLE = """\
+BEGIN STATE VECTOR
+state Human can be away, here
+state Place can be dock, rack
+END STATE VECTOR
+BEGIN ACTIONS
+action go
+preconditions: Human is away
+nominal effects: Place is rack
+END ACTIONS
+BEGIN GOALS
+goal type: KIND
+goal: Place is rack
+END GOALS
+"""
+
+
+def _explained(text: str, wanted: Wanted = 3) -> Explanation:
+    found = explain(parse(text), wanted_repairs=wanted)
+    assert isinstance(found, Explanation)
+    return found
+
+
+def _report(text: str, found: Explanation) -> str:
+    return as_text(Explained(Source("x.tum", text), parse(text), found, (), None, False), False)
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_advice_on_robots_is_safe(name: str) -> None:
+    """No state rule is given up where something else serves, no exception is empty, the environment is said."""
+    assert examine_text(ROBOTS[name]) == []
+
+
+@pytest.mark.parametrize("seed", range(700, 714))
+def test_advice_on_generated_specifications_is_safe(seed: int) -> None:
+    """The same, by the explicit meaning, which also holds that every repair that is printed gives a policy."""
+    assert examine_generated(seed) in (None, [])
+
+
+def test_what_adds_comes_first() -> None:
+    """A setting before a change of a line; and of settings, the stronger."""
+    assert [type(each) for repair in _explained(BRAKE).repairs for each in repair.additions] == [Setting]
+    assert _explained(BRAKE).repairs[0].additions == (Setting("bounded"),)
+    assert _explained(TAUT).repairs[0].additions == (Setting("fair"),)
+
+
+def test_a_missing_effect_is_named() -> None:
+    """Where no action changes a variable as it must, the action is spelled out; and that the robot may be unable to."""
+    found = _explained(NEAR)
+    (repair,) = found.repairs
+    (action,) = repair.additions
+    assert isinstance(action, NewAction)
+    assert "1. add this, if the robot can do it; no action controls B\n" in _report(NEAR, found)
+    assert as_json(Explained(Source("x.tum", NEAR), parse(NEAR), found, (), None, False))["repairs"] == [
+        {
+            "add": [{"kind": "action", "text": "action NAME\npreconditions: B is critical\nnominal effects: B is ok"}],
+            "environment": ["B"],
+            "gives_up_safety": False,
+            "verified": True,
+        }
+    ]
+
+
+@pytest.mark.parametrize(
+    ("kind", "where"), [("priority", "before the goals: + "), ("constraint", "around the goals: + ")]
+)
+def test_goals_give_way_to_the_environment(kind: str, where: str) -> None:
+    """Where only a value of the environment is in the way, no goal is active while it is there."""
+    text = STOPPED_BY_PEOPLE.replace("KIND", kind)
+    found = _explained(text)
+    free = next(repair for repair in found.repairs if any(isinstance(each, NoGoalWhile) for each in repair.additions))
+    assert free.additions == (NoGoalWhile(((0, (1,)),)),)
+    assert where in _report(text, found)
+    assert "when Human is here then goal: true" in _report(text, found)
+    assert isinstance(synthesize(repaired(parse(text), free)), Realizable)
+
+
+def test_goals_do_not_give_way_for_good() -> None:
+    """What would leave a goal active nowhere is no repair."""
+    text = STOPPED_BY_PEOPLE.replace("goal type: KIND", "goal type: priority when Human is here then")
+    assert not any(isinstance(each, NoGoalWhile) for repair in _explained(text).repairs for each in repair.additions)
+
+
+def test_what_helps_is_told_where_nothing_serves_alone() -> None:
+    """Additions that serve together, none of which can be left out, before anything gives up safety."""
+    found = _explained(FORKLIFT)
+    (repair,) = found.repairs
+    assert not repair.gives_up_safety
+    kinds = [type(each) for each in repair.additions]
+    assert kinds == [Setting, NewAction, NewAction, NoGoalWhile]
+    assert "`restoration: bounded` in CONFIG: 252 of them" in _report(FORKLIFT, found)
+
+
+def test_a_state_rule_is_given_up_last() -> None:
+    """Under a heading of its own, where nothing else serves, or where all repairs are asked for."""
+    found = _explained(ONLY_BY_RULES)
+    assert [repair.gives_up_safety for repair in found.repairs] == [True]
+    assert "\nGives up safety (" in _report(ONLY_BY_RULES, found)
+    assert "\nPossible changes" not in _report(ONLY_BY_RULES, found)
+    assert not any(repair.gives_up_safety for repair in _explained(BRAKE).repairs)
+    everything = _explained(BRAKE, "all")
+    given_up = [repair.gives_up_safety for repair in everything.repairs]
+    assert given_up == sorted(given_up)
+    assert any(given_up)
+    report = _report(BRAKE, everything)
+    assert 0 < report.index("\nPossible changes") < report.index("\nGives up safety (all repairs were asked for;")
+
+
+def test_an_exception_leaves_something_of_its_rule() -> None:
+    """Where every exception would leave nothing of a rule, the rule is dropped under its own name."""
+    changes = [change for repair in _explained(TAUT, "all").repairs for change in repair.changes]
+    assert [change.text for change in changes if change.element.kind == "state-rule"] == [None]
+
+
+def test_an_exception_is_about_few_variables() -> None:
+    """What has nothing to do with a rule is not mentioned; nor is what makes no difference."""
+    (change,) = _explained(BRAKE).repairs[1].changes
+    assert change.text == "Speed is slow OR Speed is fast"
+    assert not any(
+        "L is" in (change.text or "") for repair in _explained(NEAR, "all").repairs for change in repair.changes
+    )
+
+
+class _Stage(Context):
+    """The context of a stage none of whose parts has any time."""
+
+    def within(self, seconds: float | None = None, learned: Callable[[object], None] | None = None) -> Context:
+        return Context(Limits(0.0))
+
+
+class _Hurried(Context):
+    """A context in which the search for repairs that keep all rules is cut short."""
+
+    def within(self, seconds: float | None = None, learned: Callable[[object], None] | None = None) -> Context:
+        return _Stage(Limits(60.0))
+
+
+def test_a_search_that_is_cut_short_leaves_time_for_the_rest() -> None:
+    """What keeps all rules has a share of the time; it is said where the share was not enough."""
+    assert 0 < SHARE < 1
+    found = explain(parse(ONLY_BY_RULES), context=_Hurried(Limits(60.0)))
+    assert isinstance(found, Explanation)
+    assert found.others_untried
+    assert [repair.gives_up_safety for repair in found.repairs] == [True]
+    assert "Gives up safety (nothing else was found in time;" in _report(ONLY_BY_RULES, found)
+
+
+def test_a_long_core_has_few_repairs() -> None:
+    """A battery with many moves: what is missing first, then how the robot could charge elsewhere."""
+    found = _explained(battery(12))
+    assert not any(repair.gives_up_safety for repair in found.repairs)
+    assert all(len(repair.changes) <= 1 for repair in found.repairs)
