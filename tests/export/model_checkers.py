@@ -75,6 +75,21 @@ def nusmv_verdicts(texts: Sequence[str], folder: Path) -> list[dict[str, bool]]:
     return found
 
 
+def spin_accepts(text: str, folder: Path) -> bool:
+    """Whether SPIN goes through the whole model without a violated assertion."""
+    (folder / "model.pml").write_text(text, encoding="utf-8")
+    for command in (
+        ["spin", "-a", "model.pml"],
+        ["cc", "-O0", "-w", "-DSAFETY", "-o", "pan", "pan.c"],
+        ["./pan", "-m1000000", "-w16"],
+    ):
+        ran = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+        assert ran.returncode == 0, (command, ran.stdout, ran.stderr)
+    assert "Error" not in ran.stdout
+    assert "max search depth too small" not in ran.stdout
+    return re.findall(r"errors: (\d+)", ran.stdout) == ["0"]
+
+
 SPIN = shutil.which("spin")
 
 needs_spin = pytest.mark.skipif(

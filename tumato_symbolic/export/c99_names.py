@@ -8,7 +8,7 @@ from typing import Final
 from tumato_symbolic.export.identifiers import distinct, identifier
 from tumato_symbolic.export.request import Request
 
-_WORDS: Final = """
+WORDS: Final = """
 auto break case char const continue default do double else enum extern float for goto if inline int long register
 restrict return short signed sizeof static struct switch typedef union unsigned void volatile while
 alignas alignof and and_eq asm atomic_cancel atomic_commit atomic_noexcept bitand bitor bool catch char8_t char16_t
@@ -61,7 +61,7 @@ class Names:
         for action in vocabulary.actions:
             wanted["action", action] = f"{upper}_{action}"
         found = distinct(wanted, ours | theirs)
-        fields = distinct({name: identifier(name) for name, _ in vocabulary.variables}, _WORDS.split())
+        fields = distinct({name: identifier(name) for name, _ in vocabulary.variables}, WORDS.split())
         return cls(
             prefix,
             upper,

@@ -33,6 +33,7 @@ TARGETS: Final = {
     "c99": Target("a source and its header in C99", "amr.c", beside=(".h",), check="_check.c"),
     "btcpp": Target("a tree for BehaviorTree.CPP 4", "amr.xml"),
     "nusmv": Target("a model for NuSMV, with its claims", "amr.smv"),
+    "promela": Target("a model for SPIN, with its claims", "amr.pml"),
     "coq": Target("a theorem for Coq", "amr.v"),
 }
 """Every target in the order of the help."""
