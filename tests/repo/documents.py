@@ -2,7 +2,8 @@
 
 In a Markdown file, a fenced block marked `console` is a session: lines that start with `$ ` are commands for the shell,
 and what follows is their output, both streams together. A block marked `… file=NAME` is the file NAME. All blocks of a
-document run in order in one empty folder, in which `examples` is the repository's.
+document run in order in one empty folder, in which `examples` is the repository's. A session marked
+`console needs=TOOL` is left out where there is no such program, and no package of Python.
 
 In expected output, `...` stands for any text on a line, a line that is only `...` for any lines, and a time such as
 `0.12 s` for any time. Every command has to exit with 0; one that is meant to fail says so:
@@ -13,10 +14,12 @@ from __future__ import annotations
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -49,8 +52,13 @@ def steps(text: str) -> Iterator[Step | Given]:
         language, _, settings = block[1].strip().partition(" ")
         if settings.startswith("file="):
             yield Given(settings.removeprefix("file="), block[2])
-        elif language == "console":
+        elif language == "console" and _is_there(settings.removeprefix("needs=")):
             yield from _session(block[2], block.start(2))
+
+
+def _is_there(tool: str) -> bool:
+    """Whether a session that needs a tool can be run; without one, it always can."""
+    return not tool or shutil.which(tool) is not None or find_spec(tool) is not None
 
 
 def _session(body: str, offset: int) -> Iterator[Step]:

@@ -191,7 +191,8 @@ static int are_independent(const set *decided)
     return 1;
 }
 
-static unsigned long outcomes;
+/* How many effects have been looked at. */
+static unsigned long seen;
 
 typedef int (*judge)(const world *after, const set *waiting, const void *data);
 
@@ -206,7 +207,7 @@ static int after_effects(const world *w, const set *waiting, int first, int in_o
         for (effect = effects_of[action][0]; effect < effects_of[action][1]; effect++) {
             world after = *w;
             assign(&after, effects[effect]);
-            outcomes++;
+            seen++;
             if (!holds(&after, &left, data)) return 0;
             if (ONE_EFFECT) continue;
             if (!after_effects(&after, &left, in_order ? action + 1 : 0, in_order, holds, data)) return 0;
@@ -219,10 +220,10 @@ static int after_effects(const world *w, const set *waiting, int first, int in_o
 static int everywhere_next(const world *w, const set *decided, judge holds, const void *data)
 {
     const set nothing = { { 0 } };
-    const unsigned long before = outcomes;
+    const unsigned long before = seen;
     world end;
     if (!after_effects(w, decided, 0, are_independent(decided), holds, data)) return 0;
-    if (outcomes == before && !holds(w, &nothing, data)) return 0;
+    if (seen == before && !holds(w, &nothing, data)) return 0;
     end = after_nominal(w, decided);
     return holds(&end, &nothing, data);
 }
@@ -337,7 +338,7 @@ int main(void)
 {
     unsigned long number, valid = 0, safe = 0, missing = 0, forbidden = 0, lost = 0, trapped = 0;
     if (SEVERAL_STEPS) find_restored();
-    outcomes = 0;
+    seen = 0;
     for (number = 0; number < STATES; number++) {
         world w;
         set decided;
@@ -360,8 +361,8 @@ int main(void)
             show("safety not restored", &w, &trapped);
         }
     }
-    printf("%d states, %lu valid, %lu safe; %lu outcomes; longest run to a goal: %lu\\n", (int)STATES, valid, safe,
-           outcomes, longest);
+    printf("%d states, %lu valid, %lu safe; %lu effects; longest run to a goal: %lu\\n", (int)STATES, valid, safe,
+           seen, longest);
     printf("undecided %lu, not allowed %lu, goals not reached %lu, safety not restored %lu\\n", missing, forbidden,
            lost, trapped);
     return missing + forbidden + lost + trapped != 0;
