@@ -3,6 +3,8 @@
 import json
 import re
 import shlex
+import subprocess
+import sys
 from dataclasses import fields
 from pathlib import Path
 
@@ -22,6 +24,19 @@ def test_synth_then_verify(cli: Cli, tmp_path: Path) -> None:
     verify = cli("verify", "policy.json", "amr.tum")
     assert (verify.code, verify.err) == (0, "")
     assert (tmp_path / "policy.json").exists()
+
+
+def test_the_package_is_the_command(tmp_path: Path) -> None:
+    """`python -m tumato_symbolic` answers as `tumato-sym` does, with its exit codes."""
+    (tmp_path / "no.tum").write_text("BEGIN ACTIONS")
+    done = subprocess.run(
+        [sys.executable, "-m", "tumato_symbolic", "check", tmp_path / "no.tum"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 2
+    assert "TUM301" in done.stdout
 
 
 def test_no_policy_is_1_and_leaves_the_old_file_alone(cli: Cli, tmp_path: Path) -> None:
