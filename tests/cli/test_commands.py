@@ -87,6 +87,7 @@ def test_a_module_and_a_line_make_a_command(cli: Cli, tmp_path: Path) -> None:
         ("--times 4", "tumato-sym: error: count-bytes: --times is for people who doubt"),
         ("--output amr.tum", "TUM118"),
         ("--output nowhere/copy", "TUM510"),
+        ("--frobnicate", "tumato-sym count-bytes: error: unrecognized arguments: --frobnicate"),
     ):
         ran = cli("count-bytes", "amr.tum", *words.split())
         assert (ran.code, expected in ran.err) == (2, True), words

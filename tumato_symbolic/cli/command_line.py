@@ -85,6 +85,19 @@ class _Parser(argparse.ArgumentParser):
             super().print_help(file)
 
 
+class _CommandParser(_Parser):
+    """The parser of one command: its own usage is shown where a word is unknown, not the program's."""
+
+    def parse_known_args(  # type: ignore[override]  # a subset of what argparse overloads, all that subparsers need
+        self, args: Sequence[str] | None = None, namespace: argparse.Namespace | None = None
+    ) -> tuple[argparse.Namespace, list[str]]:
+        """Refuse what is unknown here, before the parser of the program does."""
+        found, left = super().parse_known_args(args, namespace)
+        if left:
+            self.error(f"unrecognized arguments: {' '.join(left)}")
+        return found, left
+
+
 class _Version(argparse.Action):
     """Print the version, which is looked up only now."""
 
@@ -118,7 +131,7 @@ def _parser(typed: str | None) -> argparse.ArgumentParser:
     parser.add_argument(
         "--version", action=_Version, nargs=0, default=argparse.SUPPRESS, help="show the version and exit"
     )
-    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True, parser_class=_CommandParser)
     for name, purpose in COMMANDS.items():
         if name != typed:
             commands.add_parser(name, help=purpose)
