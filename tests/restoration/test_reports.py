@@ -75,6 +75,21 @@ def test_what_would_restore_is_told() -> None:
     }
 
 
+def test_what_no_bound_restores_is_told() -> None:
+    """Under `bounded`: whether repetition leads back, or nothing does."""
+    idle = RETRY.replace("nominal effects: M is off", "nominal effects: none")
+    for text, line in (
+        (RETRY, "`restoration: fair` in CONFIG: it, if nominal effects occur often enough"),
+        (idle, "for it, no setting: no sequence of actions leads back to safety without breaking another rule"),
+    ):
+        spec = restoring(text, "bounded")
+        outcome = synthesize(spec)
+        assert isinstance(outcome, Unrealizable)
+        assert outcome.restorability is not None
+        told = list(restorable_lines(Place(spec, "spec.tum"), outcome.restorability))
+        assert told == ["What would restore this state:", f"  {line}"]
+
+
 def test_the_report_of_synth_says_how_to_judge_it() -> None:
     """What overrules the specification is handed on to `verify`."""
     spec = restoring(VALVES, "bounded")

@@ -54,9 +54,39 @@ def test_two_robots() -> None:
     assert only.efforts == (((2, 2), 48), ((3, 2), 48), ((4, 3), 16))
 
 
-def test_where_all_is_restored_or_several_steps_may_be_taken_nothing_is_said() -> None:
+def test_where_no_bound_can_be_kept_repetition_may_do() -> None:
+    """Under `bounded`: from where `fair` would restore safety, and from where nothing would."""
+    bounded = replace(parse(RETRY), restoration="bounded")
+    assert {cure: each.count for cure, each in cured(bounded).items()} == {"fair": 1}
+    idle = replace(parse(RETRY.replace("nominal effects: M is off", "nominal effects: none")), restoration="bounded")
+    assert {cure: each.count for cure, each in cured(idle).items()} == {"nothing": 1}
+
+
+@pytest.mark.parametrize("seed", range(6100, 6115))
+def test_generated_under_bounded(seed: int) -> None:
+    """Every state that no bound restores is told once, with whether `fair` would."""
+    spec = replace(random_spec(seed, RESTORING), restoration="bounded")
+    if count_states(spec) > 48:
+        pytest.skip("the explicit meaning takes long")
+    world = World(spec, spec.ordering)
+    stuck = {state for state in world.valid if state not in world.safe} - world.restorable
+    fairly = stuck & _restored(spec, "fair")
+    diagnosis = found(spec)
+    if diagnosis is None:
+        assert not stuck
+        return
+    told = {
+        each.cure: {state for state in world.valid if diagnosis.states.evaluate(each.root, state)}
+        for each in diagnosis.cured
+    }
+    assert told == {cure: states for cure, states in (("fair", fairly), ("nothing", stuck - fairly)) if states}
+    assert not diagnosis.joint
+
+
+def test_where_all_is_restored_or_nothing_less_can_be_asked_nothing_is_said() -> None:
     """What is unrealizable for another reason has no diagnosis, and it can be left out."""
-    assert found(replace(parse(RETRY), restoration="bounded")) is None
+    idle = RETRY.replace("nominal effects: M is off", "nominal effects: none")
+    assert found(replace(parse(idle), restoration="fair")) is None
     outcome = synthesize(parse(VALVES), certify=False, diagnose=False)
     assert isinstance(outcome, Unrealizable)
     assert outcome.restorability is None

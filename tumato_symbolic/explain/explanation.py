@@ -143,7 +143,7 @@ class Explanation:
     `repairs_complete`: there are no other ways to drop, of those that were asked for. `unavoidable` says why there is
     none. `others_untried`: the search for repairs that keep all state rules was cut short. `finished` are the stages
     that have said all they can, `left_out` those that were cut short; while work goes on, some are neither.
-    `restorability` tells what would restore the states that one step does not restore.
+    `restorability` tells what would restore the states that cannot be restored as asked.
     """
 
     spec: Spec

@@ -34,7 +34,7 @@ def _cured(place: Place, cured: Cured, whole: int) -> str:
         case "fair":
             return f"`restoration: fair` in CONFIG: {of}, if nominal effects occur often enough"
         case _:
-            return f"no setting: {of}; no sequence of actions leads back to safety without breaking another rule"
+            return f"for {of}, no setting: no sequence of actions leads back to safety without breaking another rule"
 
 
 def _joint(place: Place, joint: JointAction, whole: int) -> str:

@@ -1,4 +1,4 @@
-"""What would restore the states that cannot be restored in one step (`docs/semantics.md`, section 9.8)."""
+"""What would restore the unsafe states that cannot be restored as asked (`docs/semantics.md`, section 9.8)."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 from tumato_symbolic.diagrams import Diagram, DiagramBuilder, Reference
-from tumato_symbolic.game import Problem, Restorer
+from tumato_symbolic.game import Problem, Restorer, alone
 from tumato_symbolic.semantics import Effort, State
 from tumato_symbolic.spec import Action, Assignment, Spec
 from tumato_symbolic.symbolic import Bdd, Extractor, build_steps, encode
@@ -60,8 +60,9 @@ class JointAction:
 
 @dataclass(frozen=True, slots=True)
 class Restorability:
-    """What would restore the unsafe states where no set of actions is allowed under `one_step`.
+    """What would restore the unsafe states that are not restored as asked.
 
+    Under `one_step` no set of actions is allowed in them; under `bounded` they have no way back.
     Whether runs from there reach their goals as well is another matter.
     """
 
@@ -71,7 +72,9 @@ class Restorability:
 
 
 def restorability(problem: Problem) -> Restorability | None:
-    """What would restore the states of a problem that cannot be; None where all can, or several steps may be taken."""
+    """What would restore the states of a problem that cannot be; None where all can, or nothing less can be asked."""
+    if problem.spec.restoration == "bounded":
+        return _by_repetition(problem)
     steps = problem.steps
     stuck = steps.unsafe & ~steps.states_of(steps.allowed)
     if problem.spec.restores_stepwise or stuck == problem.false:
@@ -89,13 +92,33 @@ def restorability(problem: Problem) -> Restorability | None:
     for cure, states in (*parts, ("nothing", stuck & ~surely & ~nominally)):
         if states != problem.false:
             counted = tuple((effort, count(part)) for effort, part in efforts if part != problem.false)
-            example, root = problem.encoding.first_state(states), extract.function([(True, states)])
-            cured.append(Cured(cure, count(states), example, root, counted if cure == "bounded" else ()))
+            cured.append(_cured(problem, extract, cure, states, counted if cure == "bounded" else ()))
     return Restorability(builder.finish(), tuple(cured), tuple(_joint_actions(problem, stuck)))
 
 
+def _by_repetition(problem: Problem) -> Restorability | None:
+    """Of the states that no bounded number of steps restores, those from where `fair` would."""
+    stuck = problem.steps.unsafe & ~alone(problem).restorable
+    if stuck == problem.false:
+        return None
+    problem.context.tell("looking for other ways to restore safety")
+    fairly = stuck & alone(_several_steps(problem)).restorable
+    builder: DiagramBuilder[bool] = DiagramBuilder(problem.encoding.order, (False, True))
+    extract = Extractor(problem.encoding, builder, default=False)
+    parts: list[tuple[Cure, Bdd]] = [("fair", fairly), ("nothing", stuck & ~fairly)]
+    cured = tuple(_cured(problem, extract, cure, states) for cure, states in parts if states != problem.false)
+    return Restorability(builder.finish(), cured, ())
+
+
+def _cured(
+    problem: Problem, extract: Extractor[bool], cure: Cure, states: Bdd, efforts: tuple[tuple[Effort, int], ...] = ()
+) -> Cured:
+    root = extract.function([(True, states)])
+    return Cured(cure, problem.encoding.count_states(states), problem.encoding.first_state(states), root, efforts)
+
+
 def _several_steps(problem: Problem) -> Problem:
-    """The problem with `fair` in place of `one_step`, and without goals."""
+    """The problem with `fair` in place of what it asks, and without goals."""
     spec = replace(problem.spec, restoration="fair")
     steps = build_steps(replace(problem.encoding, spec=spec), problem.steps.ordering)
     return Problem(spec, steps, problem.regions, ())

@@ -87,7 +87,7 @@ class Unrealizable:
     """There is no policy: these states fail, or these goals conflict; `certificate` proves it.
 
     It is None where `limit` was met before it was made. `restorability` tells what would restore the states that
-    cannot be restored in one step, where there are any and that was asked for.
+    cannot be restored as the specification asks, where there are any and that was asked for.
     """
 
     failures: tuple[Failure, ...]
