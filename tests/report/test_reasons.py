@@ -66,7 +66,7 @@ OPEN_DOOR, CLOSE_DOOR, UNLOCK, SWITCH_ON = range(4)
             BAD,
             {CLOSE_DOOR},
             "when close_door takes an alternative effect (no change; door.tum:17),\n"
-            "  `NOT (Door is open AND Lamp is on)` (door.tum:29) is broken",
+            "  `NOT (Door is open AND Lamp is on)` (door.tum:29) stays broken",
         ),
         (BAD, set(), "`NOT (Door is open AND Lamp is on)` (door.tum:29) stays broken"),
     ],
@@ -75,7 +75,7 @@ OPEN_DOOR, CLOSE_DOOR, UNLOCK, SWITCH_ON = range(4)
 def test_an_objection_is_a_sentence(state: tuple[int, int], actions: set[int], sentence: str) -> None:
     """Each kind of objection names the actions, the effects in their order, the rule and its line."""
     found = objections(PLACE.spec, state, frozenset(actions), "any")
-    assert objection_text(PLACE, next(found)) == sentence
+    assert objection_text(PLACE, next(found), state) == sentence
 
 
 def test_the_nearest_sets_come_first() -> None:

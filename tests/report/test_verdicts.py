@@ -1,15 +1,15 @@
 """Verdicts that no small example reaches."""
 
 from dataclasses import replace
-from pathlib import Path
 
 from tests.cli.inputs import CONFLICT
+from tests.repo.documents import ROOT
 from tumato_symbolic import Realizable, Undecided, Unrealizable, parse, synthesize, verify
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.report.synthesized import Synthesized, as_github, as_json, as_text
 from tumato_symbolic.verify.result import ProverName
 
-COIN = (Path(__file__).parents[2] / "examples" / "coin.tum").read_text(encoding="utf-8")
+COIN = (ROOT / "examples" / "coin.tum").read_text(encoding="utf-8")
 SPEC = parse(CONFLICT)
 OUTCOME = synthesize(SPEC)
 assert isinstance(OUTCOME, Unrealizable)
@@ -46,6 +46,30 @@ def test_github_names_the_prover() -> None:
         proof = verify(outcome.policy, spec, prover=prover)
         done = replace(GIVEN_UP, spec=spec, outcome=outcome, proof=proof, written=True)
         assert as_github(done) == f"::notice file=big.tum::realizable, {told}"
+
+
+def test_what_others_change_is_named_where_there_is_no_plan() -> None:
+    """A goal that depends on people fails where they are in the way, and the report says that no action moves them."""
+    text = """BEGIN STATE VECTOR state A can be no, yes state Door can be free, blocked END STATE VECTOR
+    BEGIN ACTIONS action go preconditions: Door is free nominal effects: A is yes END ACTIONS
+    BEGIN GOALS goal type: priority goal: A is yes END GOALS"""
+    told = "No action changes Door, and no plan waits for others: ask for less where a goal does."
+    push = " action push preconditions: A is yes nominal effects: Door is free END ACTIONS"
+    for variant, expected in ((text, True), (text.replace(" END ACTIONS", push), False)):
+        spec = parse(variant)
+        outcome = synthesize(spec)
+        assert isinstance(outcome, Unrealizable)
+        report = as_text(replace(GIVEN_UP, spec=spec, outcome=outcome), colour=False)
+        assert (told in report) == expected
+
+
+def test_a_policy_too_large_to_draw_is_shown_by_rules() -> None:
+    """The next command is `rules` where the report has no tree."""
+    for example, drawn in (("coin", True), ("forklift", False)):
+        spec = parse((ROOT / "examples" / f"{example}.tum").read_text(encoding="utf-8"))
+        outcome = synthesize(spec)
+        text = as_text(replace(GIVEN_UP, spec=spec, outcome=outcome, written=True, output="p.json"), colour=False)
+        assert ("What it does" in text, "tumato-sym rules p.json" in text) == (drawn, not drawn)
 
 
 def test_a_long_conflict_is_cut() -> None:

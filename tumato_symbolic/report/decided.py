@@ -142,7 +142,7 @@ def _sentence(place: Place, decision: Decision, other: Other) -> str:
     steps = other.run.steps if other.run else 0
     match other.verdict:
         case "forbidden" if other.objection is not None:
-            return objection_text(place, other.objection).replace("\n", "\n  ")
+            return objection_text(place, other.objection, decision.state).replace("\n", "\n  ")
         case "misses" if other.run is not None:
             return f"its run does not meet the goal ({_ENDS[other.run.end].lower()})"
         case "endless":

@@ -6,7 +6,7 @@ from textwrap import indent
 from typing import Final
 
 from tumato_symbolic.diagnostics import Code
-from tumato_symbolic.report.layout import count
+from tumato_symbolic.report.layout import count, enumeration
 from tumato_symbolic.report.objections import Place, broken_here, why_no_set
 from tumato_symbolic.semantics import named
 from tumato_symbolic.spec import Ordering, Spec
@@ -21,6 +21,7 @@ FAILURE_CODES: Final[dict[FailureKind, Code]] = {
 
 _STATES_IN_JSON = 100
 _STATES_IN_TEXT = 8
+_NAMES = 5
 
 
 def failure_text(place: Place, failure: Failure, ordering: Ordering) -> str:
@@ -86,7 +87,18 @@ def _no_plan(place: Place, failure: Failure) -> list[str]:
         f"Its goal is {place.goals(failure.example)}, and no run of allowed sets{length} reaches it.",
         "Give the robot an action towards the goal, or ask for less (`when … then goal: …`)"
         + ("." if bound is None else ", or raise max_plan_length."),
+        *_left_to_others(place),
     ]
+
+
+def _left_to_others(place: Place) -> list[str]:
+    """What no action changes, and a goal therefore cannot wait for."""
+    variables = (place.spec.variables[number] for number in sorted(place.spec.environment))
+    names = [variable.name for variable in variables if len(variable.values) > 1]
+    if not names:
+        return []
+    shown = [*names[:_NAMES], f"{len(names) - _NAMES:,} more"] if len(names) > _NAMES else names
+    return [f"No action changes {enumeration(shown)}, and no plan waits for others: ask for less where a goal does."]
 
 
 def _conflict(place: Place, failure: Failure) -> list[str]:

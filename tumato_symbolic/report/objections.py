@@ -77,8 +77,11 @@ def _effectuation(place: Place, step: EffectStep) -> str:
     return f"{action.name} takes an alternative effect ({written}; {place.file}:{source.span.line})"
 
 
-def objection_text(place: Place, objection: Objection) -> str:
-    """One objection to a set, as a clause without a full stop; an effect sequence has a second, indented line."""
+def objection_text(place: Place, objection: Objection, start: State | None = None) -> str:
+    """One objection to a set, as a clause without a full stop; an effect sequence has a second, indented line.
+
+    `start` is where the set would be executed: a rule that is broken there, and all the way, *stays* broken.
+    """
     names = [place.spec.actions[number].name for number in objection.actions]
     rule = place.rule(objection.rule) if objection.rule else ""
     match objection.kind:
@@ -93,7 +96,8 @@ def objection_text(place: Place, objection: Objection) -> str:
         case "reaction-rule":
             return f"the reaction rule {rule} forbids it"
         case "unsafe" if objection.outcome:
-            return f"when {effects_text(place, objection.outcome)},\n  {rule} is broken"
+            verb = "stays" if _never_held(objection, start) else "is"
+            return f"when {effects_text(place, objection.outcome)},\n  {rule} {verb} broken"
         case "unsafe":
             return f"{rule} stays broken"
         case "falsified":
@@ -101,6 +105,13 @@ def objection_text(place: Place, objection: Objection) -> str:
             return f"when {effects_text(place, objection.outcome)},\n  {lost}"
         case "nominal-unsafe":
             return f"after all nominal effects, {rule} is broken"
+
+
+def _never_held(objection: Objection, start: State | None) -> bool:
+    """Whether the rule is broken from the start to the end of the outcome."""
+    assert objection.rule is not None
+    states = [start, *(step.after for step in objection.outcome)] if start is not None else []
+    return bool(states) and not any(holds(objection.rule.formula, state) for state in states)
 
 
 def broken_here(place: Place, state: State) -> str:
@@ -119,12 +130,12 @@ def why_no_set(place: Place, state: State, ordering: Ordering, limit: int = 3) -
     from tumato_symbolic.explain.near_misses import near_misses
 
     nearest = near_misses(place.spec, state, ordering, limit).misses
-    lines = [f"{place.actions(near.chosen)}: {_together(place, near)}" for near in nearest]
+    lines = [f"{place.actions(near.chosen)}: {_together(place, state, near)}" for near in nearest]
     if len(nearest) == 1:
         lines.append("anything else: no action has preconditions that hold here")
     return lines
 
 
-def _together(place: Place, near: NearMiss) -> str:
-    first, more = objection_text(place, near.objections[0]), len(near.objections) - 1
+def _together(place: Place, state: State, near: NearMiss) -> str:
+    first, more = objection_text(place, near.objections[0], state), len(near.objections) - 1
     return f"{first} (and {more} more)" if more else first

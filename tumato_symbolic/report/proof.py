@@ -113,7 +113,7 @@ def refutation_text(place: Place, refutation: Refutation) -> str:
     spec = place.spec
     match refutation:
         case Refutation(kind="not-allowed", objection=objection) if objection is not None:
-            lines.append(f"which is not allowed: {objection_text(place, objection)}")
+            lines.append(f"which is not allowed: {objection_text(place, objection, state)}")
         case Refutation(kind="goal-missed", run=run) if run is not None:
             lines += [
                 f"but its goal is {place.goals(state)}",

@@ -118,12 +118,13 @@ def _realizable(done: Synthesized, outcome: Realizable, paint: Paint) -> list[st
         f"  effects: {ORDERINGS[statistics.ordering]}",
         *_engine(statistics),
     ]
-    parts = ["\n".join(head), *_drawn(done, outcome)]
+    drawn = _drawn(done, outcome)
+    parts = ["\n".join(head), *drawn]
     if done.proof is None:
         parts.append(paint.doubt("Not proved: --no-verify was given."))
     else:
         parts.append(proof_text(done.proof, statistics.valid, done.proved_in, paint))
-    return [*parts, _next(done, outcome)]
+    return [*parts, _next(done, outcome, shown=bool(drawn))]
 
 
 def _drawn(done: Synthesized, outcome: Realizable) -> list[str]:
@@ -137,14 +138,15 @@ def _drawn(done: Synthesized, outcome: Realizable) -> list[str]:
     return ["\n".join((f"What it does{legend}:", *(f"  {line}" for line in lines)))]
 
 
-def _next(done: Synthesized, outcome: Realizable) -> str:
+def _next(done: Synthesized, outcome: Realizable, *, shown: bool) -> str:
     if not done.written:
         return "The policy was not written. With --no-verify it would be written without a proof."
     if done.output == "-":
         return "The policy is on the standard output."
     file, example = shlex.quote(done.output), some_decided(outcome.policy)
     state = "VARIABLE=VALUE …" if example is None else done.place.state(example)
-    lines = [f"{done.output} is written. Next:", f"  tumato-sym decide {file} {state}"]
+    lines = [f"{done.output} is written. Next:", *([] if shown else [f"  tumato-sym rules {file}"])]
+    lines.append(f"  tumato-sym decide {file} {state}")
     overrule = _overruling(done, outcome.statistics.ordering)
     return "\n".join((*lines, f"  tumato-sym verify {file} {shlex.quote(done.source.name)}{overrule}"))
 
