@@ -58,11 +58,11 @@ def test_changed_policies_of_the_robot(tmp_path: Path) -> None:
     changed = [
         {**rows, state: frozenset(chosen)}
         for number, state in enumerate(rows)
-        for chosen in ((), (number % 8,), (6, (number + 3) % 6))
+        for chosen in ((number % 8,), (6, (number + 3) % 6))
     ]
     holed = [{other: chosen for other, chosen in rows.items() if other != state} for state in list(rows)[:4]]
     _, wrong = _compare([Case(made.spec, each, "any") for each in [*changed, *holed]], tmp_path)
-    assert wrong > 70
+    assert wrong > 50
 
 
 @needs_nusmv

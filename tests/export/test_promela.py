@@ -14,7 +14,6 @@ from tests.export.cases import generated, stepwise
 from tests.export.compiler import Case
 from tests.export.model_checkers import needs_spin, spin_accepts
 from tests.export.policies import example, random_request, request
-from tests.profiles import ALL_PROFILES
 from tumato_symbolic import parse
 from tumato_symbolic.diagnostics import Code, UserError
 from tumato_symbolic.export import promela
@@ -32,7 +31,7 @@ def _compare(cases: Sequence[Case], folder: Path) -> None:
 
 
 @needs_spin
-@pytest.mark.parametrize("name", ["amr", "brake", "concurrent", "nested_goals"])
+@pytest.mark.parametrize("name", ["amr", "brake"])
 def test_examples_right_and_wrong(name: str, tmp_path: Path) -> None:
     """The policy of an example is accepted; with a hole, or nothing done in some state, what the meaning says."""
     made = example(name)
@@ -46,10 +45,10 @@ def test_examples_right_and_wrong(name: str, tmp_path: Path) -> None:
 
 
 @needs_spin
-@pytest.mark.parametrize("profile", ALL_PROFILES)
+@pytest.mark.parametrize("profile", ["mixed", "concurrent"])
 def test_generated_policies(profile: str, tmp_path: Path) -> None:
     """Right and wrong ones, under both orderings."""
-    realizable = (found[:1] + found[-3:] for seed in range(260, 320) if (found := generated(profile, seed, 2)))
+    realizable = (found[:1] + found[-2:] for seed in range(260, 320) if (found := generated(profile, seed, 2)))
     _compare(list(chain.from_iterable(islice(realizable, 1))), tmp_path)
 
 
@@ -58,11 +57,11 @@ def test_generated_policies(profile: str, tmp_path: Path) -> None:
 def test_where_safety_takes_several_steps(restoration: Restoration, tmp_path: Path) -> None:
     """And with severities of state rules."""
     cases = stepwise(53, restoration, 2)
-    _compare([*cases[:3], *cases[-3:]], tmp_path)
+    _compare([*cases[:2], *cases[-2:]], tmp_path)
 
 
 @needs_spin
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(3))
 def test_nasty_names_are_read(seed: int, tmp_path: Path) -> None:
     """Words of Promela and of C, and names that are alike once joined, make a model that is searched to the end."""
     spin_accepts(promela.files(random_request(seed))[0], tmp_path)
