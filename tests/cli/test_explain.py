@@ -3,6 +3,8 @@
 import json
 from pathlib import Path
 
+import pytest
+
 from tests.cli.conftest import Cli
 
 STATE = ("S_Location=corridor", "S_Battery=low", "S_Load=free", "S_Conveyor=on")
@@ -66,20 +68,39 @@ def test_a_file_that_cannot_be_written_is_2(cli: Cli) -> None:
     assert "nowhere" in ran.err
 
 
-def test_sarif_names_rules_and_places(cli: Cli) -> None:
-    """Every result has a declared rule, a message and a region with 1-based columns; related places are numbered."""
-    for name in ("two_robots", "conflict", "no_plan", "conflicting_goals", "amr"):
-        log = json.loads(cli("explain", f"{name}.tum", "--output-format", "sarif").out)
-        assert log["version"] == "2.1.0"
-        (run,) = log["runs"]
-        rules = {rule["id"] for rule in run["tool"]["driver"]["rules"]}
-        assert bool(run["results"]) == (name != "amr")
-        for result in run["results"]:
-            assert result["ruleId"] in rules
-            assert result["level"] in ("error", "warning")
-            assert result["message"]["text"]
-            for place in (*result["locations"], *result.get("relatedLocations", ())):
-                region = place["physicalLocation"]["region"]
+SARIF = {
+    "explain two_robots.tum": True,
+    "explain conflict.tum": True,
+    "explain no_plan.tum": True,
+    "explain conflicting_goals.tum": True,
+    "explain amr.tum": False,
+    "synth two_robots.tum": True,
+    "synth amr.tum": False,
+    "check typo.tum warned.tum amr.tum": True,
+    "verify unsafe.json amr.tum": True,
+    "verify amr.json amr.tum": False,
+    "verify .": True,
+    "synth missing.tum": True,
+}
+"""Commands, and whether something is wrong."""
+
+
+@pytest.mark.parametrize("command", SARIF)
+def test_sarif_names_rules_and_places(cli: Cli, command: str) -> None:
+    """Every result has a declared rule, a message and a place; columns are 1-based; related places are numbered."""
+    log = json.loads(cli(*command.split(), "--output-format", "sarif").out)
+    assert log["version"] == "2.1.0"
+    (run,) = log["runs"]
+    rules = {rule["id"] for rule in run["tool"]["driver"]["rules"]}
+    assert bool(run["results"]) == SARIF[command]
+    for result in run["results"]:
+        assert result["ruleId"] in rules
+        assert result["level"] in ("error", "warning")
+        assert result["message"]["text"]
+        assert result["locations"] or "missing" in command
+        for place in (*result["locations"], *result.get("relatedLocations", ())):
+            region = place["physicalLocation"].get("region")
+            if region is not None:
                 assert (region["endLine"], region["endColumn"]) > (region["startLine"], region["startColumn"]) >= (1, 1)
 
 

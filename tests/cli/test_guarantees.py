@@ -87,7 +87,10 @@ def test_undecided_is_3(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
         "undecided",
         [],
     )
-    assert "::error file=tank.json::guarantees undecided: too large" in cli(*command, "--output-format", "github").out
+    assert (
+        "::error file=tank.json,title=guarantees undecided::guarantees undecided: too large"
+        in cli(*command, "--output-format", "github").out
+    )
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,8 @@ from tumato_symbolic.explain.explain import explain, explained
 from tumato_symbolic.explain.explanation import STAGES, Explanation, Found, Unexplained, stopped
 from tumato_symbolic.limits import Context, LimitReachedError, Limits
 from tumato_symbolic.report.explained import Explained, pieces
-from tumato_symbolic.report.explained_data import as_github, as_json
+from tumato_symbolic.report.explained_data import as_json, findings
+from tumato_symbolic.report.findings import as_github
 
 BROKEN = VARIANTS[3].text
 
@@ -66,7 +67,7 @@ def test_what_is_left_out_is_named() -> None:
         assert "Left out:" in "\n".join(pieces(_done(found), False))
         report = as_json(_done(found))
         assert [each["what"] for each in report["incomplete"]] == [each.stage for each in found.left_out]  # type: ignore[attr-defined]
-        assert "Left out" in as_github(_done(found))
+        assert "Left out" in as_github(findings(_done(found)))
 
 
 def test_work_that_is_ended_tells_what_is_there() -> None:

@@ -6,7 +6,8 @@ from tests.cli.inputs import CONFLICT
 from tests.repo.documents import ROOT
 from tumato_symbolic import Realizable, Undecided, Unrealizable, parse, synthesize, verify
 from tumato_symbolic.diagnostics import Source
-from tumato_symbolic.report.synthesized import Synthesized, as_github, as_json, as_text
+from tumato_symbolic.report.findings import as_github
+from tumato_symbolic.report.synthesized import Synthesized, as_json, as_text, findings
 from tumato_symbolic.verify.result import ProverName
 
 COIN = (ROOT / "examples" / "coin.tum").read_text(encoding="utf-8")
@@ -33,7 +34,7 @@ def test_undecided_names_the_limit() -> None:
     assert "No policy was written." in text
     report = as_json(GIVEN_UP)
     assert (report["verdict"], report["limit"], report["policy"]) == ("undecided", "too many goals", None)
-    assert as_github(GIVEN_UP) == "::error file=big.tum::undecided: too many goals"
+    assert as_github(findings(GIVEN_UP)) == "::error file=big.tum,title=undecided::undecided: too many goals"
 
 
 def test_github_names_the_prover() -> None:
@@ -45,7 +46,7 @@ def test_github_names_the_prover() -> None:
     for prover, told in named.items():
         proof = verify(outcome.policy, spec, prover=prover)
         done = replace(GIVEN_UP, spec=spec, outcome=outcome, proof=proof, written=True)
-        assert as_github(done) == f"::notice file=big.tum::realizable, {told}"
+        assert as_github(findings(done)) == f"::notice file=big.tum::realizable, {told}"
 
 
 def test_what_others_change_is_named_where_there_is_no_plan() -> None:

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable
 
 from tumato_symbolic.cli.console import note, wants_colour
 from tumato_symbolic.cli.options import CommandOptions
 from tumato_symbolic.cli.output import show_as
-from tumato_symbolic.diagnostics import Diagnostic, UserError, render
-from tumato_symbolic.report.findings import finding_json, github_command, github_commands
+from tumato_symbolic.diagnostics import UserError, render
+from tumato_symbolic.report.findings import finding_json, findings_of, undecided
 
 
 def show_undecided(why: str, options: CommandOptions) -> None:
@@ -19,8 +18,7 @@ def show_undecided(why: str, options: CommandOptions) -> None:
         options,
         text=lambda _: f"{file}: undecided: {why}.",
         json=lambda: {"verdict": "undecided", "limit": why},
-        github=lambda: github_command("error", f"undecided: {why}", file),
-        sarif=lambda: _sarif((), file),
+        findings=lambda: [undecided(why, file)],
     )
 
 
@@ -36,13 +34,5 @@ def show_user_error(error: UserError, options: CommandOptions) -> None:
             "verdict": "error",
             "diagnostics": [finding_json(diagnostic, name) for diagnostic in error.diagnostics],
         },
-        github=lambda: github_commands(error.diagnostics, name),
-        sarif=lambda: _sarif(error.diagnostics, name or options.specs[0]),
+        findings=lambda: findings_of(error.diagnostics, name),
     )
-
-
-def _sarif(diagnostics: Iterable[Diagnostic], file: str) -> dict[str, object]:
-    from tumato_symbolic import __version__
-    from tumato_symbolic.report.sarif import findings_sarif
-
-    return findings_sarif(diagnostics, file, __version__)

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
-from typing import Protocol, TypeVar
+from typing import TYPE_CHECKING, Protocol, TypeVar
 
 from tumato_symbolic.cli.console import note, wants_colour, write
 from tumato_symbolic.cli.options import CommandOptions
 from tumato_symbolic.limits import Context
 
+if TYPE_CHECKING:
+    from tumato_symbolic.report.findings import Finding
+
 Done_contra = TypeVar("Done_contra", contravariant=True)
 
 
 class Report(Protocol[Done_contra]):
-    """A module of `report`: one result for a person, for a program and for GitHub."""
+    """A module of `report`: one result for a person, for a program, and at its places."""
 
     def as_text(self, done: Done_contra, colour: bool) -> str:
         """For a person."""
@@ -23,8 +26,8 @@ class Report(Protocol[Done_contra]):
     def as_json(self, done: Done_contra) -> Mapping[str, object]:
         """For a program."""
 
-    def as_github(self, done: Done_contra) -> str:
-        """Workflow commands."""
+    def findings(self, done: Done_contra) -> Sequence[Finding]:
+        """For GitHub, and as SARIF."""
 
 
 def show(report: Report[Done_contra], done: Done_contra, options: CommandOptions) -> None:
@@ -33,7 +36,7 @@ def show(report: Report[Done_contra], done: Done_contra, options: CommandOptions
         options,
         text=partial(report.as_text, done),
         json=partial(report.as_json, done),
-        github=partial(report.as_github, done),
+        findings=partial(report.findings, done),
     )
 
 
@@ -42,20 +45,26 @@ def show_as(
     *,
     text: Callable[[bool], str] | None = None,
     json: Callable[[], Mapping[str, object]] | None = None,
-    github: Callable[[], str] | None = None,
-    sarif: Callable[[], Mapping[str, object]] | None = None,
+    findings: Callable[[], Sequence[Finding]] | None = None,
+    incomplete: Sequence[Mapping[str, object]] = (),
 ) -> None:
     """Print a report in the format that was asked for; only that is made. `text` is told whether to use colour.
+
+    GitHub and SARIF are given the findings, SARIF also what is `incomplete`.
 
     It goes to the standard output, or beside it where that is for what the command makes.
     """
     match options.output_format:
         case "json" if json is not None:
             shown = _dumped(json())
-        case "sarif" if sarif is not None:
-            shown = _dumped(sarif())
-        case "github" if github is not None:
-            shown = github()
+        case "sarif" if findings is not None:
+            from tumato_symbolic.report.sarif import as_sarif
+
+            shown = _dumped(as_sarif(findings(), incomplete))
+        case "github" if findings is not None:
+            from tumato_symbolic.report.findings import as_github
+
+            shown = as_github(findings())
         case "text" if text is not None:
             shown = text(wants_colour(sys.stderr if options.report_apart else sys.stdout))
         case other:

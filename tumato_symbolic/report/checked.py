@@ -1,4 +1,4 @@
-"""What `check` found, for a person, a program and GitHub."""
+"""What `check` found, for a person and for programs."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Diagnostic, Source, render
-from tumato_symbolic.report.findings import finding_json, github_command, github_commands
+from tumato_symbolic.report.findings import Finding, finding_json, findings_of
 from tumato_symbolic.report.layout import Paint, count
 from tumato_symbolic.semantics import count_states
 from tumato_symbolic.spec import Spec
@@ -66,9 +66,8 @@ def as_json(files: Sequence[Checked]) -> dict[str, object]:
     }
 
 
-def as_github(files: Sequence[Checked]) -> str:
-    """A workflow command for every finding, and one notice."""
-    commands = [github_commands(file.diagnostics, file.path) for file in files if file.diagnostics]
+def findings(files: Sequence[Checked]) -> list[Finding]:
+    """All that was found, and a notice."""
+    found = [each for file in files for each in findings_of(file.diagnostics, file.path)]
     failed = sum(file.failed for file in files)
-    commands.append(github_command("notice", f"{count(len(files), 'specification')} checked, {failed} with errors"))
-    return "\n".join(commands)
+    return [*found, Finding("notice", f"{count(len(files), 'specification')} checked, {failed} with errors")]

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
-from tumato_symbolic.diagnostics import Code, Span
+from tumato_symbolic.diagnostics import Span
 from tumato_symbolic.explain.additions import NewAction, NoGoalWhile, Setting
 from tumato_symbolic.explain.as_predicates import predicate_text
 from tumato_symbolic.explain.elements import Element, span_of, text_of
@@ -25,7 +24,7 @@ from tumato_symbolic.report.cubes import cube_json, cube_text
 from tumato_symbolic.report.element_roles import role
 from tumato_symbolic.report.explained import Explained
 from tumato_symbolic.report.failures import FAILURE_CODES
-from tumato_symbolic.report.findings import finding_json, github_command, github_commands
+from tumato_symbolic.report.findings import Finding, finding_json, findings_of, undecided
 from tumato_symbolic.report.layout import count
 from tumato_symbolic.report.possible_changes import added_lines, controlled, environment_text, left_out_lines
 from tumato_symbolic.report.restorable import restorable_json
@@ -198,17 +197,12 @@ def _restriction_json(spec: Spec, taken: Restriction) -> dict[str, object]:
     }
 
 
-@dataclass(frozen=True, slots=True)
-class Mark:
-    """A line to blame, with what to say about it and the other lines that belong to it."""
-
-    code: Code
-    message: str
-    span: Span | None
-    others: tuple[tuple[str, Span], ...] = ()
+def findings(done: Explained) -> list[Finding]:
+    """Warnings and lines to blame, and the verdict or what is realizable."""
+    return [*findings_of(done.warnings, done.source.name), *_blamed(done), *_main_findings(done)]
 
 
-def marks(done: Explained) -> Iterator[Mark]:
+def _blamed(done: Explained) -> Iterator[Finding]:
     """Every line of the first core of each reason; the lines of the goals where a core is empty."""
     if not isinstance(done.found, Explanation):
         return
@@ -219,7 +213,7 @@ def marks(done: Explained) -> Iterator[Mark]:
         told = list(_told(done, reason))
         for number, (sentence, span) in enumerate(told):
             others = tuple((text, other) for text, other in told[:number] + told[number + 1 :] if other is not None)
-            yield Mark(code, f"{head}\n{sentence}", span, others)
+            yield Finding("error", f"{head}\n{sentence}", done.source.name, span, code=code, related=others)
 
 
 def _told(done: Explained, reason: Reason) -> list[tuple[str, Span | None]]:
@@ -233,22 +227,24 @@ def _told(done: Explained, reason: Reason) -> list[tuple[str, Span | None]]:
     return found or [("no decision here leads to safety and to the goal", None)]
 
 
-def as_github(done: Explained) -> str:
-    """One workflow command for every line to blame, and one with the verdict."""
+def _main_findings(done: Explained) -> Iterator[Finding]:
     file = done.source.name
-    commands = [github_commands(done.warnings, file)] if done.warnings else []
-    commands += [github_command("error", mark.message, file, mark.span, mark.code.name) for mark in marks(done)]
     match done.found:
         case NothingToExplain():
-            commands.append(github_command("notice", "realizable: there is nothing to explain", file))
+            yield Finding("notice", "realizable: there is nothing to explain", file)
         case Unexplained(limit):
-            commands.append(github_command("error", f"undecided: {limit}", file))
+            yield undecided(str(limit), file)
         case Explanation() as found:
             if found.part is not None:
                 valid = count(found.statistics.valid, "valid state")
                 assumed = environment_text(done.spec, found.part)
                 message = f"{f'this {assumed}: ' if assumed else ''}realizable for {found.part.states:,} of {valid}"
-                commands.append(github_command("notice", f"{message}, assuming: {found.part.text}", file))
+                yield Finding("notice", f"{message}, assuming: {found.part.text}", file)
             if found.left_out:
-                commands.append(github_command("warning", "\n".join(left_out_lines(found)), file))
-    return "\n".join(commands)
+                yield Finding("warning", "\n".join(left_out_lines(found)), file, title="incomplete")
+
+
+def incomplete(done: Explained) -> list[dict[str, object]]:
+    """What was left out, and why."""
+    left_out = done.found.left_out if isinstance(done.found, Explanation) else ()
+    return [{"what": each.stage, "found": each.found, "why": each.why} for each in left_out]

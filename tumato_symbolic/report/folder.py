@@ -1,4 +1,4 @@
-"""What `verify` found in a folder of policies and certificates, for a person, a program and GitHub."""
+"""What `verify` found in a folder of policies and certificates, for a person and for programs."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Literal
 
 from tumato_symbolic.diagnostics import UserError, render
 from tumato_symbolic.report import unrealizable, verified
-from tumato_symbolic.report.findings import finding_json, github_command, github_commands
+from tumato_symbolic.report.findings import Finding, finding_json, findings_of, undecided
 from tumato_symbolic.report.layout import Paint, count, seconds
 from tumato_symbolic.report.proof import states_covered
 from tumato_symbolic.report.unrealizable import VerifiedUnrealizable
@@ -138,19 +138,19 @@ def _blamed(entry: Entry) -> str:
     return entry.error.source.name if entry.error is not None and entry.error.source is not None else entry.path
 
 
-def as_github(folder: Folder) -> str:
-    """The workflow commands of every file, and a notice with the summary."""
-    commands = []
+def findings(folder: Folder) -> list[Finding]:
+    """What was found of every file, and a notice with the summary."""
+    found: list[Finding] = []
     for entry in folder.entries:
         match entry.done:
             case Verified():
-                commands.append(verified.as_github(entry.done))
+                found += verified.findings(entry.done)
             case VerifiedUnrealizable():
-                commands.append(unrealizable.as_github(entry.done))
+                found += unrealizable.findings(entry.done)
             case None if entry.missing:
-                commands.append(github_command("error", _MISSING, entry.path, None, "missing"))
+                found.append(Finding("error", _MISSING, entry.path, title="missing"))
             case None if entry.error is not None:
-                commands.append(github_commands(entry.error.diagnostics, _blamed(entry)))
+                found += findings_of(entry.error.diagnostics, _blamed(entry))
             case None:
-                commands.append(github_command("error", f"undecided: {entry.limit}", entry.path))
-    return "\n".join([*commands, github_command("notice", _summary(folder))])
+                found.append(undecided(str(entry.limit), entry.path))
+    return [*found, Finding("notice", _summary(folder))]

@@ -1,4 +1,4 @@
-"""What `synth` found, for a person, a program and GitHub."""
+"""What `synth` found, for a person and for programs."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from tumato_symbolic.diagnostics import Diagnostic, Source
 from tumato_symbolic.policy import as_table, some_decided
 from tumato_symbolic.report.failures import FAILURE_CODES, failure_json, failure_line, failure_text
-from tumato_symbolic.report.findings import finding_json, github_command, github_commands
+from tumato_symbolic.report.findings import Finding, finding_json, findings_of, undecided
 from tumato_symbolic.report.layout import Paint, count, every, seconds
 from tumato_symbolic.report.objections import Place
 from tumato_symbolic.report.policy_tree import policy_tree
@@ -258,20 +258,19 @@ def _limit(done: Synthesized) -> str | None:
     return "the proof met its limits" if _verdict(done) == "undecided" else None
 
 
-def as_github(done: Synthesized) -> str:
-    """Warnings and failures at their lines, and one notice or error with the verdict."""
-    commands = [github_commands(done.warnings, done.source.name)] if done.warnings else []
+def findings(done: Synthesized) -> list[Finding]:
+    """Warnings at their lines, failures, and one notice or error with the verdict."""
     file, outcome = done.source.name, done.outcome
+    found = findings_of(done.warnings, file)
     match _verdict(done):
         case "realizable":
             proved = "not proved (--no-verify)" if done.proof is None else f"proved by {provers(done.proof)}"
-            commands.append(github_command("notice", f"realizable, {proved}", file))
+            found.append(Finding("notice", f"realizable, {proved}", file))
         case "undecided":
-            commands.append(github_command("error", f"undecided: {_limit(done)}", file))
+            found.append(undecided(str(_limit(done)), file))
     if isinstance(outcome, Unrealizable):
         ordering = outcome.statistics.ordering
         for failure in outcome.failures:
             text = failure_line(done.place, failure) if done.cut_short else failure_text(done.place, failure, ordering)
-            message = f"not realizable: {text}"
-            commands.append(github_command("error", message, file, title=FAILURE_CODES[failure.kind].name))
-    return "\n".join(commands)
+            found.append(Finding("error", f"not realizable: {text}", file, code=FAILURE_CODES[failure.kind]))
+    return found

@@ -1,4 +1,4 @@
-"""The verdict on a certificate of unrealizability, for a person, a program and GitHub."""
+"""The verdict on a certificate of unrealizability, for a person and for programs."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source
-from tumato_symbolic.report.findings import finding_json, github_command, github_commands
+from tumato_symbolic.report.findings import Finding, finding_json, findings_of
 from tumato_symbolic.report.layout import Paint, count, seconds
 from tumato_symbolic.report.proof import ORDERINGS
 from tumato_symbolic.semantics import action_names, named
@@ -137,19 +137,20 @@ def _misfits(done: VerifiedUnrealizable) -> list[Diagnostic]:
     return [Diagnostic(Code.TUM507, "certificate: it was made for another specification", help=help_)]
 
 
-def as_github(done: VerifiedUnrealizable) -> str:
+def findings(done: VerifiedUnrealizable) -> list[Finding]:
     """Warnings at their lines, and one notice or error with the verdict."""
-    commands = [github_commands(done.warnings, done.source.name)] if done.warnings else []
-    found = done.found
-    if not done.not_accepted and (misfits := _misfits(done)):
-        commands.append(github_commands(misfits, done.certificate))
+    found = findings_of(done.warnings, done.source.name)
+    if not done.not_accepted:
+        found += findings_of(_misfits(done), done.certificate)
+    return [*found, _main_finding(done)]
+
+
+def _main_finding(done: VerifiedUnrealizable) -> Finding:
+    found, name = done.found, done.source.name
     if done.not_accepted and found.verdict == "proved":
-        message = f"proves that {done.source.name} has no policy, but was made for another specification"
-        commands.append(github_command("error", message, done.certificate, title="certificate stale"))
-    elif found.verdict == "proved":
-        message = f"{done.source.name} is proved unrealizable: {proof_line(found)}"
-        commands.append(github_command("notice", message, done.certificate))
-    else:
-        message = f"{found.verdict} against {done.source.name}: {found.reason}"
-        commands.append(github_command("error", message, done.certificate, title=f"certificate {found.verdict}"))
-    return "\n".join(commands)
+        message = f"proves that {name} has no policy, but was made for another specification"
+        return Finding("error", message, done.certificate, title="certificate stale")
+    if found.verdict == "proved":
+        return Finding("notice", f"{name} is proved unrealizable: {proof_line(found)}", done.certificate)
+    message = f"{found.verdict} against {name}: {found.reason}"
+    return Finding("error", message, done.certificate, title=f"certificate {found.verdict}")

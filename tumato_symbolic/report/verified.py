@@ -1,4 +1,4 @@
-"""What `verify` found, for a person, a program and GitHub."""
+"""What `verify` found, for a person and for programs."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source
-from tumato_symbolic.report.findings import finding_json, github_command, github_commands
+from tumato_symbolic.report.findings import Finding, finding_json, findings_of
 from tumato_symbolic.report.guaranteed import guarantees_json, guarantees_lines, guarantees_summary
 from tumato_symbolic.report.layout import Paint, enumeration, seconds
 from tumato_symbolic.report.objections import Place
@@ -21,7 +21,14 @@ from tumato_symbolic.report.proof import (
 )
 from tumato_symbolic.spec import Restoration, Spec
 from tumato_symbolic.verify.guarantees.result import Guarantees
-from tumato_symbolic.verify.result import CertificateUse, OrderingSource, Verdict, Verification, properties_of
+from tumato_symbolic.verify.result import (
+    CertificateUse,
+    OrderingSource,
+    PropertyResult,
+    Verdict,
+    Verification,
+    properties_of,
+)
 
 _CERTIFICATES = {
     "used": "used in the proof",
@@ -152,32 +159,38 @@ def as_json(done: Verified) -> dict[str, object]:
     }
 
 
-def as_github(done: Verified) -> str:
+def findings(done: Verified) -> list[Finding]:
     """Warnings at their lines, one error for every property that is not proved, or one notice."""
-    commands = [github_commands(done.warnings, done.source.name)] if done.warnings else []
+    found = findings_of(done.warnings, done.source.name)
     open_results = [result for result in done.verification.properties if result.verdict != "proved"]
-    for result in open_results:
-        message = " ".join(property_line(result, Paint(False), done.verification).split())
-        span = None
-        file = done.policy
-        if result.refutation is not None:
-            message += "\n" + refutation_text(done.place, result.refutation)
-            if result.refutation.objection is not None and result.refutation.objection.rule is not None:
-                span, file = result.refutation.objection.rule.span, done.source.name
-        commands.append(github_command("error", message, file, span, f"{result.name} {result.verdict}"))
+    found += [_open(done, result) for result in open_results]
     if done.not_accepted:
         use = done.verification.certificate
-        commands.append(github_command("error", f"certificate: {_certificate(use)}", done.policy, None, use.status))
-        return "\n".join(commands)
-    if misfits := _misfits(done):
-        commands.append(github_commands(misfits, done.policy))
+        return [*found, Finding("error", f"certificate: {_certificate(use)}", done.policy, title=use.status)]
+    found += findings_of(_misfits(done), done.policy)
     if not open_results:
-        commands.append(
-            github_command(
-                "notice", f"proved against {done.source.name}, for {states_covered(done.verification)}", done.policy
-            )
-        )
+        message = f"proved against {done.source.name}, for {states_covered(done.verification)}"
+        found.append(Finding("notice", message, done.policy))
     if done.guarantees is not None:
-        kind = "error" if done.guarantees.status == "undecided" else "notice"
-        commands.append(github_command(kind, guarantees_summary(done.guarantees), done.policy))
-    return "\n".join(commands)
+        found.append(_guarantees(done.guarantees, done.policy))
+    return found
+
+
+def _guarantees(guarantees: Guarantees, policy: str) -> Finding:
+    summary = guarantees_summary(guarantees)
+    if guarantees.status == "undecided":
+        return Finding("error", summary, policy, title="guarantees undecided")
+    return Finding("notice", summary, policy)
+
+
+def _open(done: Verified, result: PropertyResult) -> Finding:
+    """A property that is not proved; where a rule is broken, at the rule."""
+    message = " ".join(property_line(result, Paint(False), done.verification).split())
+    title, refutation = f"{result.name} {result.verdict}", result.refutation
+    if refutation is None:
+        return Finding("error", message, done.policy, title=title)
+    message += "\n" + refutation_text(done.place, refutation)
+    rule = None if refutation.objection is None else refutation.objection.rule
+    if rule is None:
+        return Finding("error", message, done.policy, title=title)
+    return Finding("error", message, done.source.name, rule.span, title)

@@ -39,7 +39,7 @@ class Options(CommandOptions):
     restoration: Restoration | None = arguments.restoration()
     timeout: float | None = arguments.timeout()
     memory: int | None = arguments.memory()
-    output_format: OutputFormat = arguments.output_format("json", "github")
+    output_format: OutputFormat = arguments.output_format("json", "github", "sarif")
 
     shows_progress: ClassVar[bool] = False
 
@@ -69,7 +69,7 @@ def _report(files: Sequence[Checked], options: Options, undecided: str | None = 
         options,
         text=lambda colour: checked.as_text(files, colour),
         json=lambda: {**checked.as_json(files), **more},
-        github=lambda: checked.as_github(files),
+        findings=lambda: checked.findings(files),
     )
     if undecided is not None:
         note(f"tumato-sym: {undecided}")

@@ -151,14 +151,13 @@ def _ended(known: _Known, options: Options) -> int:
     if options.output_format == "text":
         _written(known, options)
     else:
-        from tumato_symbolic import __version__
-        from tumato_symbolic.report import explained_data, sarif
+        from tumato_symbolic.report import explained_data
 
         show_as(
             options,
             json=lambda: explained_data.as_json(known.done),
-            github=lambda: explained_data.as_github(known.done),
-            sarif=lambda: sarif.as_sarif(known.done, __version__),
+            findings=lambda: explained_data.findings(known.done),
+            incomplete=explained_data.incomplete(known.done),
         )
     return _code(known)
 

@@ -58,7 +58,7 @@ class Options(CommandOptions):
     prover: ProverName = arguments.prover()
     jobs: int | None = arguments.jobs("the proof of a large policy")
     profile: bool = arguments.profile()
-    output_format: OutputFormat = arguments.output_format("json", "github")
+    output_format: OutputFormat = arguments.output_format("json", "github", "sarif")
 
     def targets(self) -> Iterator[Target]:
         """The policy, and the certificate that there is none."""

@@ -101,7 +101,7 @@ class Options(CommandOptions):
         help="write a certificate of what is guaranteed, for proofs/checker.py; implies --guarantees",
         writes=Target("certificate", "--write-guarantees", "guarantees.json"),
     )
-    output_format: OutputFormat = arguments.output_format("json", "github")
+    output_format: OutputFormat = arguments.output_format("json", "github", "sarif")
 
     @property
     def wants_guarantees(self) -> bool:
