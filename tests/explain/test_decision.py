@@ -13,8 +13,18 @@ POLICY = Decisions(SPEC, bind(Policy.load(AMR_POLICY), SPEC))
 def test_the_goals_told_are_the_active_ones() -> None:
     """In every state, the goals that are told as active are `Γ(s)`."""
     for state in all_states(SPEC):
-        told = {SPEC.bodies.index(note.body) for note in goal_notes(SPEC, state) if note.active and note.body}
-        assert told == active_goals(SPEC, state)
+        told = {note.body.formula for note in goal_notes(SPEC, state) if note.active and note.body}
+        assert told == {SPEC.bodies[body].formula for body in active_goals(SPEC, state)}
+
+
+def test_a_goal_is_told_with_its_own_line() -> None:
+    """Two goals may ask for the same; each stands where it stands."""
+    spec = parse(
+        "BEGIN STATE VECTOR state S can be a, b, c END STATE VECTOR BEGIN GOALS goal type: priority\n"
+        "when S is a then goal: true\nwhen S is b then goal: true\nEND GOALS"
+    )
+    lines = [[note.body.span.line for note in goal_notes(spec, (value,)) if note.body] for value in (0, 1, 2)]
+    assert lines == [[2], [3], []]
 
 
 def test_the_run_ends_in_the_goal_and_others_are_judged() -> None:
