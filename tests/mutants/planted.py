@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -71,7 +71,7 @@ def _predecessor(patch: pytest.MonkeyPatch) -> None:
     """What a nominal effect writes into a variable of several bits is traced back with one of them flipped."""
     write = Encoding.assignment_bits
 
-    def flipped(encoding: Encoding, effect: Any) -> dict[str, bool]:
+    def flipped(encoding: Encoding, effect: Any) -> Mapping[str, bool]:
         bits = write(encoding, effect)
         return bits if len(bits) < 2 else {**bits, (last := list(bits)[-1]): not bits[last]}
 

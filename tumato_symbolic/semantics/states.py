@@ -7,7 +7,7 @@ from itertools import product
 from math import prod
 from typing import TypeAlias
 
-from tumato_symbolic.spec import And, Assignment, Constant, Executing, Formula, Iff, Is, Not, Or, Rule, Spec
+from tumato_symbolic.spec import And, Assignment, Executing, Formula, Iff, Is, Not, Or, Rule, Spec
 
 State: TypeAlias = tuple[int, ...]
 """One value number for every variable, in the order of declaration."""
@@ -19,22 +19,29 @@ NOTHING: ActionSet = frozenset()
 
 
 def holds(formula: Formula, state: State, executed: ActionSet = NOTHING) -> bool:
-    """Whether `formula` is true in `state` while the actions `executed` run."""
-    match formula:
-        case Is(variable, value):
-            return state[variable] == value
-        case Constant(value):
-            return value
-        case Executing(action):
-            return action in executed
-        case Not(operand):
-            return not holds(operand, state, executed)
-        case And(operands):
-            return all(holds(part, state, executed) for part in operands)
-        case Or(operands):
-            return any(holds(part, state, executed) for part in operands)
-        case Iff(left, right):
-            return holds(left, state, executed) == holds(right, state, executed)
+    """Whether `formula` is true in `state` while the actions `executed` run.
+
+    Nothing is asked as often, so that it loops and compares types: that takes a fifth of the time of patterns.
+    """
+    if isinstance(formula, Is):
+        return state[formula.variable] == formula.value
+    if isinstance(formula, And):
+        for part in formula.operands:  # noqa: SIM110
+            if not holds(part, state, executed):
+                return False
+        return True
+    if isinstance(formula, Or):
+        for part in formula.operands:  # noqa: SIM110
+            if holds(part, state, executed):
+                return True
+        return False
+    if isinstance(formula, Not):
+        return not holds(formula.operand, state, executed)
+    if isinstance(formula, Executing):
+        return formula.action in executed
+    if isinstance(formula, Iff):
+        return holds(formula.left, state, executed) == holds(formula.right, state, executed)
+    return formula.value
 
 
 def apply(assignment: Assignment, state: State) -> State:

@@ -77,11 +77,11 @@ def takes_effect(spec: Spec, chosen: ActionSet) -> bool:
 def nominal_agrees(spec: Spec, chosen: ActionSet) -> bool:
     """Whether no variable is given two different values by the nominal effects of `chosen`."""
     written: dict[int, int] = {}
-    return all(
-        written.setdefault(variable, value) == value
-        for action in chosen
-        for variable, value in spec.actions[action].nominal
-    )
+    for action in chosen:
+        for variable, value in spec.actions[action].nominal:
+            if written.setdefault(variable, value) != value:
+                return False
+    return True
 
 
 def successor(spec: Spec, state: State, chosen: ActionSet) -> State:

@@ -34,7 +34,7 @@ def _first_alone(encoding: Encoding, relation: Bdd) -> Bdd:
     manager = encoding.manager
     result = decided = manager.false
     for action in range(len(encoding.spec.actions)):
-        choice = _all_idle(encoding) | encoding.action_bits(action)
+        choice = {**_all_idle(encoding), **encoding.action_bits(action)}
         states = manager.cofactor(relation, choice) & ~decided
         if states != manager.false:
             result = result | (states & manager.cube(choice))

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 from tumato_symbolic.limits import Context
 from tumato_symbolic.semantics import ActionSet, State, exclusive_groups
@@ -50,8 +50,11 @@ class Encoding:
         """The bits of all groups."""
         return [bit for group in self.groups for bit in group.bits]
 
-    def assignment_bits(self, assignment: Assignment) -> dict[str, bool]:
+    def assignment_bits(self, assignment: Assignment) -> Mapping[str, bool]:
         """An effect as constants for bits."""
+        if len(assignment) == 1:
+            variable, number = assignment[0]
+            return number_bits(self.state_bits[variable], number)
         return {
             bit: value
             for variable, number in assignment
@@ -70,7 +73,7 @@ class Encoding:
         """The choice of no action in a group, as constants for its bits."""
         return dict.fromkeys(group.bits, False)
 
-    def action_bits(self, action: int) -> dict[str, bool]:
+    def action_bits(self, action: int) -> Mapping[str, bool]:
         """The choice of an action, as constants for its group's bits."""
         group, choice = self.choice_of[action]
         return number_bits(self.groups[group].bits, choice)
@@ -100,7 +103,7 @@ class Encoding:
         return found
 
     @cached_property
-    def nominal_writes(self) -> list[list[tuple[dict[str, bool], Bdd]]]:
+    def nominal_writes(self) -> list[list[tuple[Mapping[str, bool], Bdd]]]:
         """`nominal_moves` with the constants for bits that stand for what is written."""
         return [[(self.assignment_bits(effect), choices) for effect, choices in moves] for moves in self.nominal_moves]
 
@@ -201,7 +204,8 @@ class Encoding:
         return self.manager.count(states, self.all_state_bits)
 
 
-def number_bits(bits: tuple[str, ...], number: int) -> dict[str, bool]:
+@lru_cache(maxsize=4096)
+def number_bits(bits: tuple[str, ...], number: int) -> Mapping[str, bool]:
     """A number in binary, most significant bit first."""
     return {bit: bool(number >> (len(bits) - 1 - position) & 1) for position, bit in enumerate(bits)}
 
