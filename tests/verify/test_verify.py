@@ -4,6 +4,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
+import z3
 
 from tests.semantics.build import Build, chosen, constraint, priority, when
 from tests.verify.policies import certified, exact_ranks
@@ -273,12 +274,8 @@ def test_a_diagram_is_judged_like_its_table() -> None:
 
 def test_ctrl_c_stops_the_proof(monkeypatch: pytest.MonkeyPatch) -> None:
     """Z3 takes the signal and answers unknown; that is an interrupt, not an undecided obligation."""
-
-    class Interrupted:
-        def __getattr__(self, name: str) -> Any:
-            return lambda *_: {"check": "unknown", "reason_unknown": "interrupted from keyboard"}.get(name)
-
-    monkeypatch.setattr("z3.Solver", lambda *_: Interrupted())
+    monkeypatch.setattr(z3.Solver, "check", lambda _: z3.unknown)
+    monkeypatch.setattr(z3.Solver, "reason_unknown", lambda _: "interrupted from keyboard")
     spec, rows = _ring()
     with pytest.raises(KeyboardInterrupt):
         verify(policy_from_rows(spec, rows), spec)
