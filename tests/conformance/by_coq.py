@@ -6,21 +6,18 @@ import re
 import shutil
 import subprocess
 from collections.abc import Iterable, Iterator
-from functools import cache
 from itertools import chain
-from tempfile import TemporaryDirectory
 from weakref import finalize
 
 from tests.conformance.roles import Rows
 from tests.conformance.world import World
-from tests.export.compiler import COQC, SOURCES
+from tests.export.compiler import COQC, Library
 from tumato_symbolic.export import coq
 from tumato_symbolic.semantics import ActionSet, Effort, State, is_valid
 from tumato_symbolic.spec import Ordering, Spec
 
 TOPLEVEL = shutil.which("coqtop") if COQC else None
 
-_NEEDED = ("Semantics", "Checker")
 _HEAD = "From Coq Require Import Bool List NArith. From Tumato Require Import Semantics Checker. Import ListNotations."
 
 
@@ -189,17 +186,8 @@ class Session:
 
 
 def compiled() -> str:
-    """A folder with the two files, compiled."""
-    return _library().name
-
-
-@cache
-def _library() -> TemporaryDirectory[str]:
-    folder = TemporaryDirectory()
-    for name in _NEEDED:
-        shutil.copy(SOURCES / f"{name}.v", folder.name)
-        subprocess.run([str(COQC), "-q", "-R", ".", "Tumato", f"{name}.v"], cwd=folder.name, check=True)
-    return folder
+    """A folder with the two files that compute, compiled."""
+    return str(Library.shared("Checker.vo").folder)
 
 
 def _end(process: subprocess.Popen[str]) -> None:

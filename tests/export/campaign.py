@@ -6,11 +6,9 @@ Prints how many were right and wrong; exits with 1 if Coq and the explicit meani
 from __future__ import annotations
 
 import argparse
-import tempfile
 import time
 from collections.abc import Iterator, Sequence
 from itertools import count, islice
-from pathlib import Path
 
 from tests.checker.stepwise import MODES
 from tests.export.cases import generated, is_right, stepwise
@@ -34,10 +32,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--theorems", type=int, default=20, help="of how many the theorem is compiled (default 20)")
     parser.add_argument("--seed", type=int, default=0, help="the first seed (default 0)")
     options = parser.parse_args(arguments)
-    with tempfile.TemporaryDirectory() as folder:
-        library = Library.copy_to(Path(folder))
-        assert library.build().returncode == 0
-        return _run(library, options.policies, options.theorems, options.seed)
+    return _run(Library.shared(), options.policies, options.theorems, options.seed)
 
 
 def _run(library: Library, policies: int, theorems: int, seed: int) -> int:

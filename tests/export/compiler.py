@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import fcntl
 import re
 import shutil
 import subprocess
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
+from hashlib import sha256
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 
@@ -16,7 +20,9 @@ from tumato_symbolic.policy import policy_from_rows
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import Ordering, Spec
 
-SOURCES = Path(__file__).parents[2] / "proofs" / "coq"
+ROOT = Path(__file__).parents[2]
+SOURCES = ROOT / "proofs" / "coq"
+KEPT = ROOT / ".pytest_cache"
 
 COQC = shutil.which("coqc")
 
@@ -46,19 +52,38 @@ class Library:
     @classmethod
     def copy_to(cls, folder: Path) -> Library:
         """A copy, not yet compiled."""
-        for source in (*SOURCES.glob("*.v"), SOURCES / "Makefile"):
+        for source in _sources():
             shutil.copy(source, folder)
         return cls(folder)
 
-    def build(self) -> subprocess.CompletedProcess[str]:
+    @classmethod
+    @cache
+    def shared(cls, target: str = "all") -> Library:
+        """One for all processes and runs, compiled as far as `target` needs; another one when a source changes."""
+        version = _run([str(COQC), "--print-version"], SOURCES).stdout
+        digest = sha256(b"\0".join([version.encode(), *(path.read_bytes() for path in _sources())])).hexdigest()
+        folder = KEPT / f"coq-{target}-{digest[:16]}"
+        KEPT.mkdir(exist_ok=True)
+        with (KEPT / "coq.lock").open("w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            if not folder.exists():
+                unfinished = folder.with_suffix(".unfinished")
+                shutil.rmtree(unfinished, ignore_errors=True)
+                unfinished.mkdir()
+                built = cls.copy_to(unfinished).build(target)
+                assert built.returncode == 0, built.stderr
+                unfinished.rename(folder)
+        return cls(folder)
+
+    def build(self, target: str = "all") -> subprocess.CompletedProcess[str]:
         """What `make -C proofs/coq` does."""
-        return _run(["make", "-C", str(self.folder)], self.folder)
+        return _run(["make", "-C", str(self.folder), target], self.folder)
 
     def compile(self, text: str) -> subprocess.CompletedProcess[str]:
         """Compile one file against the library."""
-        path = self.folder / "judged.v"
-        path.write_text(text, encoding="utf-8")
-        return _run([str(COQC), "-q", "-R", ".", "Tumato", path.name], self.folder)
+        with TemporaryDirectory() as folder:
+            Path(folder, "judged.v").write_text(text, encoding="utf-8")
+            return _run([str(COQC), "-q", "-R", str(self.folder), "Tumato", "judged.v"], Path(folder))
 
     def checks(self, cases: Sequence[Case]) -> list[bool]:
         """What `check` answers for each case, computed in one file."""
@@ -79,6 +104,10 @@ def together(texts: Sequence[str]) -> str:
         modules.append(f"Module C{number}.\n{text[start:end]}Eval vm_compute in {check}.\n")
         modules.append(f"End C{number}.\n")
     return head + "".join(modules)
+
+
+def _sources() -> list[Path]:
+    return [*sorted(SOURCES.glob("*.v")), SOURCES / "Makefile"]
 
 
 def _run(command: Sequence[str], folder: Path) -> subprocess.CompletedProcess[str]:
