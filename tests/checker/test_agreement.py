@@ -16,6 +16,8 @@ from tumato_symbolic.policy import dumps
 from tumato_symbolic.semantics import all_states, is_safe, is_valid
 from tumato_symbolic.spec import canonical_text, load
 
+pytestmark = pytest.mark.usefixtures("read_once")
+
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.tum"))
 
 

@@ -31,6 +31,8 @@ from tumato_symbolic.semantics.step import next_states
 from tumato_symbolic.spec import Ordering, Restoration, Spec
 from tumato_symbolic.verify import verify
 
+pytestmark = pytest.mark.usefixtures("read_once")
+
 ORDERINGS: tuple[Ordering, ...] = ("any", "first")
 
 

@@ -17,6 +17,8 @@ from tumato_symbolic.policy import as_diagram, dumps, policy_from_rows
 from tumato_symbolic.semantics import judge
 from tumato_symbolic.spec import Restoration, Spec
 
+pytestmark = pytest.mark.usefixtures("read_once")
+
 
 def disagreements(folder: Path, spec: Spec, seed: int, samples: int = 0) -> tuple[Counter[str], list[str]]:
     """How many policies failed in each property, and where the judges differ."""
