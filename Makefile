@@ -31,6 +31,8 @@ check: $(VENV)/.development
 	$(BIN)/mypy --strict proofs/checker.py
 	$(BIN)/lint-imports
 
+# Byte code is written whatever the environment says: tests start the program some hundred times.
+test: export PYTHONDONTWRITEBYTECODE =
 test: check
 	$(BIN)/python -m pytest -n auto --dist worksteal
 
