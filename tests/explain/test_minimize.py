@@ -6,6 +6,7 @@ from random import Random
 
 import pytest
 
+from tumato_symbolic.explain.hitting_sets import SearchedHittingSets
 from tumato_symbolic.explain.minimize import minimal
 from tumato_symbolic.limits import LimitReachedError
 from tumato_symbolic.synthesis.solver import HittingSets
@@ -58,14 +59,15 @@ def test_few_questions_are_asked(size: int, needed: int, most: int) -> None:
         assert len(asked) <= most
 
 
-def test_smallest_hitting_sets_come_in_order() -> None:
+@pytest.mark.parametrize("kind", [HittingSets, SearchedHittingSets])
+def test_smallest_hitting_sets_come_in_order(kind: type[HittingSets] | type[SearchedHittingSets]) -> None:
     """All minimal hitting sets, the smallest first, and of one size the least penalty first."""
     random = Random(2)
     for _ in range(40):
         size = random.randint(1, 6)
         penalties = [random.randint(0, 3) for _ in range(size)]
         sets = [frozenset(random.sample(range(size), random.randint(1, size))) for _ in range(4)]
-        search, found = HittingSets(penalties), []
+        search, found = kind(penalties), []
         for each in sets:
             search.require(sorted(each))
         while (best := search.smallest()) is not None:
@@ -79,9 +81,31 @@ def test_smallest_hitting_sets_come_in_order() -> None:
         assert ranked == sorted(ranked)
 
 
-def test_nothing_hits_the_empty_set() -> None:
+def test_both_searches_for_hitting_sets_answer_alike() -> None:
+    """Z3 and the search name the same sets in the same order, also where what is excluded was never an answer."""
+    random = Random(7)
+    for _ in range(60):
+        size = random.randint(1, 9)
+        penalties = [random.randint(0, 2) for _ in range(size)]
+        searches = HittingSets(penalties), SearchedHittingSets(penalties)
+        for answers in range(12):
+            numbers = sorted(random.sample(range(size), random.randint(1, min(3, size))))
+            for search in searches:
+                search.require(numbers)
+            found = [search.smallest() for search in searches]
+            assert found[0] == found[1]
+            if found[0] is None:
+                break
+            if answers % 2:
+                excluded = sorted(found[0]) if answers % 3 else sorted(random.sample(range(size), min(2, size)))
+                for search in searches:
+                    search.exclude(excluded)
+
+
+@pytest.mark.parametrize("kind", [HittingSets, SearchedHittingSets])
+def test_nothing_hits_the_empty_set(kind: type[HittingSets] | type[SearchedHittingSets]) -> None:
     """Where a set to be hit is empty, there is no hitting set."""
-    search = HittingSets([0, 0])
+    search = kind([0, 0])
     search.require([])
     assert search.smallest() is None
 

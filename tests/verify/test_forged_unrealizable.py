@@ -21,9 +21,10 @@ from tumato_symbolic.policy.unrealizable_file import bind
 from tumato_symbolic.spec import And, Executing, Formula, Iff, Not, Or, Ordering, Spec, canonical_text
 from tumato_symbolic.verify import verify_unrealizable
 from tumato_symbolic.verify.unrealizability import no_plan
-from tumato_symbolic.verify.unrealizability.allowed_step import AllowedStep, FalseClaimError
+from tumato_symbolic.verify.unrealizability.allowed_step import AllowedStep
 from tumato_symbolic.verify.unrealizability.conflict import clause
 from tumato_symbolic.verify.unrealizability.distances import Distances
+from tumato_symbolic.verify.unrealizability.false_claim import FalseClaimError
 from tumato_symbolic.verify.unrealizability.no_allowed_set import _unproved
 
 

@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
+from typing import TYPE_CHECKING
 
 from tumato_symbolic.explain.conflicts import conflict_core
 from tumato_symbolic.explain.cores import core_of, typical_state
 from tumato_symbolic.explain.elements import Element, ElementKind, Elements, rule_of, without
 from tumato_symbolic.explain.failing_states import FailingStates
+from tumato_symbolic.explain.hitting_sets import SearchedHittingSets
 from tumato_symbolic.explain.minimize import minimal
 from tumato_symbolic.explain.requirements import Requirements
 from tumato_symbolic.explain.trial import is_realizable, trial
+from tumato_symbolic.limits import has_z3
 from tumato_symbolic.spec import Spec, variables_of
 from tumato_symbolic.synthesis import Realizable, Unrealizable
-from tumato_symbolic.synthesis.solver import HittingSets
+
+if TYPE_CHECKING:
+    from tumato_symbolic.synthesis.solver import HittingSets
 
 ROUNDS = 300
 """So many candidates are tried at most."""
@@ -28,6 +33,17 @@ _PENALTIES: dict[ElementKind, int] = {
     "state-rule": 50,
 }
 """Of repairs of one size, those come first that add what the robot can do, and last those that give up safety."""
+
+
+def _hitting_sets(
+    penalties: Sequence[int], seconds_left: Callable[[], float | None]
+) -> HittingSets | SearchedHittingSets:
+    """Found by Z3, where there is one."""
+    if not has_z3():
+        return SearchedHittingSets(penalties, seconds_left)
+    from tumato_symbolic.synthesis.solver import HittingSets
+
+    return HittingSets(penalties, seconds_left)
 
 
 class Search:
@@ -47,7 +63,7 @@ class Search:
         requirements = oracle.requirements
         self._numbers = {element: number for number, element in enumerate(droppable)}
         penalties = [_penalty(requirements.spec, element) for element in self._numbers]
-        self._hitting = HittingSets(penalties, requirements.manager.context.seconds_left)
+        self._hitting = _hitting_sets(penalties, requirements.manager.context.seconds_left)
         self._rounds = ROUNDS
         self._among = among
         self.complete = False

@@ -1,6 +1,6 @@
 """Sets of states and steps as BDDs; the only room that knows dd."""
 
-from tumato_symbolic.symbolic.choose import by_duration, lasting, preferred
+from tumato_symbolic.symbolic.choose import by_duration, lasting, least_duration, preferred
 from tumato_symbolic.symbolic.encoding import Encoding, encode
 from tumato_symbolic.symbolic.extract import Extractor
 from tumato_symbolic.symbolic.goals import Regions, Target, never_entered, regions, targets
@@ -22,6 +22,7 @@ __all__ = [
     "compatible_sets",
     "encode",
     "lasting",
+    "least_duration",
     "never_entered",
     "preferred",
     "regions",

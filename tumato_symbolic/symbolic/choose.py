@@ -85,6 +85,23 @@ def by_duration(encoding: Encoding, choices: Bdd) -> dict[int, Bdd]:
     return dict(sorted(sums.items()))
 
 
+def least_duration(encoding: Encoding, choices: Bdd) -> int | None:
+    """The smallest sum of durations of some sets of actions; None where there are none."""
+    manager, spec = encoding.manager, encoding.spec
+    left = {} if choices == manager.false else {choices: 0}
+    for group in encoding.groups:
+        parts = [(0, encoding.idle_bits(group))]
+        parts += [(spec.actions[action].duration, encoding.action_bits(action)) for action in group.actions]
+        following: dict[Bdd, int] = {}
+        for some, so_far in left.items():
+            for duration, bits in parts:
+                rest = manager.cofactor(some, bits)
+                if rest != manager.false:
+                    following[rest] = min(so_far + duration, following.get(rest, so_far + duration))
+        left = following
+    return min(left.values(), default=None)
+
+
 def lasting(encoding: Encoding, total: int) -> Bdd:
     """The sets of actions whose durations sum up to `total`."""
     manager, spec = encoding.manager, encoding.spec

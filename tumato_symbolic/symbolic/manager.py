@@ -13,7 +13,7 @@ from importlib import import_module
 from types import ModuleType
 from typing import Any, Literal, Protocol, TypeAlias
 
-from tumato_symbolic.limits import Context, LimitReachedError
+from tumato_symbolic.limits import Context, LimitReachedError, MissingPackageError
 
 Backend: TypeAlias = Literal["cudd", "autoref"]
 
@@ -57,12 +57,15 @@ def _import_dd(backend: Backend) -> ModuleType:
 
 
 def available_backend() -> Backend:
-    """CUDD where dd was built with it, else the pure Python backend."""
-    try:
-        _import_dd("cudd")
-    except ImportError:
-        return "autoref"
-    return "cudd"
+    """CUDD where dd was built with it, else the pure Python backend. Raises `MissingPackageError` without dd."""
+    backends: tuple[Backend, ...] = ("cudd", "autoref")
+    for backend in backends:
+        try:
+            _import_dd(backend)
+        except ImportError:
+            continue
+        return backend
+    raise MissingPackageError("dd", "dd", "look for policies")
 
 
 def _raised_by_cudd(error: Exception) -> bool:

@@ -12,9 +12,10 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from tumato_symbolic.game import Evaluation, Evaluator, Layers
+from tumato_symbolic.limits import need_z3
 from tumato_symbolic.semantics import ActionSet, State, successor
 from tumato_symbolic.symbolic import Bdd, preferred
-from tumato_symbolic.synthesis.solver import Choices, Pick
+from tumato_symbolic.synthesis.picks import Pick
 
 NARROW_ROUNDS = 24
 """So many rounds explain one failing run only: a conflict, which often recurs all over the states, then shows soon.
@@ -71,6 +72,9 @@ class Repair:
     """Repairs a policy that is defined in every safe state. `distances` are the layers of all allowed runs."""
 
     def __init__(self, evaluator: Evaluator, policy: Bdd, distances: tuple[Layers, ...]) -> None:
+        need_z3("repair decisions where goals interact")
+        from tumato_symbolic.synthesis.solver import Choices
+
         self._evaluator = evaluator
         self._problem = problem = evaluator.problem
         self._policy = policy

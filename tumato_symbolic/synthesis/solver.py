@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import z3
 
 from tumato_symbolic.limits import LimitReachedError
 from tumato_symbolic.symbolic import Bdd, Encoding, Manager
+from tumato_symbolic.synthesis.picks import Pick
 
 Term: TypeAlias = Any
 """A Z3 expression; z3 has no types."""
@@ -71,14 +71,6 @@ class CheapestSet:
         for node, level, low, high in manager.descending(u):
             terms[node] = z3.If(self._bits[manager.bits[level]], terms[high], terms[low])
         return terms[u]
-
-
-@dataclass(frozen=True, slots=True)
-class Pick:
-    """Option number `option` of choice number `choice`."""
-
-    choice: int
-    option: int
 
 
 class Choices:

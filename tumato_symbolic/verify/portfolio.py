@@ -7,7 +7,7 @@ from functools import cached_property, partial
 from math import inf
 from typing import TYPE_CHECKING, Protocol
 
-from tumato_symbolic.limits import Budget
+from tumato_symbolic.limits import Budget, has_z3, need_z3
 from tumato_symbolic.policy import Policy, Table
 from tumato_symbolic.policy.convert import count_defined
 from tumato_symbolic.spec import Ordering, Spec
@@ -81,6 +81,7 @@ def make_prover(name: ProverName, spec: Spec, policy: Policy, ordering: Ordering
 
 
 def _z3(spec: Spec, policy: Policy, ordering: Ordering, budget: Budget) -> Z3Prover:
+    need_z3("prove by it (`--prover walk` does without)")
     from tumato_symbolic.verify.by_z3.prover import Z3Prover
 
     return Z3Prover(spec, policy, ordering, budget)
@@ -163,7 +164,7 @@ class _Both(_Pair):
 
 
 class _Auto(_Pair):
-    """Z3 where it answers soon, the walk first where ranks are large; explicit-state checking last.
+    """Z3 where it answers soon, if there is one, the walk first where ranks are large; explicit-state checking last.
 
     Where there is little to look at, explicit-state checking comes before the others have used up their time.
     """
@@ -196,12 +197,13 @@ class _Auto(_Pair):
             yield lambda: self._walk.prove(name, SOON_REMEMBERED)
             if self._is_little:
                 yield lambda: self._explicit.prove(name, LITTLE)
-        if name == "safe" or not self._is_large:
+        if (name == "safe" or not self._is_large) and has_z3():
             yield lambda: self._z3.prove(name, within=SOON)
         if not self._is_large and self._is_little:
             yield lambda: self._explicit.prove(name, LITTLE)
         yield lambda: self._walk.prove(name)
-        yield lambda: self._z3.prove(name)
+        if has_z3():
+            yield lambda: self._z3.prove(name)
         yield lambda: self._explicit.prove(name)
 
     def prove_parts(
@@ -214,7 +216,7 @@ class _Auto(_Pair):
 
     @property
     def _first(self) -> Z3Prover | WalkProver:
-        return self._walk if self._is_large else self._z3
+        return self._walk if self._is_large or not has_z3() else self._z3
 
     @property
     def _is_little(self) -> bool:

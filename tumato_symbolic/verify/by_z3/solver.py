@@ -11,6 +11,9 @@ from typing import Any, Literal, TypeAlias
 import z3
 
 from tumato_symbolic.verify.by_z3.terms import Context, Term
+from tumato_symbolic.verify.undecided import UndecidedError
+
+__all__ = ["Answer", "Solver", "UndecidedError"]
 
 Answer: TypeAlias = Literal["sat", "unsat", "unknown"]
 
@@ -18,13 +21,6 @@ NO_TIMEOUT = 4294967295
 """What Z3 takes, in milliseconds, for no limit."""
 LONGEST = 4_000_000.0
 """Longer limits, in seconds, are none."""
-
-
-class UndecidedError(Exception):
-    """An obligation is neither proved nor refuted."""
-
-    def __init__(self, claim: str, why: str = "Z3 did not answer within the time limit of one obligation") -> None:
-        super().__init__(f"{why}: {claim}")
 
 
 def _finite_domain_solver(context: Context) -> Any:  # noqa: ANN401 - z3 has no types

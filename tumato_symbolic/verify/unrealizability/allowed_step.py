@@ -22,16 +22,6 @@ Step: TypeAlias = tuple[State, ActionSet, State]
 """A state, a set that is allowed in it, and the nominal successor."""
 
 
-class FalseClaimError(Exception):
-    """A certificate claims what is not so; `state` and `chosen` show it, where a state and an allowed set can."""
-
-    def __init__(self, reason: str, state: State | None = None, chosen: ActionSet | None = None) -> None:
-        super().__init__(reason)
-        self.reason = reason
-        self.state = state
-        self.chosen = chosen
-
-
 class AllowedStep:
     """A state `s`, a set `A` with `Ok(s, A)`, and `t = δ(s, A)`, sought by lazy refinement.
 

@@ -16,8 +16,9 @@ from tumato_symbolic.spec import Spec
 from tumato_symbolic.verify.by_z3.goal_terms import reached_term
 from tumato_symbolic.verify.by_z3.solver import Solver, UndecidedError
 from tumato_symbolic.verify.by_z3.terms import Context, Term, at_most_one, conjunction, disjunction, negation
-from tumato_symbolic.verify.unrealizability.allowed_step import AllowedStep, FalseClaimError, is_state
+from tumato_symbolic.verify.unrealizability.allowed_step import AllowedStep, is_state
 from tumato_symbolic.verify.unrealizability.distances import Distances
+from tumato_symbolic.verify.unrealizability.false_claim import FalseClaimError
 from tumato_symbolic.verify.unrealizability.named_goals import goal_text, named_goal, set_text, state_text
 
 Pick: TypeAlias = tuple[int, int]

@@ -9,7 +9,7 @@ from tumato_symbolic.semantics import State
 from tumato_symbolic.verify.by_z3.encoding import Place, diagram_terms
 from tumato_symbolic.verify.by_z3.step_counts import StepCounts
 from tumato_symbolic.verify.by_z3.terms import Context, Number, Term
-from tumato_symbolic.verify.unrealizability.allowed_step import FalseClaimError
+from tumato_symbolic.verify.unrealizability.false_claim import FalseClaimError
 
 
 class Distances:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from tumato_symbolic.semantics import ActionSet, Residual, State, action_names, named
 from tumato_symbolic.spec import Spec, canonical_text
-from tumato_symbolic.verify.unrealizability.allowed_step import FalseClaimError
+from tumato_symbolic.verify.unrealizability.false_claim import FalseClaimError
 
 
 def named_goal(spec: Spec, bodies: Sequence[str], executed: Sequence[str]) -> Residual:

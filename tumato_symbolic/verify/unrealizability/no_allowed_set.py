@@ -24,7 +24,8 @@ from tumato_symbolic.verify.by_z3.encoding import Place, formula_term
 from tumato_symbolic.verify.by_z3.outcomes import replay
 from tumato_symbolic.verify.by_z3.solver import Solver, UndecidedError
 from tumato_symbolic.verify.by_z3.terms import Term
-from tumato_symbolic.verify.unrealizability.allowed_step import AllowedStep, FalseClaimError, is_state
+from tumato_symbolic.verify.unrealizability.allowed_step import AllowedStep, is_state
+from tumato_symbolic.verify.unrealizability.false_claim import FalseClaimError
 from tumato_symbolic.verify.unrealizability.named_goals import set_text, state_text
 
 _CLAIM: Final = "no set is allowed in the state"

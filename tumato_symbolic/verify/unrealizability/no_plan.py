@@ -10,7 +10,8 @@ from tumato_symbolic.verify.by_z3.encoding import diagram_terms
 from tumato_symbolic.verify.by_z3.goal_terms import reached_term
 from tumato_symbolic.verify.by_z3.solver import UndecidedError
 from tumato_symbolic.verify.by_z3.terms import Term, conjunction, disjunction, negation
-from tumato_symbolic.verify.unrealizability.allowed_step import AllowedStep, FalseClaimError, Step, is_state
+from tumato_symbolic.verify.unrealizability.allowed_step import AllowedStep, Step, is_state
+from tumato_symbolic.verify.unrealizability.false_claim import FalseClaimError
 from tumato_symbolic.verify.unrealizability.layers_by_diagrams import first_left
 from tumato_symbolic.verify.unrealizability.named_goals import goal_text, named_goal, set_text, state_text
 

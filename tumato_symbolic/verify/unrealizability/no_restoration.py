@@ -9,8 +9,8 @@ from tumato_symbolic.semantics import is_safe, is_valid, level
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.by_diagrams.functions import FALSE, BudgetError, given_up
 from tumato_symbolic.verify.by_diagrams.steps import Steps
-from tumato_symbolic.verify.by_z3.solver import UndecidedError
-from tumato_symbolic.verify.unrealizability.allowed_step import FalseClaimError
+from tumato_symbolic.verify.undecided import UndecidedError
+from tumato_symbolic.verify.unrealizability.false_claim import FalseClaimError
 from tumato_symbolic.verify.unrealizability.named_goals import state_text
 
 _CLAIM: Final = "nothing is sure to lead out of the trap"

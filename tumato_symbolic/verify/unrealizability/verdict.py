@@ -5,18 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from tumato_symbolic.limits import Budget, Context, LimitReachedError
+from tumato_symbolic.limits import Budget, Context, LimitReachedError, need_z3
 from tumato_symbolic.policy.unrealizable import Conflict, NoAllowedSet, NoPlan, NoRestoration, Unrealizability
 from tumato_symbolic.policy.unrealizable_file import bind
 from tumato_symbolic.semantics import State, is_safe
 from tumato_symbolic.spec import Ordering, Spec, digest
 from tumato_symbolic.spec.support import require_one_step
-from tumato_symbolic.verify.by_z3.solver import UndecidedError
 from tumato_symbolic.verify.result import UnrealizabilityKind, UnrealizabilityVerdict
-from tumato_symbolic.verify.unrealizability.allowed_step import AllowedStep, FalseClaimError
-from tumato_symbolic.verify.unrealizability.conflict import check_conflict
-from tumato_symbolic.verify.unrealizability.no_allowed_set import check_no_allowed_set
-from tumato_symbolic.verify.unrealizability.no_plan import check_no_plan
+from tumato_symbolic.verify.undecided import UndecidedError
+from tumato_symbolic.verify.unrealizability.false_claim import FalseClaimError
 from tumato_symbolic.verify.unrealizability.no_restoration import check_no_restoration
 
 OBLIGATION_BUDGET = 30.0
@@ -61,17 +58,13 @@ def verify_unrealizable(
     context.learn(replace(found, verdict="undecided"))
     try:
         context.tell("checking the certificate of unrealizability")
-        step = AllowedStep(spec.in_one_step, used, Budget(timeout, context))
-        match reason:
-            case NoAllowedSet():
-                checked = check_no_allowed_set(reason, step, used)
-            case NoRestoration():
-                check_no_restoration(reason, spec, used, Budget(timeout, context).until())
-                return replace(found, obligations=2, by_diagrams=True)
-            case NoPlan():
-                checked = check_no_plan(reason, step)
-            case _:
-                checked = check_conflict(reason, step)
+        if isinstance(reason, NoRestoration):
+            check_no_restoration(reason, spec, used, Budget(timeout, context).until())
+            return replace(found, obligations=2, by_diagrams=True)
+        need_z3("check this certificate")
+        from tumato_symbolic.verify.unrealizability.by_solver import check_allowed_steps
+
+        proved = check_allowed_steps(reason, spec, used, Budget(timeout, context))
     except FalseClaimError as false:
         return replace(found, verdict="refuted", reason=false.reason, state=false.state, chosen=false.chosen)
     except UndecidedError as undecided:
@@ -79,8 +72,7 @@ def verify_unrealizable(
         return replace(found, verdict="undecided", reason=why)
     except LimitReachedError as limit:
         return replace(found, verdict="undecided", reason=str(limit))
-    proved = checked + step.proved + step.walked
-    return replace(found, obligations=proved, by_solver=step.proved > 0, by_diagrams=step.walked > 0)
+    return replace(found, obligations=sum(proved), by_solver=proved.by_solver > 0, by_diagrams=proved.by_diagrams > 0)
 
 
 def _states_of(reason: NoAllowedSet | NoPlan | Conflict) -> Iterator[State]:

@@ -1,0 +1,1 @@
+"""What works where Z3 cannot be imported."""

@@ -1,0 +1,39 @@
+"""Claims about all allowed steps, for which Z3 is asked (`docs/certificate.md`)."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from tumato_symbolic.limits import Budget
+from tumato_symbolic.policy.unrealizable import Conflict, NoAllowedSet, NoPlan
+from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.verify.unrealizability.allowed_step import AllowedStep
+from tumato_symbolic.verify.unrealizability.conflict import check_conflict
+from tumato_symbolic.verify.unrealizability.no_allowed_set import check_no_allowed_set
+from tumato_symbolic.verify.unrealizability.no_plan import check_no_plan
+
+
+class Obligations(NamedTuple):
+    """How many were proved: by the explicit meaning, by Z3, and by the walk, to which some were left."""
+
+    by_meaning: int
+    by_solver: int
+    by_diagrams: int
+
+
+def check_allowed_steps(
+    reason: NoAllowedSet | NoPlan | Conflict, spec: Spec, ordering: Ordering, budget: Budget
+) -> Obligations:
+    """What was proved for the claim to hold.
+
+    Raises `FalseClaimError` where it does not hold, and `UndecidedError` where that is not known.
+    """
+    step = AllowedStep(spec.in_one_step, ordering, budget)
+    match reason:
+        case NoAllowedSet():
+            checked = check_no_allowed_set(reason, step, ordering)
+        case NoPlan():
+            checked = check_no_plan(reason, step)
+        case Conflict():
+            checked = check_conflict(reason, step)
+    return Obligations(checked, step.proved, step.walked)
