@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from tumato_symbolic.symbolic.encoding import Encoding
 from tumato_symbolic.symbolic.manager import Bdd
 
@@ -90,7 +92,7 @@ def least_duration(encoding: Encoding, choices: Bdd) -> int | None:
     manager, spec = encoding.manager, encoding.spec
     left = {} if choices == manager.false else {choices: 0}
     for group in encoding.groups:
-        parts = [(0, encoding.idle_bits(group))]
+        parts: list[tuple[int, Mapping[str, bool]]] = [(0, encoding.idle_bits(group))]
         parts += [(spec.actions[action].duration, encoding.action_bits(action)) for action in group.actions]
         following: dict[Bdd, int] = {}
         for some, so_far in left.items():
