@@ -45,8 +45,16 @@ def diagnostics_document() -> str:
     head = (
         "# Diagnostics\n\n"
         "Every message has a code. A code keeps its meaning for ever. An error stops the work (exit code 2, or 1 for\n"
-        "TUM4xx); a warning does not. This table is made from `tumato_symbolic/diagnostics/codes.py` and compared\n"
-        "with it by a test.\n\n"
+        "TUM4xx). A warning does not: it says what is probably a mistake. A remark is worth knowing, and mostly as it\n"
+        "should be; `check` shows them all, `synth` only what it alone can find. This page is made from\n"
+        "`tumato_symbolic/diagnostics/codes.py` and compared with it by a test.\n\n"
+        "A warning or remark that is meant can be allowed in the text, by a comment on the line that it is about, or\n"
+        "in the comments right above that line. Errors cannot be allowed.\n\n"
+        "```\n"
+        "state S_Door can be open, shut  // allow TUM345: the door shuts by itself\n"
+        "// allow TUM341, TUM344: set by the operator\n"
+        "state S_Mode can be manual, automatic\n"
+        "```\n\n"
         "| code | | what it is about |\n|---|---|---|\n"
     )
     return head + "".join(f"| {code.name} | {code.severity} | {code.title} |\n" for code in Code)

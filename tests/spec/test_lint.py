@@ -62,5 +62,5 @@ def test_large_predicates_are_left_undecided() -> None:
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
 def test_the_examples_are_clean(path: Path) -> None:
-    """No example has an error or a warning."""
-    assert load(read_source(str(path))).diagnostics == ()
+    """No example has an error or a warning; what is worth knowing is remarked."""
+    assert [each for each in load(read_source(str(path))).diagnostics if each.severity != "remark"] == []

@@ -102,11 +102,12 @@ def test_check_warns_of_them(cli: Cli, tmp_path: Path) -> None:
         ("action never", "TUM353"),
         ("rule: NOT (executing one AND executing never)", "TUM352"),
         ("rule: x is a", "TUM352"),
+        ("goal: x is a", "TUM355"),
         ("when y is a then goal: y is b", "TUM351"),
     ):
         for text in (check.out, synth.err):
             assert re.search(rf"{code}.*\n  --> suspicious.tum:{lines.index(line) + 1}:", text)
-    assert "suspicious.tum: 4 warnings" in check.out
+    assert "suspicious.tum: 5 warnings, 1 remark" in check.out
 
 
 def test_check_finds_that_no_state_is_valid(cli: Cli, tmp_path: Path) -> None:

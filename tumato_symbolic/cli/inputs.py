@@ -17,14 +17,14 @@ from tumato_symbolic.syntax import read_source
 def read_spec(path: str, restoration: Restoration | None = None) -> tuple[Source, Spec, tuple[Diagnostic, ...]]:
     """The text, the specification and its warnings; `restoration` overrules what the text says of it.
 
-    Raises `UserError` where it has errors.
+    Remarks are for those who ask for them with `check`. Raises `UserError` where there are errors.
     """
     source = read_source(path)
     loaded = load(source)
     if loaded.spec is None:
         raise UserError(loaded.diagnostics, source)
     spec = loaded.spec if restoration is None else replace(loaded.spec, restoration=restoration)
-    return source, spec, loaded.diagnostics
+    return source, spec, tuple(each for each in loaded.diagnostics if each.severity != "remark")
 
 
 @contextmanager

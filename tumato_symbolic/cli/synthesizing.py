@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Literal, cast
 from tumato_symbolic.cli.console import write, writing
 from tumato_symbolic.cli.options import STANDARD_OUTPUT
 from tumato_symbolic.cli.targets import certificate_path
-from tumato_symbolic.diagnostics import Code, UserError
+from tumato_symbolic.diagnostics import Code, UserError, not_allowed
 from tumato_symbolic.limits import Context
 from tumato_symbolic.policy import dumps
 from tumato_symbolic.policy.saving import save_text
@@ -31,7 +31,8 @@ def solve(so_far: Synthesized, ordering: Ordering | None, policy_format: PolicyF
 
     def having(outcome: SynthesisResult) -> Synthesized:
         took = time.perf_counter() - started
-        return replace(so_far, outcome=outcome, warnings=(*warnings, *outcome.warnings), solved_in=took)
+        found = (*warnings, *not_allowed(outcome.warnings, so_far.source))
+        return replace(so_far, outcome=outcome, warnings=found, solved_in=took)
 
     return having(
         synthesize(

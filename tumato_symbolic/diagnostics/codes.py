@@ -7,7 +7,10 @@ TUM5xx policies and their certificates.
 from __future__ import annotations
 
 from enum import Enum
-from typing import Literal
+from typing import Literal, TypeAlias
+
+Severity: TypeAlias = Literal["error", "warning", "remark"]
+"""Whether a finding stops the work, is probably a mistake, or is worth knowing."""
 
 
 class Code(Enum):
@@ -67,10 +70,20 @@ class Code(Enum):
     TUM328 = ("warning", "a resource listed twice")
     TUM329 = ("warning", "an unused parameter")
     TUM330 = ("warning", "copies of which there are none")
+    TUM341 = ("warning", "a state variable that nothing mentions")
+    TUM342 = ("warning", "values that nothing tells apart")
+    TUM343 = ("remark", "a value that nothing mentions")
+    TUM344 = ("remark", "state variables that no action changes")
+    TUM345 = ("remark", "a value that no action leaves")
+    TUM346 = ("warning", "actions that command the environment")
+    TUM347 = ("remark", "a state rule of several parts, where safety may take several steps to restore")
+    TUM348 = ("warning", "an implication among effects")
     TUM351 = ("warning", "a goal that is never entered")
     TUM352 = ("warning", "a rule that no valid state breaks")
     TUM353 = ("warning", "an action that is allowed nowhere")
     TUM354 = ("warning", "actions executed together, of which one may falsify a precondition of another")
+    TUM355 = ("warning", "a goal that holds already wherever it is active")
+    TUM356 = ("remark", "a policy that leaves the region of a goal on the way to it")
 
     TUM401 = ("error", "states without an allowed set of actions")
     TUM402 = ("error", "states without a plan")
@@ -89,6 +102,6 @@ class Code(Enum):
     TUM510 = ("error", "policy cannot be written")
     TUM511 = ("error", "a policy made for another effect ordering, or a weaker restoration")
 
-    def __init__(self, severity: Literal["error", "warning"], title: str) -> None:
+    def __init__(self, severity: Severity, title: str) -> None:
         self.severity = severity
         self.title = title

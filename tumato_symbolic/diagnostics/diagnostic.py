@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Literal
 
-from tumato_symbolic.diagnostics.codes import Code
-
-Severity = Literal["error", "warning"]
+from tumato_symbolic.diagnostics.codes import Code, Severity
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +73,7 @@ class Diagnostic:
 
     @property
     def severity(self) -> Severity:
-        """Whether the finding stops the work."""
+        """Whether the finding stops the work, is probably a mistake, or is worth knowing."""
         return self.code.severity
 
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from typing import Final
 
+from tumato_symbolic.diagnostics.codes import Severity
 from tumato_symbolic.diagnostics.diagnostic import Diagnostic, Source, Span
 
 MAX_SHOWN = 20
@@ -14,16 +16,20 @@ MAX_WIDTH = 110
 
 _RED, _YELLOW, _BLUE, _GREEN, _BOLD, _PLAIN = "31;1", "33;1", "34;1", "32;1", "1", "0"
 
+_HUES: Final[dict[Severity, str]] = {"error": _RED, "warning": _YELLOW, "remark": _BLUE}
+"""The colours of severities, the worst first."""
+
 
 def render(diagnostics: Iterable[Diagnostic], source: Source | None, color: bool = False) -> str:
     """Every diagnostic with its code, its place, the source line with the span underlined, notes and the way out.
 
-    Errors come before warnings where there are too many to show all. The text ends with a line feed, or is empty.
+    Errors come before warnings, and these before remarks, where there are too many to show all. The text ends with a
+    line feed, or is empty.
     """
     found = tuple(diagnostics)
     shown = found
     if len(found) > MAX_SHOWN:
-        shown = tuple(sorted(found, key=lambda each: each.severity == "warning"))[:MAX_SHOWN]
+        shown = tuple(sorted(found, key=lambda each: list(_HUES).index(each.severity)))[:MAX_SHOWN]
     drawing = _Drawing(source, color)
     parts = ["".join(f"{line}\n" for line in drawing.lines(each)) for each in shown]
     if len(found) > len(shown):
@@ -41,7 +47,7 @@ class _Drawing:
 
     def lines(self, diagnostic: Diagnostic) -> Iterator[str]:
         """One diagnostic, line by line."""
-        hue = _RED if diagnostic.severity == "error" else _YELLOW
+        hue = _HUES[diagnostic.severity]
         head = self._dyed(f"{diagnostic.severity}[{diagnostic.code.name}]", hue)
         yield f"{head}{self._dyed(': ' + diagnostic.message, _BOLD)}"
         if diagnostic.span is not None:

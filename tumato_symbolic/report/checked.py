@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from tumato_symbolic.diagnostics import Diagnostic, Source, render
+from tumato_symbolic.diagnostics import Diagnostic, Severity, Source, render
 from tumato_symbolic.report.findings import Finding, finding_json, findings_of
 from tumato_symbolic.report.layout import Paint, count
 from tumato_symbolic.semantics import count_states
@@ -34,13 +35,13 @@ def as_text(files: Sequence[Checked], colour: bool) -> str:
     for file in files:
         if file.diagnostics:
             parts.append(render(file.diagnostics, file.source, color=colour).rstrip("\n") + "\n")
-        errors = sum(diagnostic.severity == "error" for diagnostic in file.diagnostics)
-        warnings = len(file.diagnostics) - errors
-        found = [count(errors, "error")] * bool(errors) + [count(warnings, "warning")] * bool(warnings)
+        numbers = Counter(diagnostic.severity for diagnostic in file.diagnostics)
+        kinds: tuple[Severity, ...] = ("error", "warning", "remark")
+        found = [count(numbers[kind], kind) for kind in kinds if numbers[kind]]
         if file.spec is None or file.failed:
             parts.append(f"{file.path}: {paint.bad(', '.join(found))}")
         else:
-            mood = paint.doubt(", ".join(found)) if found else paint.good("no findings")
+            mood = (paint.doubt if numbers["warning"] else paint.good)(", ".join(found) or "no findings")
             parts.append(f"{file.path}: {mood} ({_size(file.spec)})")
     return "\n".join(parts)
 

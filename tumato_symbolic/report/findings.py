@@ -20,7 +20,7 @@ class Finding:
     with it.
     """
 
-    level: Literal["error", "warning", "notice"]
+    level: Literal["error", "warning", "remark", "notice"]
     message: str
     file: str | None = None
     span: Span | None = None
@@ -89,4 +89,5 @@ def _command(found: Finding) -> str:
     if found.kind is not None:
         properties["title"] = found.kind
     listed = ",".join(f"{name}={str(value).translate(_IN_PROPERTY)}" for name, value in properties.items())
-    return f"::{found.level}{' ' if listed else ''}{listed}::{found.message.translate(_IN_MESSAGE)}"
+    kind = "notice" if found.level == "remark" else found.level
+    return f"::{kind}{' ' if listed else ''}{listed}::{found.message.translate(_IN_MESSAGE)}"

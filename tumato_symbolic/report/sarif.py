@@ -13,7 +13,7 @@ _SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
 
 
 def as_sarif(found: Iterable[Finding], incomplete: Sequence[Mapping[str, object]] = ()) -> dict[str, object]:
-    """One run with one result for every error and warning; `incomplete` says what was left out."""
+    """One run with one result for every error, warning and remark; `incomplete` says what was left out."""
     listed = [each for each in found if each.level != "notice"]
     driver = {"name": "tumato-sym", "version": __version__, "rules": _rules(listed)}
     results = [_result(each) for each in listed]
@@ -29,9 +29,13 @@ def _rules(found: Sequence[Finding]) -> list[dict[str, object]]:
     kinds: list[tuple[str, str, str]] = [(code.name, code.title, code.severity) for code in Code if code in codes]
     kinds += dict.fromkeys((_rule(each), each.title or "", each.level) for each in found if each.code is None)
     return [
-        {"id": name, "shortDescription": {"text": title}, "defaultConfiguration": {"level": level}}
+        {"id": name, "shortDescription": {"text": title}, "defaultConfiguration": {"level": _level(level)}}
         for name, title, level in kinds
     ]
+
+
+def _level(level: str) -> str:
+    return "note" if level == "remark" else level
 
 
 def _rule(found: Finding) -> str:
@@ -41,7 +45,7 @@ def _rule(found: Finding) -> str:
 def _result(found: Finding) -> dict[str, object]:
     result: dict[str, object] = {
         "ruleId": _rule(found),
-        "level": found.level,
+        "level": _level(found.level),
         "message": {"text": found.message},
         "locations": [] if found.file is None else [_location(found.file, found.span)],
     }

@@ -12,6 +12,7 @@ from tumato_symbolic.diagnostics.copies import merged
 from tumato_symbolic.semantics.states import ActionSet, State, all_states, count_states, holds, is_valid
 from tumato_symbolic.semantics.step import allowed, nominal_agrees, takes_effect
 from tumato_symbolic.spec import (
+    FORMULAS,
     Action,
     ConditionalGoal,
     Formula,
@@ -19,10 +20,12 @@ from tumato_symbolic.spec import (
     GoalList,
     Rule,
     Spec,
+    active_bodies,
     executing_atoms,
     subgoals,
     variables_of,
 )
+from tumato_symbolic.spec.forgotten import joined_rules
 from tumato_symbolic.spec.formula import atoms
 
 MAX_STATES = 10_000
@@ -35,20 +38,24 @@ States: TypeAlias = Sequence[State]
 
 
 def lint(spec: Spec) -> tuple[Diagnostic, ...]:
-    """Goals that are never entered, rules that nothing breaks, actions that are allowed nowhere; in source order.
+    """Goals that are never entered or hold already, rules that nothing breaks, actions that are allowed nowhere.
 
-    An error (TUM312) where no state is valid; nothing where there are more than `MAX_STATES` states. What a predicate's
-    own variables decide is left out: that is said when the specification is read.
+    In source order. An error (TUM312) where no state is valid; none of this where there are more than `MAX_STATES`
+    states. What a predicate's own variables decide is left out: that is said when the specification is read.
     """
-    work = _Work()
+    work, found = _Work(), list(joined_rules(spec))
     if count_states(spec) > MAX_STATES or not work.affords(count_states(spec) * _cost(spec.assumptions)):
-        return ()
+        return in_order(found)
     valid = [state for state in all_states(spec) if is_valid(spec, state)]
     if not valid:
         return (no_valid_state(spec),)
-    found = []
     try:
-        for one in chain(_goals(spec, valid, work), _rules(spec, valid, work), _actions(spec, valid, work)):
+        for one in chain(
+            _goals(spec, valid, work),
+            _reached(spec, valid, work),
+            _rules(spec, valid, work),
+            _actions(spec, valid, work),
+        ):
             found.append(one)  # noqa: PERF402 - what is found before the work is spent stays
     except _SpentError:
         pass
@@ -73,6 +80,22 @@ def idle_goal(goal: Goal) -> Diagnostic:
     if isinstance(goal, ConditionalGoal):
         message = f"this goal is never entered: in no valid state where it is tried, `{goal.condition.text}` holds"
     return Diagnostic(Code.TUM351, message, goal.span, "remove it, or move it before the goal that hides it")
+
+
+def goals_to_reach(spec: Spec) -> Iterator[tuple[Rule, Formula]]:
+    """The goal bodies about the state alone that something may falsify, and when they are active."""
+    active = active_bodies(spec.goals, lambda formula: formula, FORMULAS)
+    for number, body in enumerate(spec.bodies):
+        if variables_of(body.formula) and not executing_atoms(body.formula):
+            yield body, active[number]
+
+
+def reached_goal(body: Rule) -> Diagnostic:
+    """The warning about a goal that there is nothing to be done for."""
+    message = "this goal holds already in every valid state where it is active"
+    return Diagnostic(
+        Code.TUM355, message, body.span, "check its condition; where nothing is to be done, `goal: true` says so"
+    )
 
 
 def idle_rule(rule: Rule, where: str) -> Diagnostic:
@@ -172,6 +195,16 @@ def _idle(goal: Goal, entered: set[int]) -> Iterator[Goal]:
     elif isinstance(goal, GoalList):
         for member in goal.members:
             yield from _idle(member, entered)
+
+
+def _reached(spec: Spec, valid: States, work: _Work) -> Iterator[Diagnostic]:
+    for body, when in goals_to_reach(spec):
+        cost, whole = sum(1 for _ in atoms(when)), _cost([body])
+        active = [state for state in valid if work.holds(when, cost, state)]
+        if not active or not all(work.holds(body.formula, whole, state) for state in active):
+            continue
+        if not all(work.holds(body.formula, whole, state) for state in all_states(spec)):
+            yield reached_goal(body)
 
 
 def _rules(spec: Spec, valid: States, work: _Work) -> Iterator[Diagnostic]:

@@ -8,6 +8,7 @@ from math import prod
 from tumato_symbolic.diagnostics import Code, Diagnostic, Span
 from tumato_symbolic.diagnostics.wording import quoted
 from tumato_symbolic.spec.fold import subgoals
+from tumato_symbolic.spec.forgotten import forgotten
 from tumato_symbolic.spec.formula import And, Constant, Formula, Not
 from tumato_symbolic.spec.resolve import Resolution, heading
 from tumato_symbolic.spec.satisfiability import Budget, OutOfBudgetError, models, unknowns
@@ -27,6 +28,7 @@ def lint(spec: Spec, tree: ast.Specification, resolution: Resolution) -> tuple[D
         *_unused(spec, resolution),
         *_missing(spec, tree),
         *_decided(spec),
+        *forgotten(spec, resolution.used_variables),
     )
 
 
@@ -57,6 +59,19 @@ def _missing(spec: Spec, tree: ast.Specification) -> Iterator[Diagnostic]:
                 yield Diagnostic(
                     Code.TUM327, message, action.name.span, "write `nominal effects: none` if that is meant"
                 )
+            yield from _implications(action)
+
+
+def _implications(action: ast.ActionDeclaration) -> Iterator[Diagnostic]:
+    """Effects that read as if they depended on the state before."""
+    fields: Iterator[ast.Field] = ast.one_by_one(action.fields)
+    for field in fields:
+        for each in field.predicates if isinstance(field, ast.NominalEffects | ast.AlternativeEffects) else ():
+            if isinstance(each, ast.Implication):
+                from tumato_symbolic.syntax.habits import CONDITIONAL_EFFECT
+
+                message = "an effect speaks of the state afterwards, and so does the condition of this one"
+                yield Diagnostic(Code.TUM348, message, each.span, CONDITIONAL_EFFECT)
 
 
 def _decided(spec: Spec) -> Iterator[Diagnostic]:

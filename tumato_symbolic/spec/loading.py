@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from tumato_symbolic.diagnostics import Diagnostic, Source
+from tumato_symbolic.diagnostics import Diagnostic, Source, not_allowed
 from tumato_symbolic.diagnostics.copies import merged
 from tumato_symbolic.spec.collector import MAX_FINDINGS, Findings
 from tumato_symbolic.spec.lint import lint
@@ -17,7 +17,7 @@ from tumato_symbolic.syntax import parse
 
 @dataclass(frozen=True, slots=True)
 class Loaded:
-    """A specification, None where there is an error, and the errors and warnings in the order of the text."""
+    """A specification, None where there is an error, and what there is to say in the order of the text."""
 
     spec: Spec | None
     diagnostics: tuple[Diagnostic, ...]
@@ -36,7 +36,8 @@ def load(source: Source) -> Loaded:
         return Loaded(None, _ordered((*parsed.diagnostics, *findings.diagnostics), findings))
     resolution = resolve(parsed, tree, source, findings)
     warnings = () if resolution.spec is None else lint(resolution.spec, tree, resolution)[:MAX_FINDINGS]
-    return Loaded(resolution.spec, _ordered((*parsed.diagnostics, *resolution.diagnostics, *warnings), findings))
+    found = not_allowed((*parsed.diagnostics, *resolution.diagnostics, *warnings), source)
+    return Loaded(resolution.spec, _ordered(found, findings))
 
 
 _MAY_COPY = re.compile(r"\{|\b(?:for|all|some|exactly)\b")

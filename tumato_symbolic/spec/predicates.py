@@ -65,6 +65,7 @@ class Predicates:
         self._meant: dict[Span, str | None] = {}
         self._where: str | None = None
         self.used_aliases: set[int] = set()
+        self.used_variables: set[int] = set()
         self._references = tuple(self._references_of(each.predicate) for each in names.aliases)
         for number in range(len(names.aliases)):
             self._define(number)
@@ -92,6 +93,8 @@ class Predicates:
         """The declaration of a name that has to be of one kind; None, and a report, where it is not."""
         declared = self._names.table.get(name.text)
         if declared is not None and declared.kind == kind:
+            if kind == "state variable":
+                self.used_variables.add(declared.number)
             return declared
         if declared is not None:
             self._findings.add(

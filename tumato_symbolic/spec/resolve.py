@@ -40,6 +40,7 @@ class Resolution:
     diagnostics: tuple[Diagnostic, ...]
     names: Names
     used_aliases: frozenset[int]
+    used_variables: frozenset[int]
 
 
 def resolve(parsed: Parsed, tree: ast.Specification, source: Source, findings: Findings) -> Resolution:
@@ -76,7 +77,8 @@ def resolve(parsed: Parsed, tree: ast.Specification, source: Source, findings: F
         )
         for setting in settings:
             spec = _with_setting(spec, setting)
-    return Resolution(spec, tuple(findings.diagnostics), names, frozenset(predicates.used_aliases))
+    used_aliases, used_variables = frozenset(predicates.used_aliases), frozenset(predicates.used_variables)
+    return Resolution(spec, tuple(findings.diagnostics), names, used_aliases, used_variables)
 
 
 def _of(tree: ast.Specification, kind: type[ast.Block]) -> list[ast.Block]:

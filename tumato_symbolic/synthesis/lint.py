@@ -6,7 +6,17 @@ from collections.abc import Iterator
 
 from tumato_symbolic.diagnostics import Diagnostic
 from tumato_symbolic.game import Problem
-from tumato_symbolic.semantics.lint import SETS, STATES, idle_action, idle_goal, idle_rule, in_order, keeps_guard
+from tumato_symbolic.semantics.lint import (
+    SETS,
+    STATES,
+    goals_to_reach,
+    idle_action,
+    idle_goal,
+    idle_rule,
+    in_order,
+    keeps_guard,
+    reached_goal,
+)
 from tumato_symbolic.spec import TRUE, ConditionalGoal
 from tumato_symbolic.symbolic import compatible_sets, never_entered
 
@@ -16,7 +26,14 @@ def lint(problem: Problem) -> tuple[Diagnostic, ...]:
 
     What a predicate's own variables decide is left out: that is said when the specification is read.
     """
-    return in_order([*_idle_goals(problem), *_idle_rules(problem), *_idle_actions(problem)])
+    return in_order(
+        [
+            *_idle_goals(problem),
+            *_reached_goals(problem),
+            *_idle_rules(problem),
+            *_idle_actions(problem),
+        ]
+    )
 
 
 def _idle_goals(problem: Problem) -> Iterator[Diagnostic]:
@@ -25,6 +42,14 @@ def _idle_goals(problem: Problem) -> Iterator[Diagnostic]:
         condition = goal.condition.formula if isinstance(goal, ConditionalGoal) else TRUE
         if (encoding.formula(condition) & encoding.domain()) != problem.false:
             yield idle_goal(goal)
+
+
+def _reached_goals(problem: Problem) -> Iterator[Diagnostic]:
+    encoding, valid = problem.encoding, problem.steps.valid
+    for body, when in goals_to_reach(problem.spec):
+        active, missed = encoding.formula(when) & valid, ~encoding.formula(body.formula)
+        if active != problem.false and (active & missed) == problem.false != (encoding.domain() & missed):
+            yield reached_goal(body)
 
 
 def _idle_rules(problem: Problem) -> Iterator[Diagnostic]:

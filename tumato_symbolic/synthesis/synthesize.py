@@ -33,6 +33,7 @@ from tumato_symbolic.symbolic import Backend, Bdd, available_backend
 from tumato_symbolic.synthesis.certificate import policy_diagram
 from tumato_symbolic.synthesis.counting import restored_in
 from tumato_symbolic.synthesis.diagnosis import restorability
+from tumato_symbolic.synthesis.leaving import leaving
 from tumato_symbolic.synthesis.lint import lint
 from tumato_symbolic.synthesis.overriding import override, revert_unneeded
 from tumato_symbolic.synthesis.races import races
@@ -145,7 +146,8 @@ def _solve(problem: Problem, policy_format: PolicyFormat, certify: bool) -> Synt
             return resolved
         evaluation, statistics = resolved.evaluation, resolved.statistics
     complete, statistics, raced = _finish(problem, evaluation, statistics)
-    return Realizable(_as(complete, policy_format, statistics.valid), statistics, (*warnings, *raced))
+    left = leaving(problem, complete, undecided)
+    return Realizable(_as(complete, policy_format, statistics.valid), statistics, (*warnings, *raced, *left))
 
 
 def _reason(

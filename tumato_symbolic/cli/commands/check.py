@@ -77,7 +77,7 @@ def _report(files: Sequence[Checked], options: Options, undecided: str | None = 
 
 
 def _check(path: str, restoration: Restoration | None) -> Checked:
-    from tumato_symbolic.diagnostics import UserError
+    from tumato_symbolic.diagnostics import UserError, not_allowed
     from tumato_symbolic.report.checked import Checked
     from tumato_symbolic.semantics.lint import lint
     from tumato_symbolic.spec import load
@@ -94,4 +94,4 @@ def _check(path: str, restoration: Restoration | None) -> Checked:
         other = misplaced(path)
         return Checked(path, source, None, loaded.diagnostics if other is None else (other,))
     spec = loaded.spec if restoration is None else replace(loaded.spec, restoration=restoration)
-    return Checked(path, source, spec, (*loaded.diagnostics, *lint(spec)))
+    return Checked(path, source, spec, (*loaded.diagnostics, *not_allowed(lint(spec), source)))
