@@ -8,7 +8,7 @@ It is written from docs/semantics.md, language.md, policy.md and certificate.md 
 second opinion that can be read in one sitting. It looks at every valid state (of at most 2,000,000 states) and judges
 these properties of the policy, be it a table or a diagram:
 
-    total      every valid state has a decision
+    total      every valid state has a decision; with START, every start has one, and no state that is not valid
     safe       every decision is allowed: Ok(s, A), or Keep(s, A) where safety may take several steps to restore
     restoring  every unsafe state is restored; asked only where that may take several steps, or rules have severities
     goals      every nominal run reaches the active goals within the bound
@@ -212,6 +212,7 @@ class Specification:
     severity: int = 1  # of the next state rule: 1 is the most severe
     severities: list[int] = field(default_factory=list)  # of the state rules
     assumptions: list[Located] = field(default_factory=list)
+    starts: list[Located] = field(default_factory=list)  # none: every valid state is a start
     goals: Goal | None = None
     bound: int | None = None  # L; None: runs of any length
     ordering: str | None = None
@@ -473,7 +474,7 @@ class Parser:
         seen: set[str] = set()
         while self.next:
             self.expect("BEGIN")
-            self.title = self.expect(*titles, "GOALS", "CONFIG")
+            self.title = self.expect(*titles, "START", "GOALS", "CONFIG")
             self.need(self.title not in seen, f"there is a block {self.title} already")
             seen.add(self.title)
             if self.title == "GOALS":
@@ -499,8 +500,8 @@ class Parser:
         elif self.title == "STATE RULES" and not self.scope and self.accept("severity :"):
             spec.severity = self.number(1)
         else:
-            self.expect("assume :" if self.title == "ASSUMPTIONS" else "rule :")
-            rules = {"STATE RULES": spec.state_rules, "REACTION RULES": spec.reaction_rules}
+            self.expect({"ASSUMPTIONS": "assume :", "START": "start :"}.get(self.title, "rule :"))
+            rules = {"STATE RULES": spec.state_rules, "REACTION RULES": spec.reaction_rules, "START": spec.starts}
             rules.get(self.title, spec.assumptions).append(self.located_predicate())
             spec.severities += [spec.severity] if self.title == "STATE RULES" else []
 
@@ -734,6 +735,7 @@ def resolve(spec: Specification) -> Specification:
     spec.reaction_rules = [(resolved(spec, rule, True), line) for rule, line in spec.reaction_rules]
     spec.state_rules = [(resolved(spec, rule, False), line) for rule, line in spec.state_rules]
     spec.assumptions = [(resolved(spec, rule, False), line) for rule, line in spec.assumptions]
+    spec.starts = [(resolved(spec, rule, False), line) for rule, line in spec.starts]
     if spec.goals is not None:
         resolve_goal(spec, spec.goals)
     return spec
@@ -1019,6 +1021,8 @@ def truth(formula: Formula, state: State, executed: ActionSet, open_actions: Act
 class World:
     """A specification under one effect ordering and one way to restore safety.
 
+    With starts (section 12), only those valid states count that a policy decides, as if that were assumed: `part`.
+
     A *tier* is the state rules of one severity. Decisions are *stepwise* where restoring may take more than one step:
     several because it is said so, or one for each tier.
     """
@@ -1033,6 +1037,7 @@ class World:
         self.known: dict[Required, dict[State, bool]] = {}  # of `meets`
         self.levels: dict[State, int] = {}
         self.answers: dict[tuple[State, ActionSet, Required], bool] = {}  # of `stays_within`
+        self.part: set[State] | None = None  # None: all valid states count
 
     @cached_property
     def valid(self) -> list[State]:
@@ -1040,9 +1045,24 @@ class World:
         count = math.prod(map(len, self.spec.variables.values()))
         if count > LARGEST:
             raise TooLarge(f"{count:,} states are too many to look at each of them, which is done up to {LARGEST:,}")
-        valid = [state for state in itertools.product(*self.spec.variables.values()) if self.is_valid(state)]
+        valid = [state for state in self.every_state() if self.is_valid(state)]
         need(valid != [], "no state satisfies all assumptions")
         return valid
+
+    def every_state(self) -> Iterator[State]:
+        """All states, valid or not."""
+        return itertools.product(*self.spec.variables.values())
+
+    def is_start(self, state: State) -> bool:
+        """Whether a valid state satisfies a start condition."""
+        return any(holds(formula, state) for formula, _ in self.spec.starts)
+
+    def within(self, decided: set[State]) -> World:
+        """The same where, of the valid states, only decided ones count."""
+        part = World(self.spec, self.ordering, self.restoration)
+        part.part = decided.intersection(self.valid)
+        part.valid = [state for state in self.valid if state in decided]
+        return part
 
     @cached_property
     def safe(self) -> list[State]:
@@ -1050,7 +1070,9 @@ class World:
         return [state for state in self.valid if self.is_safe(state)]
 
     def is_valid(self, state: State) -> bool:
-        """Whether a state satisfies all assumptions."""
+        """Whether a state satisfies all assumptions, and is one that counts."""
+        if self.part is not None:
+            return state in self.part
         return self.broken(self.spec.assumptions, state) is None
 
     def is_safe(self, state: State) -> bool:
@@ -1268,6 +1290,8 @@ class World:
         if line is not None:
             return f"breaks the assumption at {self.quote(line)}"
         rules = [self.spec.state_rules[number] for number in required]
+        if self.broken(rules, state) is None:
+            return f"is {self.show(state)}, which is not decided"
         return f"breaks the state rule at {self.quote(self.broken(rules, state) or 0)}"
 
     # Goals (docs/semantics.md, section 4).
@@ -1573,9 +1597,18 @@ class Restoring:
 
 
 class Judge:
-    """A policy against a specification. What it says of states that are not valid plays no part."""
+    """A policy against a specification. What it says of states that are not valid plays no part, without starts."""
 
     def __init__(self, world: World, decide: Callable[[State], ActionSet | None]) -> None:
+        self.not_begun: list[State] = []  # starts without a decision
+        self.invalid: list[State] = []  # decided states that are not valid, where there are starts
+        if world.spec.starts:
+            starts = [state for state in world.valid if world.is_start(state)]
+            need(starts != [], "no valid state is a start")
+            decided = {state for state in world.every_state() if decide(state) is not None}
+            self.not_begun = [state for state in starts if state not in decided]
+            self.invalid = sorted(decided.difference(world.valid))
+            world = world.within(decided)
         self.world = world
         found = ((state, decide(state)) for state in world.valid)
         self.decided = {state: chosen for state, chosen in found if chosen is not None}
@@ -1586,7 +1619,7 @@ class Judge:
         self.after = {state: world.successor(state, chosen) for state, chosen in agreeing.items()}
         self.steps: dict[Residual, dict[State, int | None]] = {}
         self.rivals_of: dict[State, list[ActionSet]] = {}
-        self.missing = [state for state in world.valid if state not in self.decided]
+        self.missing = [*self.not_begun, *(state for state in world.valid if state not in self.decided)]
 
     def departure(self) -> tuple[State, State] | None:
         """The first decided state with an outcome that is valid and undecided, and that outcome.
@@ -1603,7 +1636,10 @@ class Judge:
 
     def verdicts(self) -> dict[str, tuple[list[State], Callable[[State], str]]]:
         """For each property the states in which it fails, and the function that tells why in one of them."""
-        found = {"total": (self.missing, self.undecided), "safe": (list(self.objections), self.refused)}
+        found = {
+            "total": ([*self.missing, *self.invalid], self.undecided),
+            "safe": (list(self.objections), self.refused),
+        }
         if self.world.stepwise:
             found["restoring"] = [state for state in self.restoring.open if self.quality(state) is None], self.endless
         return {
@@ -1708,6 +1744,10 @@ class Judge:
         return f"in {self.world.show(state)} the decision is {self.world.show_set(self.decided[state])}"
 
     def undecided(self, state: State) -> str:
+        if state in self.not_begun:
+            return f"no decision in {self.world.show(state)}, which is a start"
+        if state in self.invalid:
+            return f"there is a decision in {self.world.show(state)}, which is not valid"
         departure = self.departure()
         if departure is None:
             return f"no decision in {self.world.show(state)}"
@@ -1933,6 +1973,8 @@ def digest(spec: Specification) -> str:
     }
     if len(spec.tiers()) > 1:
         meaning["severities"] = [texts_of(spec, tier) for tier in spec.tiers()]
+    if spec.starts:
+        meaning["starts"] = texts_of(spec, spec.starts)
     if spec.preconditions == "throughout":
         meaning["preconditions"] = spec.preconditions
     text = json.dumps(meaning, sort_keys=True, separators=(",", ":"))
@@ -2107,6 +2149,8 @@ def judge_no(world: World, document: dict[str, Any]) -> str:
     reason: Any = document.get("Reason")
     need(isinstance(reason, dict), "`Reason` is an object")
     kind = reason.get("Kind")
+    if world.spec.starts and kind == "conflict":
+        raise NotKnown("where there are starts, it is not judged whether goals conflict")
     if kind == "no-allowed-set":
         return check_no_allowed_set(world, reason)
     if kind == "no-plan":
@@ -2134,9 +2178,11 @@ def runs_from(world: World, starts: list[State]) -> Iterator[list[State]]:
 
 
 def check_decides(world: World, state: State) -> None:
-    """A policy decides valid states, and need not do anything elsewhere."""
+    """A policy decides valid states, with starts these at least, and need not do anything elsewhere."""
     if not world.is_valid(state):
         raise Refuted(f"the state {world.show(state)} is not valid")
+    if world.spec.starts and not world.is_start(state):
+        raise Refuted(f"the state {world.show(state)} is no start")
 
 
 # What the certificate consists of.
@@ -2658,8 +2704,11 @@ def judge_policy(spec: Specification, policy: Policy, options: argparse.Namespac
     """Ordering and restoration are the command line's, else the specification's, else `any` and `one_step`."""
     ordering = options.effect_ordering or spec.ordering or "any"
     world = World(spec, ordering, options.restoration)
+    valid = counted(len(world.valid), "valid state")
     judge = Judge(world, policy.decide)
-    valid, unsafe = counted(len(world.valid), "valid state"), len(world.valid) - len(world.safe)
+    world = judge.world
+    unsafe = len(world.valid) - len(world.safe)
+    valid += f", {len(world.valid)} decided" if spec.starts else ""
     print(f"{valid}: {len(world.safe)} safe, {unsafe} unsafe; {shown_settings(world)}")
     right = True
     if options.effect_ordering is None and policy.document.get("EffectOrdering") == "first" and ordering == "any":

@@ -97,6 +97,7 @@ def print_spec(spec: Spec, random: Random, alias_probability: float = 0.0) -> st
         _block("REACTION RULES", [f"  rule: {text(rule.formula)}" for rule in spec.reaction_rules]),
         _block("STATE RULES", list(_state_rules(spec, text))),
         _block("ASSUMPTIONS", [f"  assume: {text(rule.formula)}" for rule in spec.assumptions]),
+        _block("START", [f"  start: {text(rule.formula)}" for rule in spec.starts]) if spec.starts else [],
         _goal_list(spec, spec.goals, text, "") if spec.goals is not None else [],
         _config(spec),
     ]

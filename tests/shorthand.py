@@ -313,6 +313,7 @@ class Writer:
             ("ACTIONS", self.action()),
             *((f"{kind} RULES", self.several(self.rule("rule"))) for kind in ("STATE", "REACTION")),
             ("ASSUMPTIONS", self.several(self.rule("assume"))),
+            ("START", self.several(self.rule("start"))),
         ]
         for title, piece in random.sample(blocks, len(blocks)):
             form = f"BEGIN {title}\n{{}}\nEND {title}\n"

@@ -159,6 +159,8 @@ WRONG = [
     STATES + "BEGIN RESOURCES resource none END RESOURCES",
     STATES + "BEGIN ASSUMPTIONS assume: executing go END ASSUMPTIONS" + GO,
     STATES + "BEGIN ASSUMPTIONS rule: A is x END ASSUMPTIONS",
+    STATES + "BEGIN START start: executing go END START" + GO,
+    STATES + "BEGIN START assume: A is x END START",
     config("max_plan_length: 0"),
     config("max_plan_length: 1 max_plan_length: 1"),
     config("effect_ordering: last"),

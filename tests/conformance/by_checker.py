@@ -25,7 +25,7 @@ class Checker:
     def refuses(self, text: str) -> bool:
         """When it is read, or its valid states are listed."""
         try:
-            checker.World(checker.read_specification(text.encode()), "any").valid  # noqa: B018 - a lazy attribute
+            checker.Judge(checker.World(checker.read_specification(text.encode()), "any"), lambda _: None)
         except checker.Unreadable:
             return True
         return False

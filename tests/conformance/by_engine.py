@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-from tests.conformance.by_trying import best_answer
+from tests.conformance.by_trying import best_answer, from_starts
 from tests.conformance.roles import PROPERTIES, Answer, Rows
 from tests.conformance.world import REMEMBERED, World
 from tests.oracle import Together, decide_world
@@ -58,7 +58,7 @@ class Explicit:
     def refuses(self, text: str) -> bool:
         """When it is read, or looked at state by state."""
         try:
-            return any(found.code == Code.TUM312 for found in lint(parse(text)))
+            return any(found.code in (Code.TUM312, Code.TUM317) for found in lint(parse(text)))
         except UserError:
             return True
 
@@ -87,7 +87,13 @@ class Explicit:
     def faults(self, world: World, rows: Rows) -> set[str]:
         """`judge`."""
         found = judge(world.spec, rows, world.ordering)
-        failing = (found.missing, found.not_allowed, found.not_restored, found.goal_missed, found.not_minimal)
+        failing = (
+            (*found.missing, *found.invalid),
+            found.not_allowed,
+            found.not_restored,
+            found.goal_missed,
+            found.not_minimal,
+        )
         return {name for name, states in zip(PROPERTIES, failing, strict=True) if states}
 
     def following(self, world: World, state: State, chosen: ActionSet) -> set[State]:
@@ -108,6 +114,8 @@ class Explicit:
 
     def answer(self, world: World) -> Answer:
         """The preferred policy where the preferences alone make one, else any; states that fail, or a conflict."""
+        if world.spec.starts:
+            return from_starts(world.spec, world.ordering)
         if world.spec.restores_stepwise:
             return best_answer(world.spec, world.ordering)
         oracle = OracleWorld(world.spec, world.ordering)

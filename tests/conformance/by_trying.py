@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
+from itertools import combinations
 from typing import Any
 
 from tests.conformance.roles import Answer, Rows
 from tests.restoration.truth import World as Truth
+from tests.starts.truth import greatest, starts, within
 from tumato_symbolic.semantics import Restorations, State, follow, is_safe, judge
+from tumato_symbolic.semantics.judge import one_of
 from tumato_symbolic.spec import Ordering, Spec
 
 
@@ -22,6 +26,24 @@ def best_answer(spec: Spec, ordering: Ordering) -> Answer:
         best = min(policies, key=lambda rows: _preference(spec, ordering, rows))
         return Answer(best, {}, judge(spec, best, ordering).longest_run)
     return Answer(None, {"conflict": frozenset(_in_conflict(truth))})
+
+
+def from_starts(spec: Spec, ordering: Ordering) -> Answer:
+    """The policy of section 12, starts that fail, or starts that no policy serves together."""
+    truth = Truth(spec, ordering)
+    part, _, failing = greatest(truth)
+    if failing:
+        return Answer(None, {kind: frozenset(s for s in failing if failing[s] == kind) for kind in failing.values()})
+    every = [frozenset(some) for size in range(len(part) + 1) for some in combinations(sorted(part), size)]
+    served = [each for each in every if each and within(truth, each).has_policy()]
+    largest = max((each for each in served if starts(truth) <= each), key=len, default=None)
+    if largest is not None:
+        return best_answer(replace(spec, starts=()).within(one_of(largest)), ordering)
+    members = starts(truth)
+    for state in sorted(members):
+        if not any(members - {state} <= each for each in served):
+            members -= {state}
+    return Answer(None, {"conflict": members})
 
 
 def _preference(spec: Spec, ordering: Ordering, rows: Rows) -> list[Any]:

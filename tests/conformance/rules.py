@@ -55,6 +55,9 @@ UNANSWERED: dict[tuple[str, str], str] = {
         for e in ("bdd-cudd", "bdd-autoref", "z3", "states", "coq")
         for number in range(1, 9)
     },
+    **{("coq", f"12.{number}"): "the exporter refuses START" for number in range(1, 6)},
+    **{(bdd, rule): _NO_JUDGE for bdd in ("bdd-cudd", "bdd-autoref") for rule in ("12.2", "12.3")},
+    **{(e, rule): _NO_DECIDER for e in (*_PROVERS, "checker") for rule in ("12.4", "12.5")},
     ("explicit", "6.4"): "it writes no files",
 }
 """Rules of which an engine gives no answer, with the reason; every other engine is asked about every other rule."""

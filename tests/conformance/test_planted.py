@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from importlib import import_module
+from itertools import product
 from typing import Any
 
 import pytest
@@ -22,13 +23,14 @@ from tests.conformance import test_8_paper as paper
 from tests.conformance import test_9_restoring as restoring
 from tests.conformance import test_10_severities as severities
 from tests.conformance import test_11_guarantees as guarantees
+from tests.conformance import test_12_starts as starting
 from tests.conformance.by_checker import Checker
 from tests.conformance.by_coq import Coq
 from tests.conformance.by_engine import Bdd, Explicit
 from tests.conformance.by_verify import Z3, States, Walk
 from tumato_symbolic.export import coq
 from tumato_symbolic.game import routing
-from tumato_symbolic.semantics import Guarantee, Prospects, Restorations, holds
+from tumato_symbolic.semantics import Guarantee, Prospects, Restorations, holds, is_valid
 from tumato_symbolic.semantics import goals as explicit_goals
 from tumato_symbolic.semantics import step as explicit_step
 from tumato_symbolic.semantics.guarantees import Step as ExplicitStep
@@ -37,6 +39,7 @@ from tumato_symbolic.symbolic import goals as symbolic_goals
 from tumato_symbolic.symbolic import steps as symbolic_steps
 from tumato_symbolic.symbolic.encoding import Encoding, Group
 from tumato_symbolic.symbolic.manager import Bdd as Set
+from tumato_symbolic.synthesis import starts
 from tumato_symbolic.verify.by_diagrams.closed_loop import ClosedLoop
 from tumato_symbolic.verify.by_diagrams.efforts import WalkEfforts
 from tumato_symbolic.verify.by_diagrams.goals import WalkGoals
@@ -51,6 +54,7 @@ explicit_judge = import_module("tumato_symbolic.semantics.judge")
 taken_alone = import_module("tumato_symbolic.game.alone")
 game_restoration = import_module("tumato_symbolic.game.restoration")
 refutations = import_module("tumato_symbolic.verify.unrealizability.verdict")
+by_solver = import_module("tumato_symbolic.verify.unrealizability.by_solver")
 
 
 @dataclass(frozen=True)
@@ -64,6 +68,21 @@ class Bug:
     name: str
     change: Callable[[Any], Any]
     test: Callable[[Any], None]
+
+
+def _valid_states(world: Any) -> Any:
+    every = map(tuple, product(*world.spec.variables.values()))
+    return (state for state in every if world.broken(world.spec.assumptions, state) is None)
+
+
+def _open(_: Any) -> Any:
+    def planted(whole: Any, states: Any) -> Any:
+        steps, safe = whole.steps, whole.steps.safe & states
+        open_ = replace(steps, valid=states, safe=safe, allowed=steps.allowed & states, tiers=(states, safe))
+        active = symbolic_goals.regions(whole.encoding, states)
+        return replace(whole, steps=open_, regions=active, targets=tuple(symbolic_goals.targets(open_, active)))
+
+    return planted
 
 
 def _walk_every_member(walk: Any) -> Any:
@@ -200,7 +219,7 @@ BUGS = (
         preferences.test_then_the_fewest_actions_then_what_is_declared_first),
     Bug("7.1", "cubes are believed", Checker, checker, "check_no_allowed_set", lambda _: lambda world, reason: "",
         lambda engine: none.test_unrealizability_is_proved_where_it_is_so(engine, "no-allowed-set")),
-    Bug("7.3", "conflicts are believed", Z3, refutations, "check_conflict", lambda _: lambda reason, step: 1,
+    Bug("7.3", "conflicts are believed", Z3, by_solver, "check_conflict", lambda _: lambda reason, step: 1,
         lambda engine: none.test_unrealizability_is_proved_where_it_is_so(engine, "conflict")),
     Bug("8.2", "every set takes equally long", States, states_prover, "duration",
         lambda _: lambda spec, chosen: 1, paper.test_stopping_the_conveyor_is_the_minimum),
@@ -253,6 +272,15 @@ BUGS = (
         guarantees.test_the_worst_number_of_steps),
     Bug("11.8", "what is only nominal is nothing", Explicit, Prospects, "of", _nothing_is_nominal,
         lambda engine: guarantees.test_each_guarantee_implies_the_weaker_ones(engine, "adc", "a", "nominal")),
+    Bug("12.1", "every valid state is a start", Explicit, explicit_judge, "is_start", lambda _: is_valid,
+        starting.test_without_start_conditions_every_valid_state_is_a_start),
+    Bug("12.2", "undecided states are valid as well", Z3, Spec, "validity",
+        lambda _: property(lambda spec: spec.assumptions),
+        lambda engine: starting.test_no_outcome_of_a_decision_is_undecided(engine, "any")),
+    Bug("12.3", "invalid states may be decided", Checker, checker.World, "every_state", lambda _: _valid_states,
+        lambda engine: starting.test_every_start_is_decided_and_only_valid_states_are(engine, "first")),
+    Bug("12.4", "steps may leave the part", lambda: Bdd("autoref"), starts, "_within", _open,
+        lambda engine: starting.test_the_greatest_part_is_decided(engine, "any")),
 )  # fmt: skip
 
 

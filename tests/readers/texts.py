@@ -23,10 +23,10 @@ STRANGE: tuple[str, ...] = (
 """Spaces, line ends, digits and letters that may be taken for others, and signs that the language does not have."""
 
 KEYWORDS = tuple(
-    """BEGIN END AND OR NOT IF THEN IFONLYIF STATE VECTOR ALIASES RESOURCES ACTIONS REACTION RULES ASSUMPTIONS GOALS
-    CONFIG state can be define as resource action duration cost controlled resources preconditions nominal effects
-    alternative none rule assume goal type priority constraint when then max_plan_length effect_ordering any first is
-    executing true false""".split()  # noqa: SIM905 - a page of quotes says no more
+    """BEGIN END AND OR NOT IF THEN IFONLYIF STATE VECTOR ALIASES RESOURCES ACTIONS REACTION RULES ASSUMPTIONS START
+    GOALS CONFIG state can be define as resource action duration cost controlled resources preconditions nominal effects
+    alternative none rule assume start goal type priority constraint when then max_plan_length effect_ordering any first
+    is executing true false""".split()  # noqa: SIM905 - a page of quotes says no more
 )
 
 PIECE = re.compile(r"\s+|//[^\n]*|/\*.*?\*/|\w+|.", re.DOTALL)
@@ -39,7 +39,14 @@ def sources() -> tuple[str, ...]:
     """Specifications without a mistake: all examples, and some of every profile."""
     written = [path.read_text(encoding="utf-8") for path in sorted(EXAMPLES.glob("*.tum"))]
     small = [text for text in written if len(text) < 6000]
-    return (*small, *(random_text(seed, profile) for profile in PROFILES.values() for seed in range(25)))
+    texts = [random_text(seed, profile) for profile in PROFILES.values() for seed in range(25)]
+    return (*small, *(_with_starts(text) if number % 4 == 0 else text for number, text in enumerate(texts)))
+
+
+def _with_starts(text: str) -> str:
+    """The text with start conditions: what its state rules say."""
+    rules = re.findall(r"^ +rule: (.*)$", text.partition("BEGIN STATE RULES")[2].partition("END")[0], re.MULTILINE)
+    return text + "".join(["BEGIN START\n", *(f"  start: {each}\n" for each in rules), "END START\n"])
 
 
 def damaged(seed: int) -> bytes:

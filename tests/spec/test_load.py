@@ -83,9 +83,9 @@ def test_lists_may_be_empty_or_none() -> None:
 
 def test_blocks_may_be_empty() -> None:
     """Every block but the state vector may hold nothing."""
-    titles = ["ALIASES", "RESOURCES", "ACTIONS", "REACTION RULES", "STATE RULES", "ASSUMPTIONS", "GOALS", "CONFIG"]
-    found = spec(VECTOR + "".join(f" BEGIN {title} END {title}" for title in titles))
-    assert (found.actions, found.goals, found.max_plan_length, found.effect_ordering) == ((), None, None, None)
+    titles = ["ALIASES", "RESOURCES", "ACTIONS", "REACTION RULES", "STATE RULES", "ASSUMPTIONS", "START", "GOALS"]
+    found = spec(VECTOR + "".join(f" BEGIN {title} END {title}" for title in [*titles, "CONFIG"]))
+    assert (found.actions, found.goals, found.max_plan_length, found.starts) == ((), None, None, ())
 
 
 def test_effects_are_assignments() -> None:

@@ -13,7 +13,7 @@ from tumato_symbolic.syntax.tokens import HARD
 SOFT = [
     "goal", "on", "is", "can", "be", "as", "state", "action", "effects", "cost", "when", "then", "rule", "GOALS",
     "duration", "nominal", "controlled", "alternative", "preconditions", "resources", "STATE", "type", "any", "assume",
-    "not", "in",
+    "start",    "not", "in",
 ]  # fmt: skip
 RESERVED = frozenset({"true", "false", "none", "executing"})
 
@@ -86,6 +86,7 @@ blocks = st.one_of(
     _some(predicates).map(ast.ReactionRules),
     _some(predicates | st.integers(-5, 10**6).map(ast.Severity)).map(ast.StateRules),
     _some(predicates).map(ast.Assumptions),
+    _some(predicates).map(ast.Start),
     goal_lists.map(ast.Goals),
     _some(
         st.integers(-5, 10**6).map(ast.MaxPlanLength)

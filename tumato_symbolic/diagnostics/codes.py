@@ -59,6 +59,7 @@ class Code(Enum):
     TUM314 = ("error", "a range that is none")
     TUM315 = ("error", "a comparison of values that are not numbers")
     TUM316 = ("error", "copies that cannot be made")
+    TUM317 = ("error", "no valid state is a start")
 
     TUM321 = ("warning", "an unused resource")
     TUM322 = ("warning", "an unused alias")

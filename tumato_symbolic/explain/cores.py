@@ -35,6 +35,10 @@ class Failing:
     no_restoration: Bdd
     no_plan: Bdd
 
+    def among(self, states: Bdd) -> Failing:
+        """Those of some states."""
+        return Failing(self.no_allowed_set & states, self.no_restoration & states, self.no_plan & states)
+
 
 def failing_states(oracle: FailingStates) -> Failing:
     """All states that fail (`docs/semantics.md`, section 7)."""

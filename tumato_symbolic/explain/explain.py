@@ -101,10 +101,24 @@ def explained(
         yield stopped(known, str(limit))
         return
     work = Work(requirements, context, outcome, max_cubes, cores, wanted_repairs)
-    for stage in STAGES:
+    left_out = _left_out(spec, outcome)
+    for stage in (each for each in STAGES if each not in left_out):
         for more in _within_its_share(work, known, stage):
             known = more
             yield known
+    if left_out:
+        unknown = (LeftOut(stage, so_far(known, stage), _NOT_OF_STARTS) for stage in left_out)
+        yield replace(known, left_out=(*known.left_out, *unknown))
+
+
+def _left_out(spec: Spec, outcome: Unrealizable) -> tuple[Stage, ...]:
+    """The stages that know nothing of starts yet."""
+    if not spec.starts:
+        return ()
+    return ("part", "repairs") if outcome.failures[0].kind != "conflict" else ("part", "reasons", "near", "repairs")
+
+
+_NOT_OF_STARTS = "not looked for yet where there are starts"
 
 
 def _verdict(spec: Spec, ordering: Ordering, outcome: Unrealizable) -> Explanation:

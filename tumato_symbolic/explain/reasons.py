@@ -33,6 +33,7 @@ def reasons_found(work: Work, found: Explanation) -> Iterator[Explanation]:
         if len(found.reasons) == MAX_CAUSES:
             break
         _tell(work, found)
+    yield found
 
 
 def _tell(work: Work, found: Explanation) -> None:

@@ -32,8 +32,9 @@ class Work:
 
     @cached_property
     def failing(self) -> Failing:
-        """The valid states that fail."""
-        return failing_states(self.oracle)
+        """The valid states that fail; with starts, those starts that fail at once, whatever may follow."""
+        found, spec = failing_states(self.oracle), self.requirements.spec
+        return found.among(self.requirements.formula(spec.start)) if spec.starts else found
 
     @cached_property
     def oracle(self) -> FailingStates:
@@ -41,7 +42,10 @@ class Work:
         return FailingStates(self.requirements)
 
     def states_of(self, kind: FailureKind) -> Bdd:
-        """The states that fail in one way; of a conflict, those that no policy serves together."""
+        """The states that fail in one way: of a conflict, those not served together; of starts, those listed."""
+        if self.requirements.spec.starts:
+            states = next(each.states for each in self.outcome.failures if each.kind == kind)
+            return self.requirements.manager.union(map(self.requirements.encoding.state_cube, states))
         match kind:
             case "no-allowed-set":
                 return self.failing.no_allowed_set

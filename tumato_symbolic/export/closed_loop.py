@@ -32,6 +32,7 @@ from tumato_symbolic.spec import (
     Variable,
     active_bodies,
 )
+from tumato_symbolic.spec.support import require_no_starts
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,8 +86,9 @@ class ClosedLoop:
 
     @classmethod
     def of(cls, request: Request) -> ClosedLoop:
-        """The closed loop of a policy and its specification."""
+        """The closed loop of a policy and its specification. Raises `UserError` where there are starts."""
         spec = request.spec
+        require_no_starts(spec, "what checks an export")
         names = request.policy.vocabulary.actions
         cases = tuple(tuple(n for n, each in enumerate(spec.actions) if each.name == name) for name in names)
         active = active_bodies(spec.goals, lambda formula: formula, _SHORT)

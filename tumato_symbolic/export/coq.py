@@ -42,6 +42,7 @@ from tumato_symbolic.spec import (
     fold,
     fold_goal,
 )
+from tumato_symbolic.spec.support import require_no_starts
 
 MOST_STATES = 30_000
 """Coq goes through all states, valid or not; so many take it about a minute (`proofs/coq/README.md`)."""
@@ -82,6 +83,7 @@ def export(policy: Policy, spec: Spec, ordering: Ordering) -> str:
     `UserError` where the policy does not fit the specification (`bind`), where it leaves a valid state undecided
     (TUM502), or where the specification has more than `MOST_STATES` states (TUM508).
     """
+    require_no_starts(spec, "the theorem for Coq")
     rows = _rows(bind(policy, spec), spec)
     several = spec.restoration != "one_step"
     theorem = _THEOREM.format(ordering=ordering.capitalize(), efforts="known" if several else "no_efforts")

@@ -60,7 +60,10 @@ def reason_pieces(place: Place, found: Explanation, every_cube: bool) -> Iterato
             )
         yield "\n".join(lines)
     if found.omitted and "reasons" in found.finished:
-        yield f"\n{count(found.omitted, 'failing state')} more, whose reasons were not analysed: there are too many."
+        why = "whose reasons were not analysed: there are too many"
+        if place.spec.starts:
+            why = "from where every way on may lead to states that cannot be decided; `synth` shows one"
+        yield f"\n{count(found.omitted, 'failing state')} more, {why}."
 
 
 def _blamed(place: Place, reason: Reason) -> str:

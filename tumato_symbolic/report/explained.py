@@ -80,7 +80,8 @@ def _verdict(done: Explained, found: Explanation, paint: Paint) -> str:
     verdict = f"{done.source.name} is {paint.bad('not realizable')}: "
     if found.failing_states:
         fail = "fails" if found.failing_states == 1 else "fail"
-        verdict += f"{found.failing_states:,} of {count(numbers.valid, 'valid state')} {fail}."
+        asked = count(numbers.valid, "valid state") if numbers.part is None else count(numbers.part.starts, "start")
+        verdict += f"{found.failing_states:,} of {asked} {fail}."
     else:
         verdict += "each state alone has a plan, but no policy works for all of them."
     return verdict if numbers.ordering == "any" else f"{verdict}\n  effects: {ORDERINGS[numbers.ordering]}"

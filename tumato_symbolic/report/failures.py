@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from textwrap import indent
 from typing import Final
 
@@ -10,7 +11,7 @@ from tumato_symbolic.report.layout import count, enumeration
 from tumato_symbolic.report.objections import Place, broken_here, why_no_set
 from tumato_symbolic.semantics import named
 from tumato_symbolic.spec import Ordering, Spec
-from tumato_symbolic.synthesis.result import Failure, FailureKind
+from tumato_symbolic.synthesis.result import DecidedPart, Failure, FailureKind
 
 FAILURE_CODES: Final[dict[FailureKind, Code]] = {
     "no-allowed-set": Code.TUM401,
@@ -26,6 +27,8 @@ _NAMES = 5
 
 def failure_text(place: Place, failure: Failure, ordering: Ordering) -> str:
     """One kind of failure for a person."""
+    if failure.within is not None:
+        place = replace(place, spec=place.spec.within(failure.within))
     match failure.kind:
         case "no-allowed-set":
             lines = _no_allowed_set(place, failure, ordering)
@@ -51,9 +54,14 @@ def failure_line(place: Place, failure: Failure) -> str:
 
 def _head(place: Place, failure: Failure, what: str) -> list[str]:
     has = "has" if failure.count == 1 else "have"
-    lines = [f"{count(failure.count, 'state')} {has} {what}. For example:", f"  {place.state(failure.example)}"]
+    noun = "start" if place.spec.starts else "state"
+    lines = [f"{count(failure.count, noun)} {has} {what}. For example:", f"  {place.state(failure.example)}"]
     broken = broken_here(place, failure.example)
-    return [*lines, f"  ({broken})"] if broken else lines
+    lines += [f"  ({broken})"] if broken else []
+    return lines if failure.within is None else [*lines, _LEFT_OUT]
+
+
+_LEFT_OUT = "A step is left out here if it may lead to a state from where there is no policy."
 
 
 def _no_allowed_set(place: Place, failure: Failure, ordering: Ordering) -> list[str]:
@@ -113,6 +121,24 @@ def _conflict(place: Place, failure: Failure) -> list[str]:
     if failure.count > _STATES_IN_TEXT:
         lines.append(f"  … and {failure.count - _STATES_IN_TEXT} more")
     return [*lines, "Make the goals agree, or let a condition tell such states apart."]
+
+
+def left_out_lines(place: Place, part: DecidedPart) -> list[str]:
+    """Which valid states a policy from the starts does not decide, and why: one line for each kind, with an example."""
+    left = sum(failure.count for failure in part.left_out)
+    lines = [f"{count(left, 'valid state')} {'is' if left == 1 else 'are'} left out; no run from a start comes there:"]
+    lines += [
+        f"  {each.count:,} {_WHY_LEFT_OUT[each.kind]}, such as {place.state(each.example)}" for each in part.left_out
+    ]
+    return lines if left else []
+
+
+_WHY_LEFT_OUT: Final[dict[FailureKind, str]] = {
+    "no-allowed-set": "without an allowed set of actions",
+    "no-restoration": "without a way back to safety",
+    "no-plan": "without a plan",
+    "conflict": "where goals conflict with those of others",
+}
 
 
 def failure_json(spec: Spec, failure: Failure) -> dict[str, object]:

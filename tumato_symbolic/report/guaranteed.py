@@ -41,7 +41,8 @@ def guarantees_lines(place: Place, found: Guarantees, paint: Paint) -> Iterator[
             return
     yield "guarantees:"
     for level in found.levels:
-        yield f"  {count(level.states, 'valid state')}: {guarantee_text(level.guarantee)}"
+        noun = "decided state" if place.spec.starts else "valid state"
+        yield f"  {count(level.states, noun)}: {guarantee_text(level.guarantee)}"
         yield f"    where {_where(place.spec, level)}"
         if level.shortcoming is not None:
             yield f"    nothing stronger, for example from {place.state(level.shortcoming.state)}:"

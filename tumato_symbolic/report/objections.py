@@ -95,6 +95,9 @@ def objection_text(place: Place, objection: Objection, start: State | None = Non
             return f"the nominal effects of {names[0]} and {names[1]} contradict each other"
         case "reaction-rule":
             return f"the reaction rule {rule} forbids it"
+        case "unsafe" | "nominal-unsafe" if objection.rule is None and objection.state is not None:
+            happens = effects_text(place, objection.outcome) if objection.outcome else "all nominal effects happen"
+            return f"when {happens},\n  it comes to {place.state(objection.state)}, where nothing is decided"
         case "unsafe" if objection.outcome:
             verb = "stays" if _never_held(objection, start) else "is"
             return f"when {effects_text(place, objection.outcome)},\n  {rule} {verb} broken"

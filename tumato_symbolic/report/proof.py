@@ -32,6 +32,12 @@ _SEVERAL_STEPS: Final[dict[PropertyName, str]] = {
 }
 """What is said instead where safety may take several steps to restore."""
 
+_FROM_STARTS: Final[dict[PropertyName, str]] = {
+    "total": "every start has a decision, and so has no state that is not valid",
+    "safe": "every decision is allowed: whatever effects occur, no rule is broken, and the next state is decided",
+}
+"""What is said instead where there are starts."""
+
 _HOW: Final[dict[Restoration | None, str]] = {
     None: "",
     "one_step": "in one step for each severity",
@@ -47,7 +53,8 @@ _STEPS_SHOWN = 12
 def proof_text(verification: Verification, valid: int, took: float, paint: Paint) -> str:
     """What is proved of a policy, property by property, and what stayed open."""
     results = verification.properties
-    head = f"{paint.good('Proved')} by {provers(verification)} for {every(valid, 'valid state')}, in {seconds(took)}:"
+    states = states_covered(verification) if verification.from_starts else every(valid, "valid state")
+    head = f"{paint.good('Proved')} by {provers(verification)} for {states}, in {seconds(took)}:"
     if verification.verdict != "proved":
         head = f"{paint.doubt('Not everything could be proved')}; it took {seconds(took)}:"
     return "\n".join((head, *(f"  {property_line(result, paint, verification)}" for result in results)))
@@ -85,6 +92,7 @@ def property_line(result: PropertyResult, paint: Paint, verification: Verificati
     reason = f" ({result.reason})" if result.reason else ""
     prover = f" by {_named(result.proved_by)}" if result.proved_by not in (None, "z3") else ""
     claims = _CLAIMS if verification.restoration is None else _CLAIMS | _SEVERAL_STEPS
+    claims = claims | _FROM_STARTS if verification.from_starts else claims
     decided = "valid" if verification.decides_all else "decided"
     claim = claims[result.name].format(decided=decided, how=_HOW[verification.restoration])
     width = max(9, *(len(each.name) + 1 for each in verification.properties), len(result.name) + 1)
@@ -108,10 +116,13 @@ def refutation_text(place: Place, refutation: Refutation) -> str:
     if broken := broken_here(place, state):
         lines.append(f"({broken})")
     if refutation.decision is None:
-        return "\n".join((*lines, "the policy decides nothing", *_way_there(place, refutation)))
+        nothing = "which is a start, the policy decides nothing" if place.spec.starts else "the policy decides nothing"
+        return "\n".join((*lines, nothing, *_way_there(place, refutation)))
     lines.append(f"the policy executes {place.actions(refutation.decision)}")
     spec = place.spec
     match refutation:
+        case Refutation(kind="invalid"):
+            lines.append("although the state is not valid: a policy from the starts decides valid states only")
         case Refutation(kind="not-allowed", objection=objection) if objection is not None:
             lines.append(f"which is not allowed: {objection_text(place, objection, state)}")
         case Refutation(kind="goal-missed", run=run) if run is not None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Diagnostic, Source
 from tumato_symbolic.policy import as_table, some_decided
-from tumato_symbolic.report.failures import FAILURE_CODES, failure_json, failure_line, failure_text
+from tumato_symbolic.report.failures import FAILURE_CODES, failure_json, failure_line, failure_text, left_out_lines
 from tumato_symbolic.report.findings import Finding, finding_json, findings_of, undecided
 from tumato_symbolic.report.layout import Paint, count, every, seconds
 from tumato_symbolic.report.objections import Place
@@ -111,7 +111,7 @@ def _realizable(done: Synthesized, outcome: Realizable, paint: Paint) -> list[st
         f"is {paint.good('realizable')}: the policy decides" if done.written else "may be realizable: a policy decides"
     )
     head = [
-        f"{done.source.name} {verdict} {every(statistics.valid, 'valid state')}. Found in {seconds(done.solved_in)}.",
+        f"{done.source.name} {verdict} {_decided(statistics)}. Found in {seconds(done.solved_in)}.",
         _states(statistics),
         longest,
         *restored_text(statistics),
@@ -119,12 +119,29 @@ def _realizable(done: Synthesized, outcome: Realizable, paint: Paint) -> list[st
         *_engine(statistics),
     ]
     drawn = _drawn(done, outcome)
-    parts = ["\n".join(head), *drawn]
+    parts = ["\n".join(head), *_left_out(done, statistics), *drawn]
     if done.proof is None:
         parts.append(paint.doubt("Not proved: --no-verify was given."))
     else:
         parts.append(proof_text(done.proof, statistics.valid, done.proved_in, paint))
     return [*parts, _next(done, outcome, shown=bool(drawn))]
+
+
+def _decided(statistics: Statistics) -> str:
+    """Which states the policy decides."""
+    part = statistics.part
+    if part is None or part.decided == statistics.valid:
+        return every(statistics.valid, "valid state")
+    return (
+        f"{part.decided:,} of {count(statistics.valid, 'valid state')}, "
+        f"with {every(part.starts, 'start')} and all that can follow"
+    )
+
+
+def _left_out(done: Synthesized, statistics: Statistics) -> list[str]:
+    """What the policy does not decide, as a paragraph."""
+    lines = [] if statistics.part is None else left_out_lines(done.place, statistics.part)
+    return ["\n".join(lines)] if lines else []
 
 
 def _drawn(done: Synthesized, outcome: Realizable) -> list[str]:
@@ -159,10 +176,13 @@ def _overruling(done: Synthesized, ordering: Ordering) -> str:
 
 def _unrealizable(done: Synthesized, outcome: Unrealizable, paint: Paint) -> list[str]:
     failing = sum(failure.count for failure in outcome.failures if failure.kind != "conflict")
-    valid = outcome.statistics.valid
+    part = outcome.statistics.part
+    asked = count(outcome.statistics.valid, "valid state") if part is None else count(part.starts, "start")
     verdict = f"{done.source.name} is {paint.bad('not realizable')}"
     if failing:
-        verdict += f": {failing:,} of {count(valid, 'valid state')} {'fails' if failing == 1 else 'fail'}."
+        verdict += f": {failing:,} of {asked} {'fails' if failing == 1 else 'fail'}."
+    elif part is not None:
+        verdict += ": each start alone has a plan, but no policy works for all of them."
     else:
         verdict += ": each state alone has a plan, but no policy works for all of them."
     verdict += f" Found in {seconds(done.solved_in)}."
@@ -177,7 +197,7 @@ def _unrealizable(done: Synthesized, outcome: Unrealizable, paint: Paint) -> lis
         shown = [failure_line(done.place, failure) for failure in outcome.failures]
         shown.append(f"The rest of the report is left out: {done.cut_short}.")
     written = "\n".join((f"No policy was written.{_kept(done)}", *_certified(done, outcome, paint)))
-    why = "says why, line by line, and which changes would give a policy"
+    why = "says why, line by line, and which changes would give a policy" if part is None else "says why, line by line"
     explain = f"`tumato-sym explain {shlex.quote(done.source.name)}` {why}."
     return ["\n".join(head), *shown, f"{written}\n{explain}"]
 
@@ -225,6 +245,7 @@ def as_json(done: Synthesized) -> dict[str, object]:
         else None,
         "longest_run": statistics.longest_run if statistics else None,
         **restored_json(statistics),
+        **_starts_json(done.spec, statistics),
         "policy": done.output if done.written else None,
         "certificate": done.certificate,
         "failing_states": sum(failure.count for failure in failures if failure.kind != "conflict"),
@@ -236,6 +257,15 @@ def as_json(done: Synthesized) -> dict[str, object]:
         "backend": statistics.backend if statistics else None,
         "warnings": [finding_json(warning, done.source.name) for warning in done.warnings],
     }
+
+
+def _starts_json(spec: Spec, statistics: Statistics | None) -> dict[str, object]:
+    """What is decided from the starts, where there are any; what could be, where there is no policy."""
+    part = None if statistics is None else statistics.part
+    if part is None:
+        return {}
+    left_out = [failure_json(spec, failure) for failure in part.left_out]
+    return {"starts": {"count": part.starts, "decided_states": part.decided, "left_out": left_out}}
 
 
 def _proof_json(done: Synthesized) -> dict[str, object] | None:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from tumato_symbolic.semantics.restoration import Restorations
 from tumato_symbolic.semantics.runs import Run, follow
-from tumato_symbolic.semantics.states import ActionSet, State, all_states, duration, is_safe, is_valid
+from tumato_symbolic.semantics.states import ActionSet, State, all_states, duration, is_safe, is_start, is_valid
 from tumato_symbolic.semantics.step import Objection, allowed_sets, nominal_agrees, objections
-from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.spec import FALSE, TRUE, And, Formula, Is, Or, Ordering, Spec
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,7 +17,8 @@ class Judgement:
     """Where a policy falls short. It is sound, complete and minimal when all of these are empty.
 
     `not_restored` are unsafe states from where the way back to safety may never end: where safety may take several
-    steps to restore.
+    steps to restore. With starts, `missing` are starts, `invalid` are decided states that are not valid, and only the
+    decided states count: an outcome that is none of them is as one that is not valid (section 12).
     """
 
     missing: tuple[State, ...]
@@ -26,11 +27,12 @@ class Judgement:
     not_minimal: tuple[tuple[State, ActionSet], ...]
     longest_run: int
     not_restored: tuple[State, ...] = ()
+    invalid: tuple[State, ...] = ()
 
     @property
     def sound_and_complete(self) -> bool:
         """Total, safe, restoring, and every run reaches its goal."""
-        return not (self.missing or self.not_allowed or self.not_restored or self.goal_missed)
+        return not (self.missing or self.invalid or self.not_allowed or self.not_restored or self.goal_missed)
 
     @property
     def minimal(self) -> bool:
@@ -39,10 +41,17 @@ class Judgement:
 
 
 def judge(spec: Spec, policy: Mapping[State, ActionSet], ordering: Ordering) -> Judgement:
-    """Judge `policy`, which need not be defined everywhere; what it says of states that are not valid is ignored."""
+    """Judge `policy`, which need not be defined everywhere.
+
+    Without starts, what it says of states that are not valid is ignored.
+    """
     valid = [state for state in all_states(spec) if is_valid(spec, state)]
-    missing = tuple(state for state in valid if state not in policy)
+    missing = tuple(state for state in valid if state not in policy and is_start(spec, state))
     decided = {state: policy[state] for state in valid if state in policy}
+    invalid: tuple[State, ...] = ()
+    if spec.starts:
+        invalid = tuple(sorted(policy.keys() - decided.keys()))
+        spec = spec.within(one_of(decided))
     bad = ((state, next(objections(spec, state, chosen, ordering), None)) for state, chosen in decided.items())
     not_allowed = tuple((state, objection) for state, objection in bad if objection is not None)
     forbidden = {state for state, _ in not_allowed}
@@ -59,7 +68,14 @@ def judge(spec: Spec, policy: Mapping[State, ActionSet], ordering: Ordering) -> 
         tuple((state, best) for state, sets in cheaper if (best := next(sets, None)) is not None),
         max((run.steps for _, run in runs if run.end == "goal"), default=0),
         tuple(state for state in unsafe if ways_back is not None and _is_trapped(spec, decided, state, ways_back)),
+        invalid,
     )
+
+
+def one_of(states: Iterable[State]) -> Formula:
+    """Where a state is one of these."""
+    each = tuple(And((TRUE, *(Is(variable, value) for variable, value in enumerate(state)))) for state in states)
+    return Or((FALSE, *each))
 
 
 def _is_trapped(spec: Spec, policy: Mapping[State, ActionSet], state: State, ways_back: Restorations) -> bool:

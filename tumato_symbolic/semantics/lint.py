@@ -9,7 +9,7 @@ from typing import TypeAlias
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Note
 from tumato_symbolic.diagnostics.copies import merged
-from tumato_symbolic.semantics.states import ActionSet, State, all_states, count_states, holds, is_valid
+from tumato_symbolic.semantics.states import ActionSet, State, all_states, count_states, holds, is_start, is_valid
 from tumato_symbolic.semantics.step import allowed, nominal_agrees, takes_effect
 from tumato_symbolic.spec import (
     FORMULAS,
@@ -49,6 +49,8 @@ def lint(spec: Spec) -> tuple[Diagnostic, ...]:
     valid = [state for state in all_states(spec) if is_valid(spec, state)]
     if not valid:
         return (no_valid_state(spec),)
+    if spec.starts and not any(is_start(spec, state) for state in valid):
+        return (no_start(spec),)
     try:
         for one in chain(
             _goals(spec, valid, work),
@@ -72,6 +74,13 @@ def no_valid_state(spec: Spec) -> Diagnostic:
     notes = tuple(Note("an assumption", rule.span) for rule in spec.assumptions[1:])
     message = "no state satisfies all assumptions, so there is nothing to decide"
     return Diagnostic(Code.TUM312, message, spec.assumptions[0].span, "weaken or remove an assumption", notes)
+
+
+def no_start(spec: Spec) -> Diagnostic:
+    """The error where no valid state satisfies a start condition."""
+    notes = tuple(Note("a start condition", rule.span) for rule in spec.starts[1:])
+    message = "no valid state is a start, so there is nothing to decide"
+    return Diagnostic(Code.TUM317, message, spec.starts[0].span, "weaken the condition, or remove the block", notes)
 
 
 def idle_goal(goal: Goal) -> Diagnostic:

@@ -64,12 +64,17 @@ def all_states(spec: Spec) -> Iterator[State]:
 
 def is_valid(spec: Spec, state: State) -> bool:
     """`state ∈ V`: it satisfies every assumption."""
-    return all(holds(rule.formula, state) for rule in spec.assumptions)
+    return all(holds(rule.formula, state) for rule in spec.validity)
 
 
 def is_safe(spec: Spec, state: State) -> bool:
     """`state ∈ S`: it is valid and satisfies every state rule."""
     return is_valid(spec, state) and all(holds(rule.formula, state) for rule in spec.state_rules)
+
+
+def is_start(spec: Spec, state: State) -> bool:
+    """Whether a valid state is a start: it satisfies a start condition, or there is none."""
+    return is_valid(spec, state) and holds(spec.start, state)
 
 
 def level(spec: Spec, state: State) -> int:
@@ -90,7 +95,7 @@ def required_rules(spec: Spec, state: State) -> tuple[Rule, ...]:
     rules = (rule for rule in spec.state_rules if rule.severity in concerned)
     if spec.restoration != "one_step":
         rules = (rule for rule in rules if holds(rule.formula, state))
-    return (*spec.assumptions, *rules)
+    return (*spec.assumptions, *rules, *spec.in_part)
 
 
 def named(spec: Spec, state: State) -> dict[str, str]:

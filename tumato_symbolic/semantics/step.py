@@ -96,7 +96,8 @@ class Objection:
     """Why a set is not allowed: the first condition of section 3 that fails, with what it fails on.
 
     `actions` are those to blame, `rule` the user's precondition or rule that is broken, and `outcome` the way into
-    the unsafe state (kinds `unsafe` and `nominal-unsafe`; empty when it is the state itself that is unsafe). Kind
+    the unsafe state (kinds `unsafe` and `nominal-unsafe`; empty when it is the state itself that is unsafe). There, the
+    rule is None where all rules hold, and the state is outside of the part that a policy decides. Kind
     `falsified`: the precondition `rule` of an action, which has not taken effect yet, does not hold after `outcome`.
     """
 
@@ -127,14 +128,19 @@ def objections(spec: Spec, state: State, chosen: ActionSet, ordering: Ordering) 
     for reached, way in outcomes_in_turn(spec, state, chosen, ordering):
         broken = first_broken(required, reached)
         if broken is not None:
-            yield Objection("unsafe", tuple(sorted(chosen)), broken, way, reached)
+            yield Objection("unsafe", tuple(sorted(chosen)), _written(spec, broken), way, reached)
     if spec.preconditions == "throughout":
         yield from falsified(spec, state, chosen, ordering)
     if nominal_agrees(spec, chosen):
         end = successor(spec, state, chosen)
         broken = first_broken(required, end)
         if broken is not None:
-            yield Objection("nominal-unsafe", tuple(sorted(chosen)), broken, (), end)
+            yield Objection("nominal-unsafe", tuple(sorted(chosen)), _written(spec, broken), (), end)
+
+
+def _written(spec: Spec, broken: Rule) -> Rule | None:
+    """A broken rule, if it is one that the user wrote."""
+    return None if broken is spec.part else broken
 
 
 def falsified(spec: Spec, state: State, chosen: ActionSet, ordering: Ordering) -> Iterator[Objection]:
@@ -153,7 +159,7 @@ def fault_after(spec: Spec, state: State, chosen: ActionSet, way: EffectSequence
     end = way[-1].after
     broken = first_broken(required_rules(spec, state), end)
     if broken is not None:
-        return Objection("unsafe", tuple(sorted(chosen)), broken, way, end)
+        return Objection("unsafe", tuple(sorted(chosen)), _written(spec, broken), way, end)
     waiting = chosen - {step.action for step in way} if spec.preconditions == "throughout" else frozenset[int]()
     for number in sorted(waiting):
         broken = first_broken(spec.actions[number].preconditions, end)
@@ -174,7 +180,7 @@ def next_states(spec: Spec, state: State, chosen: ActionSet, ordering: Ordering)
 
 def broken_rule(spec: Spec, state: State) -> Rule | None:
     """The first assumption or state rule that `state` breaks; None in a safe state."""
-    return first_broken((*spec.assumptions, *spec.state_rules), state)
+    return first_broken((*spec.assumptions, *spec.state_rules, *spec.in_part), state)
 
 
 def first_broken(rules: Iterable[Rule], state: State) -> Rule | None:

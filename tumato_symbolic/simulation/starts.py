@@ -8,9 +8,12 @@ from math import prod
 
 from tumato_symbolic.diagrams import Reference
 from tumato_symbolic.policy import DecisionDiagram, Policy, Table
-from tumato_symbolic.semantics import State, is_valid
+from tumato_symbolic.semantics import State, is_start
 from tumato_symbolic.simulation.dice import Dice
 from tumato_symbolic.spec import Spec
+
+_LISTED = 10_000
+"""Up to so many decided states, starts are looked for among all of them."""
 
 _ATTEMPTS = 1_000
 """A policy decides valid states; where it decides others as well, a valid one is looked for so often."""
@@ -21,27 +24,40 @@ class NoStartError(Exception):
 
 
 class Starts:
-    """The valid states that a bound policy decides in which variables have the values that are `given`."""
+    """The starts that a bound policy decides in which variables have the values that are `given`.
+
+    Where the specification says nothing of starts, every valid state is one.
+    """
 
     def __init__(self, spec: Spec, policy: Policy, given: Mapping[int, int]) -> None:
         self._spec, self._policy, self._given = spec, policy, given
 
     def draw(self, dice: Dice) -> State:
         """One of them, each as likely as the others. Raises `NoStartError` where none was found."""
+        if self._spec.starts and self._decided.count <= _LISTED:  # they may be few
+            return dice.one_of(self._all())
         for _ in range(_ATTEMPTS):
             state = self._decided.draw(dice)
-            if state is not None and is_valid(self._spec, state):
+            if state is not None and is_start(self._spec, state):
                 return state
-        raise NoStartError("the policy decides no valid state with these values")
+        raise self._none
 
     def all(self, most: int) -> list[State] | None:
         """All of them; None where they are more than `most`. Raises `NoStartError` where there is none."""
         if self._decided.count > most:
             return None
-        found = [state for state in self._decided.all() if is_valid(self._spec, state)]
+        return self._all()
+
+    def _all(self) -> list[State]:
+        found = [state for state in self._decided.all() if is_start(self._spec, state)]
         if not found:
-            raise NoStartError("the policy decides no valid state with these values")
+            raise self._none
         return found
+
+    @property
+    def _none(self) -> NoStartError:
+        noun = "start" if self._spec.starts else "valid state"
+        return NoStartError(f"the policy decides no {noun} with these values")
 
     @cached_property
     def _decided(self) -> _Rows | _Paths:

@@ -60,6 +60,8 @@ def digest(spec: Spec) -> str:
         meaning["severities"] = [_texts(spec, tier) for tier in spec.tiers]
     if spec.preconditions != "at_start":
         meaning["preconditions"] = spec.preconditions
+    if spec.starts:
+        meaning["starts"] = _texts(spec, spec.starts)
     text = json.dumps(meaning, sort_keys=True, separators=(",", ":"), ensure_ascii=True)
     return f"sha256:{hashlib.sha256(text.encode('ascii')).hexdigest()}"
 

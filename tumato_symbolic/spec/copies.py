@@ -41,7 +41,7 @@ _ENTRIES = (
     *(ast.SimpleGoal, ast.ConditionalGoal, ast.GoalList),
     *(ast.Severity, ast.MaxPlanLength, ast.EffectOrdering, ast.Restoration, ast.PreconditionsHold),
 )
-_RULES = (ast.ReactionRules, ast.StateRules, ast.Assumptions)
+_RULES = (ast.ReactionRules, ast.StateRules, ast.Assumptions, ast.Start)
 _NOT_RULES = (*_ENTRIES, ast.Copies)
 _NUMBER_SLOTS = {"value", "other", "low", "high", "values", "items"}
 """Where a number may stand for a name."""

@@ -24,20 +24,32 @@ class Connectives(Generic[Value]):
 
 
 def fold(formula: Formula, atom: Callable[[Is | Executing], Value], by: Connectives[Value]) -> Value:
-    """The value of a formula whose atoms have these values."""
+    """The value of a formula whose atoms have these values; a part that it has several times is looked at once."""
+    return _fold(formula, atom, by, {})
+
+
+def _fold(
+    formula: Formula, atom: Callable[[Is | Executing], Value], by: Connectives[Value], known: dict[int, Value]
+) -> Value:
+    """`fold`; `known` are the values of parts, by what they are, not by what they say."""
+    if isinstance(formula, Is | Executing):
+        return atom(formula)
+    if id(formula) in known:
+        return known[id(formula)]
+    value: Value
     match formula:
-        case Constant(value):
-            return by.constant(value)
-        case Is() | Executing():
-            return atom(formula)
+        case Constant(truth):
+            value = by.constant(truth)
         case Not(operand):
-            return by.negation(fold(operand, atom, by))
+            value = by.negation(_fold(operand, atom, by, known))
         case And(operands):
-            return by.conjunction([fold(part, atom, by) for part in operands])
+            value = by.conjunction([_fold(part, atom, by, known) for part in operands])
         case Or(operands):
-            return by.disjunction([fold(part, atom, by) for part in operands])
+            value = by.disjunction([_fold(part, atom, by, known) for part in operands])
         case Iff(left, right):
-            return by.equivalence(fold(left, atom, by), fold(right, atom, by))
+            value = by.equivalence(_fold(left, atom, by, known), _fold(right, atom, by, known))
+    known[id(formula)] = value
+    return value
 
 
 def fold_goal(

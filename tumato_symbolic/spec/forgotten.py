@@ -61,7 +61,7 @@ def _mentioned_values(spec: Spec) -> set[tuple[int, int]]:
 def _rules(spec: Spec) -> Iterator[Rule]:
     for action in spec.actions:
         yield from action.preconditions
-    yield from (*spec.reaction_rules, *spec.state_rules, *spec.assumptions, *spec.bodies)
+    yield from (*spec.reaction_rules, *spec.state_rules, *spec.assumptions, *spec.starts, *spec.bodies)
     yield from _conditions(spec)
 
 

@@ -96,4 +96,14 @@ def executing_atoms(formula: Formula) -> frozenset[int]:
 
 def variables_of(formula: Formula) -> frozenset[int]:
     """The state variables that a formula mentions."""
-    return frozenset(atom.variable for atom in atoms(formula) if isinstance(atom, Is))
+    found: set[int] = set()
+    seen: set[int] = set()
+    waiting = [formula]
+    while waiting:
+        part = waiting.pop()
+        if isinstance(part, Is):
+            found.add(part.variable)
+        elif id(part) not in seen:  # parts may be shared, over and over again
+            seen.add(id(part))
+            waiting += children(part)
+    return frozenset(found)

@@ -87,6 +87,8 @@ def _decided(spec: Spec) -> Iterator[Diagnostic]:
         yield from constants.of(rule, "rule")
     for rule in spec.assumptions:
         yield from constants.of(rule, "assumption")
+    for rule in spec.starts:
+        yield from constants.of(rule, "start condition")
     for goal in subgoals(spec.goals):
         if isinstance(goal, ConditionalGoal):
             yield from constants.of(goal.condition, "condition")
@@ -135,6 +137,7 @@ _NEVER = {
     "precondition": "the action can never be executed",
     "rule": "no state and no set of actions can keep it",
     "assumption": "no state is valid",
+    "start condition": "no state is a start because of it",
     "condition": "the goal is never entered",
     "goal": "it can never be reached",
 }
@@ -142,6 +145,7 @@ _ALWAYS = {
     "precondition": "it excludes nothing; remove it or correct it",
     "rule": "it excludes nothing; remove it or correct it",
     "assumption": "it excludes nothing; remove it or correct it",
+    "start condition": "every valid state is a start then, as without a START block",
     "condition": "leave the condition out or correct it",
     "goal": "write `goal: true` where there is nothing to reach",
 }

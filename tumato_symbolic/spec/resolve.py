@@ -27,6 +27,7 @@ _TITLES = {
     ast.ReactionRules: "REACTION RULES",
     ast.StateRules: "STATE RULES",
     ast.Assumptions: "ASSUMPTIONS",
+    ast.Start: "START",
     ast.Goals: "GOALS",
     ast.Config: "CONFIG",
 }
@@ -57,6 +58,7 @@ def resolve(parsed: Parsed, tree: ast.Specification, source: Source, findings: F
     reaction_rules = _rules(predicates, _of(tree, ast.ReactionRules), None)
     state_rules = _state_rules(predicates, _of(tree, ast.StateRules), findings)
     assumptions = _rules(predicates, _of(tree, ast.Assumptions), "an assumption")
+    starts = _rules(predicates, _of(tree, ast.Start), "a start condition")
     goals = _Goals(predicates)
     goal_list = goals.outermost(_of(tree, ast.Goals))
     settings = _settings(tree, findings)
@@ -74,6 +76,7 @@ def resolve(parsed: Parsed, tree: ast.Specification, source: Source, findings: F
             tuple(goals.bodies.values()),
             None,
             None,
+            starts=starts,
         )
         for setting in settings:
             spec = _with_setting(spec, setting)
@@ -125,7 +128,7 @@ def _rules(predicates: Predicates, blocks: Iterable[ast.Block], no_executing_in:
     found: list[Rule | None] = []
     for block in blocks:
         match block:
-            case ast.ReactionRules(rules) | ast.Assumptions(rules):
+            case ast.ReactionRules(rules) | ast.Assumptions(rules) | ast.Start(rules):
                 written: Iterator[ast.Predicate] = ast.one_by_one(rules)
                 found.extend(predicates.rule(each, no_executing_in) for each in written)
             case _:

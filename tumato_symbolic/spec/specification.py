@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from typing import Literal, TypeAlias
 
 from tumato_symbolic.diagnostics import Span
-from tumato_symbolic.spec.formula import Formula
+from tumato_symbolic.spec.formula import TRUE, Formula, Or
 
 Ordering: TypeAlias = Literal["any", "first"]
 
@@ -113,7 +113,9 @@ class Spec:
     is None where plans are unbounded, `effect_ordering` is None where the text does not say.
     `bound_span` is where the plan bound is set. `restoration` is how safety is to be restored: what the text says,
     or the command line in its place. `preconditions` is when those of actions have to hold. `tiers` are the state rules
-    by severity, the most severe first; one tier at least.
+    by severity, the most severe first; one tier at least. A valid state that satisfies one of `starts` is a start;
+    where there are none, every valid state is one. `part` is what a policy from the starts decides, where only that is
+    looked at (`within`): one more thing that valid states satisfy.
     """
 
     variables: tuple[Variable, ...]
@@ -129,12 +131,39 @@ class Spec:
     bound_span: Span | None = field(default=None, compare=False)
     restoration: Restoration = "one_step"
     preconditions: PreconditionsHold = "at_start"
+    starts: tuple[Rule, ...] = ()
+    part: Rule | None = field(default=None, repr=False, compare=False)
     tiers: tuple[tuple[Rule, ...], ...] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         severities = sorted({rule.severity for rule in self.state_rules}) or [1]
         tiers = tuple(tuple(rule for rule in self.state_rules if rule.severity == each) for each in severities)
         object.__setattr__(self, "tiers", tiers)
+
+    @property
+    def validity(self) -> tuple[Rule, ...]:
+        """What valid states satisfy: the assumptions, and where only a part is looked at, that they are in it."""
+        return (*self.assumptions, *self.in_part)
+
+    @property
+    def in_part(self) -> tuple[Rule, ...]:
+        """That a state is in the part, where only a part is looked at."""
+        return () if self.part is None else (self.part,)
+
+    def within(self, part: Formula) -> Spec:
+        """The same where only the valid states of a part are looked at: those that a policy from the starts decides."""
+        return replace(self, part=Rule(part, "the policy decides it", Span(1, 1, 1, 1)))
+
+    @property
+    def whole(self) -> Spec:
+        """The same with every valid state."""
+        return self if self.part is None else replace(self, part=None)
+
+    @property
+    def start(self) -> Formula:
+        """Where a valid state is a start."""
+        formulas = tuple(rule.formula for rule in self.starts)
+        return Or(formulas) if len(formulas) > 1 else formulas[0] if formulas else TRUE
 
     @property
     def environment(self) -> frozenset[int]:

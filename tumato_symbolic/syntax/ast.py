@@ -477,6 +477,14 @@ class Assumptions(Node):
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Start(Node):
+    """`BEGIN START`."""
+
+    conditions: tuple[Predicate | Copies, ...]
+    span: Span = NOWHERE
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Goals(Node):
     """The outermost `BEGIN GOALS`."""
 
@@ -496,7 +504,7 @@ Entry: TypeAlias = Declaration | Field | Predicate | Severity | Goal | Setting |
 """What copies are made of."""
 
 Block: TypeAlias = (
-    StateVector | Aliases | Resources | Actions | ReactionRules | StateRules | Assumptions | Goals | Config
+    StateVector | Aliases | Resources | Actions | ReactionRules | StateRules | Assumptions | Start | Goals | Config
 )
 
 

@@ -70,6 +70,10 @@ def assumptions(children: Children) -> ast.Assumptions:
     return ast.Assumptions(_nodes(children), _span(children))
 
 
+def start(children: Children) -> ast.Start:
+    return ast.Start(_nodes(children), _span(children))
+
+
 def goals(children: Children) -> ast.Goals:
     return ast.Goals(children[0], _span(children))
 
@@ -127,7 +131,7 @@ def rule(children: Children) -> ast.Predicate:
     return predicate
 
 
-assumption = rule
+assumption = start_condition = rule
 
 
 def goal_list(children: Children) -> ast.GoalList:
@@ -266,7 +270,7 @@ def copies(children: Children) -> ast.Copies:
 
 
 copied_variables = copied_aliases = copied_resources = copied_actions = copied_fields = copies
-copied_rules = copied_assumptions = copied_goals = copied_settings = copies
+copied_rules = copied_assumptions = copied_starts = copied_goals = copied_settings = copies
 
 
 def execution(children: Children) -> ast.Execution:

@@ -22,6 +22,7 @@ _FORMS = {
     "cost": "write `cost: 10`",
     "rule": "write `rule: PREDICATE`",
     "assume": "write `assume: PREDICATE`",
+    "start": "write `start: PREDICATE`",
     "when": "write `when PREDICATE then goal: PREDICATE`",
     "max_plan_length": "write `max_plan_length: 5`",
     "effect_ordering": "write `effect_ordering: any` or `effect_ordering: first`",

@@ -85,6 +85,8 @@ def _block(block: ast.Block) -> Iterator[str]:
             yield from _framed("STATE RULES", rules)
         case ast.Assumptions(assumptions):
             yield from _framed("ASSUMPTIONS", assumptions, "assume")
+        case ast.Start(conditions):
+            yield from _framed("START", conditions, "start")
         case ast.Goals(goals):
             yield from _goal(goals)
         case ast.Config(settings):

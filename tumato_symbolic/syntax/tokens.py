@@ -23,6 +23,7 @@ BLOCKS = (
     ("REACTION", "RULES"),
     ("STATE", "RULES"),
     ("ASSUMPTIONS",),
+    ("START",),
     ("GOALS",),
     ("CONFIG",),
 )

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 from tumato_symbolic.diagnostics import Diagnostic
 from tumato_symbolic.policy import Policy
 from tumato_symbolic.semantics import State
-from tumato_symbolic.spec import Ordering
+from tumato_symbolic.spec import Formula, Ordering
 
 if TYPE_CHECKING:
     from tumato_symbolic.policy.unrealizable import Unrealizability
@@ -39,6 +39,22 @@ class Statistics:
     changed: int = 0
     restoring_durations: int = 0
     restored: RestoredIn | None = None
+    part: DecidedPart | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class DecidedPart:
+    """How many valid states a policy from the starts decides, and why not the others; `starts` counts the starts.
+
+    Where there is no policy, `decided` is how many any one could decide, goals that conflict aside. `left_out` are the
+    others by why they fail, those of a conflict too. `unsafe` is the number of unsafe states among those that are
+    decided.
+    """
+
+    decided: int
+    unsafe: int
+    starts: int
+    left_out: tuple[Failure, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,13 +77,15 @@ class Failure:
     """States that fail for one reason (`docs/semantics.md`, section 7).
 
     `count` is exact. `states` holds them in the order of declaration, up to `STATES_LISTED`; of a conflict it is the
-    inclusion-minimal set that no policy serves together. `example` is the first of them.
+    inclusion-minimal set that no policy serves together. `example` is the first of them. With starts, they fail where
+    only the states in `within` may be met: the others have failed before.
     """
 
     kind: FailureKind
     count: int
     example: State
     states: tuple[State, ...] = field(repr=False)
+    within: Formula | None = field(default=None, repr=False, compare=False)
 
 
 STATES_LISTED = 10_000

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Literal
+from functools import partial
+from typing import Literal
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.game import (
@@ -14,15 +15,11 @@ from tumato_symbolic.game import (
     Layers,
     Problem,
     build_problem,
-    chances,
     closed_loop,
-    distances,
     in_time,
     own_region_policy,
     route,
     shortest_decisions,
-    way_of,
-    winning,
 )
 from tumato_symbolic.limits import Context, LimitReachedError
 from tumato_symbolic.policy import Policy, as_table
@@ -33,24 +30,20 @@ from tumato_symbolic.symbolic import Backend, Bdd, available_backend
 from tumato_symbolic.synthesis.certificate import policy_diagram
 from tumato_symbolic.synthesis.counting import restored_in
 from tumato_symbolic.synthesis.diagnosis import restorability
+from tumato_symbolic.synthesis.failing import failing_states, failures_of, has_stuck_states, reason_of
 from tumato_symbolic.synthesis.leaving import leaving
 from tumato_symbolic.synthesis.lint import lint
 from tumato_symbolic.synthesis.overriding import override, revert_unneeded
 from tumato_symbolic.synthesis.races import races
 from tumato_symbolic.synthesis.restoring import restoring_policy
 from tumato_symbolic.synthesis.result import (
-    STATES_LISTED,
     Failure,
-    FailureKind,
     Realizable,
     Statistics,
     SynthesisResult,
     Undecided,
     Unrealizable,
 )
-
-if TYPE_CHECKING:
-    from tumato_symbolic.policy.unrealizable import NoAllowedSet, NoPlan, NoRestoration
 
 TABLE_LIMIT = 10_000
 """Up to so many valid states a policy is written as a table, unless another format is asked for."""
@@ -83,7 +76,9 @@ def synthesize(
         problem = build_problem(spec, ordering or spec.ordering, backend or available_backend(), context)
         with problem.encoding.manager.within_memory():
             outcome = _solve(problem, policy_format, certify)
-            return _diagnosed(problem, outcome) if diagnose and isinstance(outcome, Unrealizable) else outcome
+            if diagnose and isinstance(outcome, Unrealizable) and not spec.starts:
+                return _diagnosed(problem, outcome)
+            return outcome
     except LimitReachedError as limit:
         return stopped(context.known, str(limit))
 
@@ -111,63 +106,46 @@ def _solve(problem: Problem, policy_format: PolicyFormat, certify: bool) -> Synt
     context.learn(Undecided("", statistics))
     context.tell("looking for likely mistakes")
     warnings = lint(problem)
-    stuck = problem.steps.valid & ~problem.steps.states_of(problem.steps.allowed)
+    so_far = Undecided("", statistics, warnings)
+    context.learn(so_far)
+    if problem.spec.starts:
+        from tumato_symbolic.synthesis.starts import solve_from_starts
+
+        solve = partial(_decide, policy_format=policy_format, certify=False)
+        return solve_from_starts(problem, so_far, solve, certify=certify)
+    return _decide(problem, so_far, policy_format=policy_format, certify=certify)
+
+
+def _decide(problem: Problem, so_far: Undecided, *, policy_format: PolicyFormat, certify: bool) -> SynthesisResult:
+    """A policy for all valid states of a problem, or why there is none; `so_far` has what was counted and warned of."""
+    context, statistics, warnings = problem.context, so_far.statistics, so_far.warnings
+    assert statistics is not None, "states are counted first"
     context.tell("solving each goal in its own region")
-    context.learn(Undecided("", statistics, warnings))
     policy = own_region_policy(problem)
     statistics = replace(statistics, own_region=_count_decided(problem, policy))
-    context.learn(Undecided("", statistics, warnings))
+    context.learn(replace(so_far, statistics=statistics))
     undecided, evaluator = problem.steps.safe & ~problem.steps.states_of(policy), Evaluator(problem)
     evaluation = evaluator.evaluate(policy) if undecided == problem.false else None
-    if stuck != problem.false or evaluation is None or evaluation.failing != problem.false:
+    if evaluation is None or evaluation.failing != problem.false or has_stuck_states(problem):
         context.tell("measuring distances")
-        way = way_of(problem)
-        apart, pairs = chances(problem, way)
-        lost = problem.false
-        if way is not None and problem.spec.restoration != "one_step":
-            lost, stuck = problem.steps.unsafe & ~way.restorable, stuck & problem.steps.safe
-        without_plan = problem.steps.valid & ~stuck & ~lost & ~winning(problem, apart, pairs)
-        if (stuck | lost | without_plan) != problem.false:
+        failing = failing_states(problem)
+        if failing.kinds:
             from tumato_symbolic.synthesis.unrealizability import certified
 
-            failures = (
-                _failure(problem, "no-allowed-set", stuck),
-                _failure(problem, "no-restoration", lost),
-                _failure(problem, "no-plan", without_plan),
-            )
-            found = tuple(failure for failure in failures if failure is not None)
-            answer = _unrealizable(problem, found, statistics, warnings)
-            reason = _reason(problem, apart, stuck, lost, without_plan) if certify else None
+            answer = _unrealizable(problem, failures_of(problem, failing.kinds), statistics, warnings)
+            reason = reason_of(problem, failing) if certify else None
             if reason is None:
                 return answer
             return replace(answer, certificate=certified(problem, reason))
-        resolved = _resolve(evaluator, policy, apart, Undecided("", statistics, warnings), way=way, certify=certify)
+        so_far = replace(so_far, statistics=statistics)
+        resolved = _resolve(evaluator, policy, failing.apart, so_far, way=failing.way, certify=certify)
         if isinstance(resolved, Undecided | Unrealizable):
             return resolved
         evaluation, statistics = resolved.evaluation, resolved.statistics
     complete, statistics, raced = _finish(problem, evaluation, statistics)
     left = leaving(problem, complete, undecided)
-    return Realizable(_as(complete, policy_format, statistics.valid), statistics, (*warnings, *raced, *left))
-
-
-def _reason(
-    problem: Problem, apart: tuple[Layers, ...], stuck: Bdd, lost: Bdd, without_plan: Bdd
-) -> NoAllowedSet | NoRestoration | NoPlan | None:
-    """What a certificate says of the first failing state; None where it has no form for any of them.
-
-    Where safety may take several steps to restore: of safe states that have no allowed set or no plan, and of states
-    that cannot be restored.
-    """
-    from tumato_symbolic.synthesis.unrealizability import no_allowed_set, no_plan, no_restoration
-
-    first = problem.encoding.first_state
-    if lost != problem.false:
-        return no_restoration(problem, first(lost), lost)
-    if problem.spec.restores_stepwise:
-        apart, stuck, without_plan = distances(problem), stuck & problem.steps.safe, without_plan & problem.steps.safe
-    if stuck != problem.false:
-        return no_allowed_set(problem, first(stuck))
-    return no_plan(problem, first(without_plan), apart) if without_plan != problem.false else None
+    decided = problem.encoding.count_states(problem.steps.valid)
+    return Realizable(_as(complete, policy_format, decided), statistics, (*warnings, *raced, *left))
 
 
 def _unrealizable(
@@ -175,6 +153,8 @@ def _unrealizable(
 ) -> Unrealizable:
     """*Unrealizable*, before there is a certificate for it."""
     answer = Unrealizable(failures, statistics, None, warnings)
+    if problem.spec.starts:  # a smaller part may do
+        return answer
     problem.context.learn(answer)
     problem.context.tell("certifying that there is no policy")
     return answer
@@ -292,17 +272,6 @@ def _as(policy: Policy, policy_format: PolicyFormat, states: int) -> Policy:
     table = as_table(policy, states)
     assert table is not None, "the table has one row for every valid state"
     return replace(policy, decisions=table)
-
-
-def _failure(problem: Problem, kind: FailureKind, states: Bdd) -> Failure | None:
-    if states == problem.false:
-        return None
-    listed = []
-    for state in problem.encoding.states_in(states):
-        listed.append(state)
-        if len(listed) == STATES_LISTED:
-            break
-    return Failure(kind, problem.encoding.count_states(states), listed[0], tuple(listed))
 
 
 def _count_decided(problem: Problem, policy: Bdd) -> int:

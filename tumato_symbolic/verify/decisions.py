@@ -34,7 +34,7 @@ class Decisions(Mapping[State, ActionSet]):
         self._policy = policy
 
     def __getitem__(self, state: State) -> ActionSet:
-        chosen = self._stated(state)
+        chosen = self.stated(state)
         if chosen is None or not is_valid(self._spec, state):
             raise KeyError(state)
         return chosen
@@ -45,7 +45,8 @@ class Decisions(Mapping[State, ActionSet]):
     def __len__(self) -> int:
         return len(self.rows or ())
 
-    def _stated(self, state: State) -> ActionSet | None:
+    def stated(self, state: State) -> ActionSet | None:
+        """What the policy says of a state, valid or not."""
         decisions = self._policy.decisions
         if isinstance(decisions, Table):
             return decisions.rows.get(state)
@@ -101,7 +102,7 @@ class Ranks:
         spec = self._spec
         tests = [truth(spec.bodies[body].formula, goal.executed) for body in sorted(goal.bodies)]
         if spec.restores_stepwise:  # goals are met in safe states only
-            tests += [truth(rule.formula, NOTHING) for rule in (*spec.assumptions, *spec.state_rules)]
+            tests += [truth(rule.formula, NOTHING) for rule in (*spec.validity, *spec.state_rules)]
         origins = self._decisions.origins
         places = dict.fromkeys((*self._decisions.followers, *origins))
         layer = [state for state in places if all(test(state) for test in tests)]

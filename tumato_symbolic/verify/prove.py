@@ -11,6 +11,7 @@ from tumato_symbolic.limits import Budget, Context, LimitReachedError
 from tumato_symbolic.limits.processes import can_fork
 from tumato_symbolic.policy import Policy
 from tumato_symbolic.policy.bind import bind, made_for_less, restores_less
+from tumato_symbolic.policy.part import judged_within
 from tumato_symbolic.semantics import all_states, count_states, is_valid
 from tumato_symbolic.spec import Ordering, Restoration, Spec
 from tumato_symbolic.verify.closure import with_departure
@@ -64,6 +65,7 @@ def verify(
         spec = replace(spec, restoration=restoration)
     context, asked = context or Context(), _asked(properties, spec)
     bound = bind(policy, spec)
+    spec = judged_within(spec, bound)
     decisions = Decisions(spec, bound)
     used, source = _ordering(spec, ordering)
     results: list[PropertyResult] = []
@@ -72,6 +74,8 @@ def verify(
     if restoration is None and restores_less(bound, spec):
         results.append(PropertyResult("restoration", "refuted", refutation=Refutation("restoration")))
     so_far = Verification("undecided", (), used, source, CertificateUse("unneeded"), None)
+    if spec.starts:
+        so_far = replace(so_far, from_starts=True)
     if spec.restores_stepwise:
         so_far = replace(so_far, restoration=spec.restoration)
     try:
@@ -79,19 +83,26 @@ def verify(
         context.tell("looking for a valid state")
         chosen = make_prover(prover, spec, bound, used, Budget(timeout, context))
         if not chosen.has_valid_state():
-            message = "no state satisfies all assumptions, so there is nothing to decide"
-            raise UserError((Diagnostic(Code.TUM312, message, help="drop or weaken an assumption"),))
+            raise UserError((_nothing_to_decide(spec),))
         for result in _results(chosen, asked, jobs if can_fork() else 1, context):
             results.append(result)
             so_far = replace(so_far, certificate=chosen.use)
             _learn(context, so_far, results, asked)
-            if result.refutation is not None and result.refutation.kind == "missing":
+            if result.refutation is not None and result.refutation.kind == "missing" and not spec.starts:
                 refutation = with_departure(result.refutation, spec, decisions, used, context)
                 results[-1] = replace(result, refutation=refutation)
         context.tell("counting the valid states")
         return _counted(_with(so_far, results), decisions, spec, chosen.valid_states())
     except LimitReachedError as limit:
         return stopped(_with(so_far, results, asked), str(limit))
+
+
+def _nothing_to_decide(spec: Spec) -> Diagnostic:
+    if spec.starts:
+        message = "no valid state is a start, so there is nothing to decide"
+        return Diagnostic(Code.TUM317, message, help="weaken the start conditions, or an assumption")
+    message = "no state satisfies all assumptions, so there is nothing to decide"
+    return Diagnostic(Code.TUM312, message, help="drop or weaken an assumption")
 
 
 def _results(prover: Prover, asked: Sequence[PropertyName], jobs: int, context: Context) -> Iterator[PropertyResult]:
@@ -127,7 +138,17 @@ def _counted(answer: Verification, decisions: Decisions, spec: Spec, valid: int 
     if valid is None and count_states(spec) <= LARGEST_TABLE:
         valid = sum(is_valid(spec, state) for state in all_states(spec))
     rows = decisions.rows
-    return replace(answer, valid_states=valid, decided_states=None if rows is None else len(rows))
+    decided = None if rows is None else len(rows)
+    if spec.starts:
+        return replace(answer, valid_states=_valid_at_all(spec), decided_states=valid if decided is None else decided)
+    return replace(answer, valid_states=valid, decided_states=decided)
+
+
+def _valid_at_all(spec: Spec) -> int | None:
+    """How many states are valid, decided or not; None where there are too many to look at."""
+    if count_states(spec) > LARGEST_TABLE:
+        return None
+    return sum(is_valid(spec.whole, state) for state in all_states(spec))
 
 
 def _learn(

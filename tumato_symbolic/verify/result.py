@@ -40,7 +40,8 @@ class Refutation:
     """A state in which a property fails, what the policy does there, and the witness for it.
 
     `missing` comes with `departure`, the way from a decided state to this one, or is `closed`: no outcome of a decision
-    is undecided. It has neither where there were too many to look at.
+    is undecided. It has neither where there were too many to look at, and where there are starts, of which it is one.
+    `invalid`: a state that is decided although it is not valid, where there are starts.
     `not-allowed` comes with `objection`, the first condition that fails; `goal-missed` with `run`, the run that loops,
     ends without a decision or exceeds the bound; `not-minimal` with `cheaper`, the cheapest set that serves as well,
     and its `run`. Where safety may take several steps to restore, `not-restored` comes with `run`, steps into a loop or
@@ -50,7 +51,16 @@ class Refutation:
     weaker way to restore safety than the specification means.
     """
 
-    kind: Literal["missing", "not-allowed", "not-restored", "goal-missed", "not-minimal", "ordering", "restoration"]
+    kind: Literal[
+        "missing",
+        "invalid",
+        "not-allowed",
+        "not-restored",
+        "goal-missed",
+        "not-minimal",
+        "ordering",
+        "restoration",
+    ]
     state: State | None = None
     decision: ActionSet | None = None
     objection: Objection | None = None
@@ -96,7 +106,8 @@ class Verification:
     """The answer of `verify`.
 
     It is about the valid states that the policy decides, and of how many is `decided_states`, out of `valid_states`;
-    each is None where it could not be counted cheaply. `restoration` is how safety is to be restored, where that may
+    each is None where it could not be counted cheaply. `from_starts`: it has to decide the starts, and all that follows
+    from them. `restoration` is how safety is to be restored, where that may
     take several steps.
     """
 
@@ -108,11 +119,14 @@ class Verification:
     valid_states: int | None
     decided_states: int | None = None
     restoration: Restoration | None = None
+    from_starts: bool = False
 
     @property
     def decides_all(self) -> bool:
         """Whether the policy is known to decide every valid state."""
-        total = any((result.name, result.verdict) == ("total", "proved") for result in self.properties)
+        total = not self.from_starts and any(
+            (result.name, result.verdict) == ("total", "proved") for result in self.properties
+        )
         return total or (self.decided_states is not None and self.decided_states == self.valid_states)
 
 

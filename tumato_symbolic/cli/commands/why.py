@@ -53,6 +53,7 @@ def run(options: Options, context: Context) -> int:
     from tumato_symbolic.cli.inputs import errors_in, read_spec
     from tumato_symbolic.explain.decision import Decisions, alternative, why
     from tumato_symbolic.policy import Policy, UndecidedState, bind, parse_assignments
+    from tumato_symbolic.policy.part import judged_within
     from tumato_symbolic.report import decided
     from tumato_symbolic.report.objections import Place
 
@@ -66,17 +67,21 @@ def run(options: Options, context: Context) -> int:
     asked = parse_assignments(policy.vocabulary, options.assignments)
     state = tuple(variable.values.index(asked[variable.name]) for variable in spec.variables)
     context.tell("explaining the decision")
+    spec = judged_within(spec, policy)
     decisions = Decisions(spec, policy)
     instead = None if options.instead is None else _actions(spec, options.instead)
     try:
         decision = why(spec, decisions, state, ordering)
     except KeyError:
-        note(f"tumato-sym: {UndecidedState(asked)}")
+        note(f"tumato-sym: {UndecidedState(asked)}{_NOT_NEEDED if spec.starts else ''}")
         return NO
     other = None if instead is None else alternative(spec, decisions, state, instead, ordering)
     done = decided.Decided(Place(spec, source.name), options.policy, decision, other)
     show_as(options, text=lambda _: decided.as_text(done), json=lambda: decided.as_json(done))
     return YES
+
+
+_NOT_NEEDED = "; with START, a policy decides the starts and all that can follow from them, not every valid state"
 
 
 def _actions(spec: Spec, text: str) -> ActionSet:

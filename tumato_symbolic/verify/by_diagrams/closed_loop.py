@@ -19,7 +19,7 @@ MOST_CASES = 128
 class ClosedLoop(Steps):
     """A policy in its specification: `policy[a]` is `a ∈ π(s)`.
 
-    `decided` and `acting` are as in `docs/certificate.md`.
+    `defined`, `decided` and `acting` are as in `docs/certificate.md`.
     """
 
     def __init__(
@@ -28,7 +28,8 @@ class ClosedLoop(Steps):
         super().__init__(spec, ordering, decisions.diagram.order, deadline)
         taken = self.walk.import_diagram(decisions.diagram, int)
         self.policy = [taken[root] for root in decisions.roots]
-        self.decided = self.walk.all_of((self.valid, taken[decisions.defined]))
+        self.defined = taken[decisions.defined]
+        self.decided = self.walk.all_of((self.valid, self.defined))
         self._next: dict[Function, Function] = {}
 
     @cached_property

@@ -131,9 +131,9 @@ class WalkProver:
                 return self._minimal_joined
 
     def has_valid_state(self) -> bool:
-        """Whether some state satisfies all assumptions, as far as the walk can tell."""
+        """Whether some state satisfies all assumptions, and is a start, as far as the walk can tell."""
         try:
-            return self._model.valid != FALSE
+            return self._start != FALSE
         except (BudgetError, RecursionError):
             return True
 
@@ -186,10 +186,25 @@ class WalkProver:
         return Witnesses(self._model, Decisions(self._spec, self._policy), self._ordering)
 
     def _total(self) -> PropertyResult:
+        if self._spec.starts:
+            return self._starts()
         missing = self._model.walk.without(self._model.valid, self._model.decided)
         if missing == FALSE:
             return PropertyResult("total", "proved", 1, "walk")
         return self._witnesses.missing(missing)
+
+    def _starts(self) -> PropertyResult:
+        model, walk = self._model, self._model.walk
+        missing = walk.without(self._start, model.defined)
+        if missing != FALSE:
+            return self._witnesses.missing(missing)
+        invalid = walk.without(model.defined, model.valid_at_all)
+        return PropertyResult("total", "proved", 2, "walk") if invalid == FALSE else self._witnesses.invalid(invalid)
+
+    @property
+    def _start(self) -> Function:
+        """The starts."""
+        return self._model.walk.all_of((self._model.valid_at_all, self._model.formula(self._spec.start)))
 
     def _safe(self) -> PropertyResult:
         if self._not_allowed == FALSE:

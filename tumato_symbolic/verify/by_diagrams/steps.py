@@ -20,6 +20,8 @@ from tumato_symbolic.verify.by_diagrams.walk import Walk
 class Steps:
     """States and steps of a specification: `chosen[a]` is `a ∈ A`, `tiers[n]` the valid states that satisfy `n` tiers.
 
+    `valid_at_all` are the states that satisfy the assumptions, in the part that is looked at or not.
+
     `order` names the variables that come first in the diagrams.
     """
 
@@ -38,7 +40,10 @@ class Steps:
         self.chosen = [
             self._is(self.group_variable(action), self._place[action][1]) for action in range(len(spec.actions))
         ]
-        self.valid = walk.all_of(self.formula(rule.formula) for rule in spec.assumptions)
+        self.valid_at_all = walk.all_of(self.formula(rule.formula) for rule in spec.assumptions)
+        self.valid = self.valid_at_all
+        if spec.part is not None:
+            self.valid = walk.all_of((self.valid, self.formula(spec.part.formula)))
         self.tiers = [self.valid]
         for tier in spec.tiers:
             self.tiers.append(walk.all_of((self.tiers[-1], *(self.formula(rule.formula) for rule in tier))))

@@ -14,6 +14,7 @@ from tumato_symbolic.semantics import (
     duration,
     fault_after,
     follow,
+    is_start,
     is_valid,
     objections,
 )
@@ -40,11 +41,19 @@ class Witnesses:
         self._ordering = ordering
 
     def missing(self, where: Function) -> PropertyResult:
-        """A valid state without a decision."""
+        """A valid state without a decision; with starts, a start."""
         state = self._model.first_state(where)
-        if not is_valid(self._spec, state) or state in self._decisions:
+        if not is_start(self._spec.whole, state) or state in self._decisions:
             raise RuntimeError(f"{state} is decided, against the walk")
         return PropertyResult("total", "refuted", refutation=Refutation("missing", state))
+
+    def invalid(self, where: Function) -> PropertyResult:
+        """A decided state that is not valid."""
+        state = self._model.first_state(where)
+        chosen = self._decisions.stated(state)
+        if is_valid(self._spec.whole, state) or chosen is None:
+            raise RuntimeError(f"{state} is valid or not decided, against the walk")
+        return PropertyResult("total", "refuted", refutation=Refutation("invalid", state, chosen))
 
     def not_allowed(self, where: Function) -> PropertyResult:
         """A decision that is not allowed."""

@@ -64,10 +64,15 @@ def all_hold(packing: Packing, rules: Sequence[Rule], executed: ActionSet = NOTH
 
 
 def valid_states(spec: Spec, packing: Packing) -> Iterator[State]:
-    """All valid states in their order; an assumption is looked at as soon as all that it mentions has a value."""
+    """All valid states in their order."""
+    return states_where(spec, packing, [rule.formula for rule in spec.validity])
+
+
+def states_where(spec: Spec, packing: Packing, formulas: Iterable[Formula]) -> Iterator[State]:
+    """All states in which formulas hold, in their order; each is asked as soon as all that it mentions has a value."""
     settled: list[list[Remembered]] = [[] for _ in range(len(spec.variables) + 1)]
-    for rule in spec.assumptions:
-        settled[max(variables_of(rule.formula), default=-1) + 1].append(Remembered(packing, rule.formula))
+    for formula in formulas:
+        settled[max(variables_of(formula), default=-1) + 1].append(Remembered(packing, formula))
     sizes = [len(variable.values) for variable in spec.variables]
     undone: State = (0,) * len(sizes)
     waiting: list[State] = [()]

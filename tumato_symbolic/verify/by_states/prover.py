@@ -9,10 +9,10 @@ from itertools import islice
 from tumato_symbolic.limits import Context
 from tumato_symbolic.policy import Policy, Table
 from tumato_symbolic.policy.convert import as_table
-from tumato_symbolic.semantics import ActionSet, State, duration, follow, objections
+from tumato_symbolic.semantics import ActionSet, State, duration, follow, is_valid, objections
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.by_states.claims import Claims
-from tumato_symbolic.verify.by_states.packed import Code, Packing, valid_states
+from tumato_symbolic.verify.by_states.packed import Code, Packing, states_where, valid_states
 from tumato_symbolic.verify.by_states.restoring_claims import RestoringClaims
 from tumato_symbolic.verify.by_states.runs import Runs
 from tumato_symbolic.verify.by_states.several_steps import SeveralSteps
@@ -100,7 +100,9 @@ class StateProver:
         return {}
 
     def has_valid_state(self) -> bool:
-        """Whether some state is valid."""
+        """Whether some state is valid, and a start."""
+        if self._spec.starts:
+            return next(self._starts(), None) is not None
         return bool(self._decided) or next(valid_states(self._spec, self._packing), None) is not None
 
     def valid_states(self) -> int | None:
@@ -151,11 +153,32 @@ class StateProver:
         )
 
     def _prove_total(self, decided: Mapping[Code, ActionSet]) -> PropertyResult:
+        if self._spec.starts:
+            return self._prove_starts(decided)
         for state in valid_states(self._spec, self._packing):
             self._spend(1)
             if self._packing.pack(state) not in decided:
                 return PropertyResult("total", "refuted", refutation=Refutation("missing", state))
         return PropertyResult("total", "proved", len(decided), "explicit")
+
+    def _prove_starts(self, decided: Mapping[Code, ActionSet]) -> PropertyResult:
+        count = 0
+        for state in self._starts():
+            self._spend(1)
+            count += 1
+            if self._packing.pack(state) not in decided:
+                return PropertyResult("total", "refuted", refutation=Refutation("missing", state))
+        table = as_table(self._policy, MOST_ROWS)
+        assert table is not None, "the decisions were listed"
+        for state, chosen in sorted(table.rows.items(), key=lambda row: row[0]):
+            if not is_valid(self._spec.whole, state):
+                return PropertyResult("total", "refuted", refutation=Refutation("invalid", state, chosen))
+        return PropertyResult("total", "proved", count, "explicit")
+
+    def _starts(self) -> Iterator[State]:
+        """All starts, decided or not."""
+        formulas = [*(rule.formula for rule in self._spec.assumptions), self._spec.start]
+        return states_where(self._spec, self._packing, formulas)
 
     def _prove_safe(self, decided: Mapping[Code, ActionSet]) -> PropertyResult:
         wrong = next((code for code in decided if code not in self._allowed), None)
@@ -196,8 +219,8 @@ class StateProver:
         return every if self._claimed.covers_unsafe else filter(self._steps.is_safe, every)
 
     def _every_valid(self, decided: Mapping[Code, ActionSet]) -> Iterator[Code]:
-        """All valid states, decided or not."""
-        if self._total:
+        """All valid states, decided or not; with starts, all that are decided."""
+        if self._total or self._spec.starts:
             yield from decided
             return
         undecided = 0

@@ -36,7 +36,7 @@ class Steps:
 
     def __init__(self, spec: Spec, packing: Packing, ordering: Ordering, spend: Callable[[int], None]) -> None:
         self._spec, self._packing, self._ordering, self._spend = spec, packing, ordering, spend
-        self._valid_rules = all_hold(packing, spec.assumptions)
+        self._valid_rules = all_hold(packing, spec.validity)
         self._safe_rules = all_hold(packing, spec.state_rules)
         self._safe: dict[Code, bool] = {}
         self._rule_tests = [Remembered(packing, rule.formula) for rule in spec.state_rules]

@@ -92,12 +92,12 @@ TERMS: Connectives[Term] = Connectives(
 
 def valid_term(spec: Spec, place: Place) -> Term:
     """`place ∈ V`."""
-    return conjunction(formula_term(rule.formula, place) for rule in spec.assumptions)
+    return conjunction(formula_term(rule.formula, place) for rule in spec.validity)
 
 
 def safe_term(spec: Spec, place: Place) -> Term:
     """`place ∈ S`."""
-    return conjunction(formula_term(rule.formula, place) for rule in (*spec.assumptions, *spec.state_rules))
+    return conjunction(formula_term(rule.formula, place) for rule in (*spec.validity, *spec.state_rules))
 
 
 def successor_place(spec: Spec, place: Place, executed: Sequence[Term]) -> Place:

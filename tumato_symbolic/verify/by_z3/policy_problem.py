@@ -31,8 +31,9 @@ from tumato_symbolic.verify.by_z3.tier_terms import Tiers
 class PolicyProblem:
     """A state `s`, the policy's decision in it, and its successor.
 
-    `executed[a]` is `a ∈ π(s)`; `decided` is: `s` is valid, and the policy has a decision for it; `acting`: and the
-    nominal effects of that decision agree, so that there is a successor. A run that meets another one ends there.
+    `executed[a]` is `a ∈ π(s)`; `valid_at_all`: `s` is valid, in the part that is looked at or not; `decided`: `s` is
+    valid, and the policy has a decision for it; `acting`: and the nominal effects of that decision agree, so that there
+    is a successor. A run that meets another one ends there.
     """
 
     def __init__(self, spec: Spec, decisions: DecisionDiagram, budget: Budget) -> None:
@@ -52,6 +53,7 @@ class PolicyProblem:
         self.executed: tuple[Term, ...] = tuple(self.name(term, "d") for term in executed)
         self.defined: Term = self.name(defined, "defined")
         self.valid: Term = self.name(valid_term(spec, self.state), "valid")
+        self.valid_at_all = self.valid if spec.part is None else self.name(valid_term(spec.whole, self.state), "valid")
         self.safe: Term = self.name(safe_term(spec, self.state), "safe")
         self.decided = conjunction((self.valid, self.defined))
 

@@ -15,6 +15,7 @@ from tumato_symbolic.semantics import is_valid
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.by_z3.best_property import prove_best
 from tumato_symbolic.verify.by_z3.effort_source import EffortSource
+from tumato_symbolic.verify.by_z3.encoding import formula_term
 from tumato_symbolic.verify.by_z3.goals_property import prove_goals
 from tumato_symbolic.verify.by_z3.minimal_property import prove_minimal
 from tumato_symbolic.verify.by_z3.policy_problem import PolicyProblem
@@ -54,8 +55,10 @@ class Z3Prover:
         return EffortSource(self._problem, self._ranks, self._ordering, self.policy_is_safe)
 
     def has_valid_state(self) -> bool:
-        """Whether some state satisfies all assumptions, as far as Z3 can tell."""
-        return self._problem.solver.ask(self._problem.valid, deadline=self._problem.deadline()) != "unsat"
+        """Whether some state satisfies all assumptions, and is a start, as far as Z3 can tell."""
+        problem = self._problem
+        start = formula_term(self._spec.start, problem.state)
+        return problem.solver.ask(problem.valid_at_all, start, deadline=problem.deadline()) != "unsat"
 
     def prove(self, name: PropertyName, within: float = math.inf) -> PropertyResult:
         """The verdict on one property; undecided where an obligation, or all in `within` seconds, take too long."""

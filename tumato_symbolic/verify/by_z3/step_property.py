@@ -29,11 +29,26 @@ class Obligation:
 
 
 def prove_total(problem: PolicyProblem) -> PropertyResult:
-    """Every valid state has a decision: `V ⇒ defined`."""
+    """Every valid state has a decision: `V ⇒ defined`. With starts: every start has one, and only valid states have."""
+    if problem.spec.starts:
+        return _prove_starts(problem)
     model = problem.first_model("every valid state has a decision", problem.valid, negation(problem.defined))
     if model is None:
         return PropertyResult("total", "proved", 1, "z3")
     return PropertyResult("total", "refuted", refutation=Refutation("missing", problem.state.read(model)))
+
+
+def _prove_starts(problem: PolicyProblem) -> PropertyResult:
+    """`V ∧ start ⇒ defined`, and `defined ⇒ V`."""
+    start = conjunction((problem.valid_at_all, formula_term(problem.spec.start, problem.state)))
+    model = problem.first_model("every start has a decision", start, negation(problem.defined))
+    if model is not None:
+        return PropertyResult("total", "refuted", refutation=Refutation("missing", problem.state.read(model)))
+    model = problem.first_model("only valid states are decided", problem.defined, negation(problem.valid_at_all))
+    if model is None:
+        return PropertyResult("total", "proved", 2, "z3")
+    state, chosen = problem.read(model)
+    return PropertyResult("total", "refuted", refutation=Refutation("invalid", state, chosen))
 
 
 def prove_safe(problem: PolicyProblem, ordering: Ordering) -> PropertyResult:

@@ -10,6 +10,7 @@ from tumato_symbolic.policy import Policy
 from tumato_symbolic.policy.bind import bind
 from tumato_symbolic.policy.convert import as_diagram
 from tumato_symbolic.policy.guarantees_file import GuaranteesCertificate
+from tumato_symbolic.policy.part import judged_within
 from tumato_symbolic.semantics import Guarantee, Residual, Shortcoming, Shortcomings, State, residual_goal, shows
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.by_diagrams.closed_loop import ClosedLoop
@@ -41,7 +42,8 @@ def guarantees(
     context = context or Context()
     try:
         context.tell("computing what is guaranteed")
-        analysis = Analysis(spec, bind(policy, spec), ordering, Budget(timeout, context))
+        bound = bind(policy, spec)
+        analysis = Analysis(judged_within(spec, bound), bound, ordering, Budget(timeout, context))
         levels = analysis.levels()
         return Guarantees("known", levels, certificate=analysis.certificate(levels) if certify else None)
     except (BudgetError, RecursionError) as error:

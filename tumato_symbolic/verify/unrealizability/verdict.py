@@ -8,12 +8,13 @@ from dataclasses import replace
 from tumato_symbolic.limits import Budget, Context, LimitReachedError, need_z3
 from tumato_symbolic.policy.unrealizable import Conflict, NoAllowedSet, NoPlan, NoRestoration, Unrealizability
 from tumato_symbolic.policy.unrealizable_file import bind
-from tumato_symbolic.semantics import State, is_safe
+from tumato_symbolic.semantics import State, is_safe, is_start, is_valid
 from tumato_symbolic.spec import Ordering, Spec, digest
-from tumato_symbolic.spec.support import require_one_step
+from tumato_symbolic.spec.support import require_no_starts, require_one_step
 from tumato_symbolic.verify.result import UnrealizabilityKind, UnrealizabilityVerdict
 from tumato_symbolic.verify.undecided import UndecidedError
 from tumato_symbolic.verify.unrealizability.false_claim import FalseClaimError
+from tumato_symbolic.verify.unrealizability.named_goals import state_text
 from tumato_symbolic.verify.unrealizability.no_restoration import check_no_restoration
 
 OBLIGATION_BUDGET = 30.0
@@ -43,6 +44,8 @@ def verify_unrealizable(
     """
     context = context or Context()
     reason = bind(certificate, spec).reason
+    if isinstance(reason, Conflict):
+        require_no_starts(spec, "the proof that goals conflict")
     if not isinstance(reason, NoRestoration) and not all(is_safe(spec, state) for state in _states_of(reason)):
         require_one_step(spec, "verify")
     used: Ordering = ordering or certificate.ordering
@@ -58,6 +61,7 @@ def verify_unrealizable(
     context.learn(replace(found, verdict="undecided"))
     try:
         context.tell("checking the certificate of unrealizability")
+        _check_start(reason, spec)
         if isinstance(reason, NoRestoration):
             check_no_restoration(reason, spec, used, Budget(timeout, context).until())
             return replace(found, obligations=2, by_diagrams=True)
@@ -73,6 +77,12 @@ def verify_unrealizable(
     except LimitReachedError as limit:
         return replace(found, verdict="undecided", reason=str(limit))
     return replace(found, obligations=sum(proved), by_solver=proved.by_solver > 0, by_diagrams=proved.by_diagrams > 0)
+
+
+def _check_start(reason: NoAllowedSet | NoPlan | NoRestoration | Conflict, spec: Spec) -> None:
+    """With starts, a state that fails has to be one: then no part of the states that has all of them has a policy."""
+    if not isinstance(reason, Conflict) and is_valid(spec, reason.state) and not is_start(spec, reason.state):
+        raise FalseClaimError(f"the state {state_text(spec, reason.state)} is no start, so it need not be decided")
 
 
 def _states_of(reason: NoAllowedSet | NoPlan | Conflict) -> Iterator[State]:

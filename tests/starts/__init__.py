@@ -1,0 +1,1 @@
+"""Start states: synthesis and every judge against the literal meaning (`docs/semantics.md`, section 12)."""
