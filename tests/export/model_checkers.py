@@ -1,4 +1,4 @@
-"""NuSMV and SPIN, where they are installed."""
+"""NuSMV, SPIN and Storm, where they are installed."""
 
 from __future__ import annotations
 
@@ -6,11 +6,17 @@ import os
 import re
 import shutil
 import subprocess
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cache
 from pathlib import Path
+from typing import TypeAlias
 
 import pytest
+
+try:
+    import stormpy
+except ImportError:
+    stormpy = None
 
 _BY_PYTHON = """
 import sys
@@ -52,10 +58,14 @@ needs_nusmv = pytest.mark.skipif(
 )
 
 
-def nusmv_verdicts(texts: Sequence[str], folder: Path) -> list[dict[str, bool]]:
-    """Which of its claims hold of each model, by name."""
+Verdicts: TypeAlias = Callable[[Sequence[tuple[str, ...]], Path], list[dict[str, bool]]]
+"""Which of its claims hold of each model, by name. A model is what a target writes."""
+
+
+def nusmv_verdicts(models: Sequence[tuple[str, ...]], folder: Path) -> list[dict[str, bool]]:
+    """What NuSMV says of models."""
     commands = []
-    for number, text in enumerate(texts):
+    for number, (text,) in enumerate(models):
         (folder / f"{number}.smv").write_text(text, encoding="utf-8")
         commands += [f"read_model -i {number}.smv", "go", "check_property", f"show_property -o {number}.txt", "reset"]
     (folder / "commands").write_text("".join(f"{command}\n" for command in [*commands, "quit"]))
@@ -65,7 +75,7 @@ def nusmv_verdicts(texts: Sequence[str], folder: Path) -> list[dict[str, bool]]:
         [*command, "commands"], cwd=folder, env=_plain(), capture_output=True, text=True, errors="replace", check=False
     )
     found = []
-    for number in range(len(texts)):
+    for number in range(len(models)):
         path = folder / f"{number}.txt"
         assert path.exists(), ran.stderr + ran.stdout
         listed = re.findall(r"\[CTL +(True|False|Unchecked) +\S+ +(\w+)\]", path.read_text(encoding="utf-8"))
@@ -95,3 +105,17 @@ SPIN = shutil.which("spin")
 needs_spin = pytest.mark.skipif(
     SPIN is None or shutil.which("cc") is None, reason="spin or cc is not installed: no model is checked by SPIN"
 )
+
+needs_storm = pytest.mark.skipif(stormpy is None, reason="stormpy is not installed: no model is checked by Storm")
+
+
+def storm_verdicts(models: Sequence[tuple[str, ...]], folder: Path) -> list[dict[str, bool]]:
+    """What Storm says of models, of all initial states."""
+    found = []
+    for text, properties in models:
+        (folder / "model.prism").write_text(text, encoding="utf-8")
+        program = stormpy.parse_prism_program(str(folder / "model.prism"))
+        claims = stormpy.parse_properties(properties, program)
+        model = stormpy.build_model(program, claims)
+        found.append({claim.get_name(): stormpy.model_checking(model, claim).forall_true() for claim in claims})
+    return found

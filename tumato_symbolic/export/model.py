@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from tumato_symbolic.export.closed_loop import ClosedLoop
+from tumato_symbolic.export.closed_loop import ClosedLoop, preconditions
 from tumato_symbolic.export.decisions import DecisionRule, rules_of
 from tumato_symbolic.export.identifiers import distinct, identifier
 from tumato_symbolic.export.request import Request
-from tumato_symbolic.spec import Connectives, Executing, Formula, Is, executing_atoms, fold
+from tumato_symbolic.spec import TRUE, Connectives, Executing, Formula, Is, executing_atoms, fold
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,15 +81,106 @@ class Model:
             known = self.loop.variables[variable].values
             yield variable, [known.index(value) for value in values]
 
-    def printer(self, by: Connectives[str], equals: str, executing: Callable[[str], str]) -> Callable[[Formula], str]:
-        """What prints formulas: `equals` stands between a variable and a value, `executing` says what an action is."""
 
+@dataclass(frozen=True, slots=True)
+class Language:
+    """How a language writes formulas: connectives, what is between a variable and a value, which rules decide."""
+
+    by: Connectives[str]
+    equals: str
+    rule_is: Callable[[Sequence[int]], str]
+
+
+class Claims:
+    """What is claimed of a model, in a language that knows `executed_NAME`, `waiting_NAME` and so on."""
+
+    def __init__(self, model: Model, language: Language) -> None:
+        self.model, self.language = model, language
+        self.kept = [number for number, each in enumerate(model.loop.required) if each.when != TRUE]
+        """The required rules of which it depends on the state of the decision whether they are."""
+
+    def now(self, formula: Formula) -> str:
+        """A formula in the state of now."""
+        return self._printed(formula, "executed")
+
+    def all(self, parts: Iterable[str]) -> str:
+        """All of some conditions."""
+        return self.language.by.conjunction(list(parts))
+
+    def any(self, parts: Iterable[str]) -> str:
+        """Some of some conditions."""
+        return self.language.by.disjunction(list(parts))
+
+    def matches(self, rule: DecisionRule) -> str:
+        """Where a rule decides, if no earlier one does."""
+        parts = self.model.condition(rule)
+        return self.all(self.any(self._is(variable, value) for value in values) for variable, values in parts)
+
+    def executed(self, entry: int) -> str:
+        """Where an entry of the actions is executed."""
+        rules = self.model.rules_with(entry)
+        decided = self.language.rule_is(rules) if rules else self.language.by.constant(False)
+        if rules and self.model.has_cases(entry):
+            return self.all([decided, self.now(preconditions(self.model.loop.actions[entry]))])
+        return decided
+
+    def quiet(self) -> str:
+        """Where nothing that is executed has effects."""
+        entries = zip(self.model.actions, self.model.loop.actions, strict=True)
+        return self.language.by.negation(self.any(f"executed_{name}" for name, each in entries if each.effects))
+
+    def allowed(self) -> list[str]:
+        """What holds of a decision before any effect: preconditions, what excludes each other, reaction rules."""
+        loop, model, found = self.model.loop, self.model, []
+        for cases in loop.cases:
+            rules = model.rules_with(cases[0])
+            if rules:
+                possible = self.any(self.now(preconditions(loop.actions[case])) for case in cases)
+                found.append(self._implied(self.language.rule_is(rules), possible))
+        for first, second in loop.excluded:
+            both = self.all([f"executed_{model.actions[first]}", f"executed_{model.actions[second]}"])
+            found.append(self.language.by.negation(both))
+        return [*found, self.now(loop.reaction_rules)]
+
+    def required(self) -> list[str]:
+        """What holds after each effect."""
+        rules = [self.now(each.rule) for each in self.model.loop.required]
+        return [
+            self._implied(f"kept_{number}", rule) if number in self.kept else rule for number, rule in enumerate(rules)
+        ]
+
+    def possible(self) -> list[str]:
+        """The preconditions of what has not taken effect, where they have to hold until then."""
+        if not self.model.loop.preconditions_last:
+            return []
+        entries = zip(self.model.actions, self.model.loop.actions, strict=True)
+        return [self._implied(f"waiting_{name}", self.now(preconditions(action))) for name, action in entries]
+
+    def met(self, safe: str) -> list[str]:
+        """What holds where the goals of a run are reached; `safe` is the name for safe states."""
+        goals = [
+            self._implied(f"active_{number}", self._printed(goal.body, "first"))
+            for number, goal in enumerate(self.model.loop.goals)
+        ]
+        return [*goals, safe] if self.model.loop.several_steps else goals
+
+    def has_goals(self) -> bool:
+        """Whether a nominal run has anything to reach."""
+        return bool(self.model.loop.goals) or self.model.loop.several_steps
+
+    def _implied(self, condition: str, then: str) -> str:
+        return self.language.by.disjunction([self.language.by.negation(condition), then])
+
+    def _printed(self, formula: Formula, executing: str) -> str:
         def atom(each: Is | Executing) -> str:
             if isinstance(each, Executing):
-                return executing(self.actions[each.action])
-            return f"({self.variables[each.variable]} {equals} {self.values[each.variable][each.value]})"
+                return f"{executing}_{self.model.actions[each.action]}"
+            return self._is(each.variable, each.value)
 
-        return lambda formula: fold(formula, atom, by)
+        return fold(formula, atom, self.language.by)
+
+    def _is(self, variable: int, value: int) -> str:
+        return f"({self.model.variables[variable]} {self.language.equals} {self.model.values[variable][value]})"
 
 
 def infix(
@@ -98,7 +189,7 @@ def infix(
     """The connectives of a language that writes them between their operands."""
 
     def joined(parts: Sequence[str], by: str, none: str) -> str:
-        return f"({f' {by} '.join(parts)})" if parts else none
+        return f"({f' {by} '.join(parts)})" if len(parts) > 1 else "".join(parts) or none
 
     return Connectives(
         constant=lambda value: true if value else false,

@@ -7,10 +7,9 @@ from string import Template
 from textwrap import indent
 from typing import Final
 
-from tumato_symbolic.export.closed_loop import preconditions
-from tumato_symbolic.export.model import Model, infix
+from tumato_symbolic.export.model import Claims, Language, Model, infix
 from tumato_symbolic.export.request import Request, commented
-from tumato_symbolic.spec import TRUE, Assignment
+from tumato_symbolic.spec import Assignment
 
 _MODEL = Template("""\
 -- The closed loop of a policy, and what is claimed of it. Written by `tumato-sym export nusmv`.
@@ -33,8 +32,8 @@ $variables
 DEFINE
   rule := case
 $rules  esac;
-  decided := !(rule in {$undecided});
-$executed  quiet := !($takes_effect);
+  decided := $decided;
+$executed  quiet := $quiet;
   valid := $valid;
   safe := $safe;
   allowed := $allowed;
@@ -72,7 +71,11 @@ total allowed_at_decisions safe_after_effects preconditions_last goals_reached s
 
 _OURS: Final = ("executed_", "waiting_", "first_", "active_", "kept_")
 
-_PRINTED = infix(true="TRUE", false="FALSE", negation="!", conjunction="&", disjunction="|", equivalence="<->")
+_LANGUAGE = Language(
+    infix(true="TRUE", false="FALSE", negation="!", conjunction="&", disjunction="|", equivalence="<->"),
+    "=",
+    lambda rules: f"(rule in {{{', '.join(map(str, rules))}}})",
+)
 
 
 def files(request: Request) -> tuple[str]:
@@ -84,31 +87,26 @@ class _Printer:
     def __init__(self, model: Model, request: Request) -> None:
         self._model, self._loop = model, model.loop
         self._promise = commented(request.promise, "-- ")
-        self._now = model.printer(_PRINTED, "=", lambda action: f"executed_{action}")
-        self._first = model.printer(_PRINTED, "=", lambda action: f"first_{action}")
-        self._kept = [number for number, each in enumerate(self._loop.required) if each.when != TRUE]
+        self._claims = Claims(model, _LANGUAGE)
 
     def text(self) -> str:
-        loop, model = self._loop, self._model
+        loop, model, claims = self._loop, self._model, self._claims
         return _MODEL.substitute(
             promise=self._promise,
             frozen="".join(f"  {name} : boolean;\n" for name in self._frozen()),
             variables="".join(self._variables()),
             rules="".join(self._rules()),
-            undecided=", ".join(map(str, model.undecided)) or "-1",
-            executed="".join(self._executed()),
-            takes_effect=self._any(f"executed_{model.actions[n]}" for n, a in enumerate(loop.actions) if a.effects),
-            valid=self._now(loop.valid),
-            safe=self._now(loop.safe),
-            allowed="\n    & ".join(self._allowed()),
-            required="\n    & ".join(self._required()) or "TRUE",
-            possible=self._all(
-                f"(waiting_{name} -> {self._now(preconditions(action))})"
-                for name, action in zip(model.actions, loop.actions, strict=True)
-            ),
-            met=self._met(),
+            decided=_LANGUAGE.by.negation(_LANGUAGE.rule_is(model.undecided)) if model.undecided else "TRUE",
+            executed="".join(f"  executed_{name} := {claims.executed(n)};\n" for n, name in enumerate(model.actions)),
+            quiet=claims.quiet(),
+            valid=claims.now(loop.valid),
+            safe=claims.now(loop.safe),
+            allowed=_lines(claims.allowed()),
+            required=_lines(claims.required()),
+            possible=_lines(claims.possible()),
+            met=_lines(claims.met("safe")),
             stays=self._all(f"next({name}) = {name}" for name in model.variables),
-            remembers=self._all(f"(next(kept_{number}) <-> kept_{number})" for number in self._kept),
+            remembers=self._all(f"(next(kept_{number}) <-> kept_{number})" for number in self._claims.kept),
             nothing_waits=self._all(f"!waiting_{name}" for name in model.actions),
             init="".join(f"\n  & {each}" for each in self._init()),
             nominal="".join(f"    & {each}\n" for each in self._nominal("executed")),
@@ -121,10 +119,6 @@ class _Printer:
     def _all(parts: Iterator[str] | Sequence[str]) -> str:
         return " & ".join(parts) or "TRUE"
 
-    @staticmethod
-    def _any(parts: Iterator[str] | Sequence[str]) -> str:
-        return " | ".join(parts) or "FALSE"
-
     def _frozen(self) -> Iterator[str]:
         """What is remembered of the first decision: which goals are active, and which of the actions they name run."""
         yield from (f"active_{number}" for number in range(len(self._loop.goals)))
@@ -134,7 +128,7 @@ class _Printer:
         for name, values in zip(self._model.variables, self._model.values, strict=True):
             yield f"  {name} : {{{', '.join(values)}}};\n"
         yield from (f"  waiting_{name} : boolean;\n" for name in self._model.actions)
-        yield from (f"  kept_{number} : boolean;\n" for number in self._kept)
+        yield from (f"  kept_{number} : boolean;\n" for number in self._claims.kept)
 
     def _rules(self) -> Iterator[str]:
         """The rules in their order; the last matches always."""
@@ -147,42 +141,13 @@ class _Printer:
             shown = "undecided" if rule.actions is None else ", ".join(rule.actions) or "nothing"
             yield f"    {self._all(tests)} : {number}; -- {shown}\n"
 
-    def _executed(self) -> Iterator[str]:
-        for entry, name in enumerate(self._model.actions):
-            rules = ", ".join(map(str, self._model.rules_with(entry)))
-            executed = f"rule in {{{rules}}}" if rules else "FALSE"
-            if rules and self._model.has_cases(entry):
-                executed += f" & {self._now(preconditions(self._loop.actions[entry]))}"
-            yield f"  executed_{name} := {executed};\n"
-
-    def _allowed(self) -> Iterator[str]:
-        """What holds of a decision before any effect."""
-        loop, model = self._loop, self._model
-        for cases in loop.cases:
-            rules = ", ".join(map(str, model.rules_with(cases[0])))
-            possible = self._any([self._now(preconditions(loop.actions[case])) for case in cases])
-            if rules:
-                yield f"(rule in {{{rules}}} -> ({possible}))"
-        for first, second in loop.excluded:
-            yield f"!(executed_{model.actions[first]} & executed_{model.actions[second]})"
-        yield self._now(loop.reaction_rules)
-
-    def _required(self) -> Iterator[str]:
-        for number, each in enumerate(self._loop.required):
-            rule = self._now(each.rule)
-            yield f"(kept_{number} -> {rule})" if number in self._kept else rule
-
-    def _met(self) -> str:
-        goals = [f"(active_{number} -> {self._first(goal.body)})" for number, goal in enumerate(self._loop.goals)]
-        return self._all([*goals, "safe"] if self._loop.several_steps else goals)
-
     def _init(self) -> Iterator[str]:
         yield "nothing_waits"
-        yield from (f"(active_{n} <-> {self._now(goal.when)})" for n, goal in enumerate(self._loop.goals))
+        yield from (f"(active_{n} <-> {self._claims.now(goal.when)})" for n, goal in enumerate(self._loop.goals))
         for entry in self._model.named_by_goals:
             name = self._model.actions[entry]
             yield f"(first_{name} <-> executed_{name})"
-        yield from (f"!kept_{number}" for number in self._kept)
+        yield from (f"!kept_{number}" for number in self._claims.kept)
 
     def _nominal(self, which: str) -> Iterator[str]:
         """All nominal effects of the actions of a set at once."""
@@ -197,7 +162,7 @@ class _Printer:
 
     def _decide(self) -> Iterator[str]:
         yield from (f"(next(waiting_{name}) <-> executed_{name})" for name in self._model.actions)
-        yield from (f"(next(kept_{n}) <-> {self._now(self._loop.required[n].when)})" for n in self._kept)
+        yield from (f"(next(kept_{n}) <-> {self._claims.now(self._loop.required[n].when)})" for n in self._claims.kept)
 
     def _effects(self) -> Iterator[str]:
         before = "!nominal & acting & next(acting) & next(acted) & remembers"
@@ -228,8 +193,12 @@ class _Printer:
         if loop.preconditions_last:
             yield "preconditions_last := AG (acting & acted -> still_possible)"
         bound = f"ABF 1..{loop.bound} met" if loop.bound else "AX AF met"
-        if loop.goals or loop.several_steps:
+        if self._claims.has_goals():
             yield f"goals_reached := nominal -> {bound}"
         if loop.several_steps:
             restored = "nominal -> AF safe" if loop.restoration == "fair" else "!nominal -> AF (!acting & safe)"
             yield f"safety_restored := {restored}"
+
+
+def _lines(parts: Sequence[str]) -> str:
+    return "\n    & ".join(parts) or "TRUE"

@@ -8,12 +8,11 @@ from typing import Final
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.export.c99_names import WORDS as C_WORDS
-from tumato_symbolic.export.closed_loop import preconditions
 from tumato_symbolic.export.identifiers import identifier
-from tumato_symbolic.export.model import Model, infix
+from tumato_symbolic.export.model import Claims, Language, Model, infix
 from tumato_symbolic.export.request import Request, commented
 from tumato_symbolic.semantics import count_states
-from tumato_symbolic.spec import TRUE, Assignment
+from tumato_symbolic.spec import Assignment
 
 MOST_STATES = 1_000_000_000
 """Steps are counted up to the number of states; SPIN goes through far fewer."""
@@ -36,7 +35,7 @@ int rule;             /* which rule decides */
 int steps;            /* how many steps a run has taken; how many decisions in a row were unsafe */
 
 #define DECIDED ($decided)
-$executed#define QUIET (!($takes_effect))
+$executed#define QUIET $quiet
 #define VALID ($valid)
 #define SAFE ($safe)
 #define ALLOWED ($allowed)
@@ -145,10 +144,11 @@ onstack_put onstack_zap q_sz rand rot wasnew now uchar uint ulong ushort Trans S
 
 _OURS: Final = ("executed_", "waiting_", "first_", "active_", "kept_", "_")
 
-_LINES: Final = " \\\n    && "
-"""Between the parts of a long macro."""
-
-_PRINTED = infix(true="true", false="false", negation="!", conjunction="&&", disjunction="||", equivalence="==")
+_LANGUAGE = Language(
+    infix(true="true", false="false", negation="!", conjunction="&&", disjunction="||", equivalence="=="),
+    "==",
+    lambda rules: f"({' || '.join(f'rule == {number}' for number in rules)})",
+)
 
 
 def files(request: Request) -> tuple[str]:
@@ -172,27 +172,25 @@ class _Printer:
     def __init__(self, model: Model, request: Request, states: int) -> None:
         self._model, self._loop, self._states = model, model.loop, states
         self._promise = commented(request.promise, "   ")
-        self._now = model.printer(_PRINTED, "==", lambda action: f"executed_{action}")
-        self._first = model.printer(_PRINTED, "==", lambda action: f"first_{action}")
-        self._kept = [number for number, each in enumerate(self._loop.required) if each.when != TRUE]
+        self._claims = Claims(model, _LANGUAGE)
 
     def text(self) -> str:
-        loop, model = self._loop, self._model
+        loop, model, claims = self._loop, self._model, self._claims
         fair = loop.several_steps and loop.restoration == "fair"
         counts = loop.several_steps and not fair
         return _MODEL.substitute(
             promise=self._promise,
             constants="".join(self._constants()),
             variables="".join(self._variables()),
-            decided=_all(f"rule != {number}" for number in model.undecided),
-            executed="".join(self._executed()),
-            takes_effect=_any(f"executed_{model.actions[n]}" for n, each in enumerate(loop.actions) if each.effects),
-            valid=self._now(loop.valid),
-            safe=self._now(loop.safe),
-            allowed=_LINES.join(self._allowed()),
-            required=_LINES.join(self._required()) or "true",
-            possible=self._possible(),
-            met=self._met(),
+            decided=_LANGUAGE.by.negation(_LANGUAGE.rule_is(model.undecided)) if model.undecided else "true",
+            executed="".join(f"#define executed_{name} {claims.executed(n)}\n" for n, name in enumerate(model.actions)),
+            quiet=claims.quiet(),
+            valid=claims.now(loop.valid),
+            safe=claims.now(loop.safe),
+            allowed=_lines(claims.allowed()),
+            required=_lines(claims.required()),
+            possible=_lines(claims.possible()),
+            met=_lines(claims.met("SAFE")),
             rules="".join(self._rules()),
             forget="".join(f"    {name} = false;\n" for name in self._passing()) or "    skip;\n",
             wait="".join(f"    waiting_{name} = executed_{name};\n" for name in model.actions),
@@ -223,63 +221,23 @@ class _Printer:
 
     def _passing(self) -> list[str]:
         """What is forgotten when the next decision is taken."""
-        return [*(f"waiting_{name}" for name in self._model.actions), *(f"kept_{number}" for number in self._kept)]
-
-    def _executed(self) -> Iterator[str]:
-        for entry, name in enumerate(self._model.actions):
-            executed = self._decided_by(entry)
-            if self._model.has_cases(entry):
-                executed = f"({executed}) && {self._now(preconditions(self._loop.actions[entry]))}"
-            yield f"#define executed_{name} ({executed})\n"
-
-    def _decided_by(self, entry: int) -> str:
-        return _any(f"rule == {number}" for number in self._model.rules_with(entry))
-
-    def _allowed(self) -> Iterator[str]:
-        """What holds of a decision before any effect."""
-        loop, model = self._loop, self._model
-        for cases in loop.cases:
-            possible = _any(self._now(preconditions(loop.actions[case])) for case in cases)
-            if model.rules_with(cases[0]):
-                yield f"(!({self._decided_by(cases[0])}) || {possible})"
-        for first, second in loop.excluded:
-            yield f"!(executed_{model.actions[first]} && executed_{model.actions[second]})"
-        yield self._now(loop.reaction_rules)
-
-    def _required(self) -> Iterator[str]:
-        for number, each in enumerate(self._loop.required):
-            rule = self._now(each.rule)
-            yield f"(!kept_{number} || {rule})" if number in self._kept else rule
-
-    def _possible(self) -> str:
-        if not self._loop.preconditions_last:
-            return "true"
-        named = zip(self._model.actions, self._loop.actions, strict=True)
-        return _all(f"(!waiting_{name} || {self._now(preconditions(action))})" for name, action in named)
-
-    def _met(self) -> str:
-        goals = [f"(!active_{number} || {self._first(goal.body)})" for number, goal in enumerate(self._loop.goals)]
-        return _all([*goals, "SAFE"] if self._loop.several_steps else goals)
+        kept = (f"kept_{number}" for number in self._claims.kept)
+        return [*(f"waiting_{name}" for name in self._model.actions), *kept]
 
     def _rules(self) -> Iterator[str]:
         """The last rule first, so that the first that matches is the one that stays."""
-        model = self._model
-        for number, rule in reversed(list(enumerate(model.rules))):
-            tests = [
-                _any(f"{model.variables[variable]} == {model.values[variable][value]}" for value in values)
-                for variable, values in model.condition(rule)
-            ]
-            if tests:
-                yield f"    if :: {_all(f'({each})' for each in tests)} -> rule = {number} :: else fi;\n"
-            else:
-                yield f"    rule = {number};\n"
+        for number, rule in reversed(list(enumerate(self._model.rules))):
+            decides = f"rule = {number}"
+            condition = self._claims.matches(rule)
+            yield f"    if :: {condition} -> {decides} :: else fi;\n" if rule.condition else f"    {decides};\n"
 
     def _start(self) -> Iterator[str]:
         yield from (f"waiting_{name} = executed_{name}" for name in self._model.actions)
-        yield from (f"kept_{number} = {self._now(self._loop.required[number].when)}" for number in self._kept)
+        for number in self._claims.kept:
+            yield f"kept_{number} = {self._claims.now(self._loop.required[number].when)}"
 
     def _remember(self) -> Iterator[str]:
-        yield from (f"active_{number} = {self._now(goal.when)}" for number, goal in enumerate(self._loop.goals))
+        yield from (f"active_{number} = {self._claims.now(goal.when)}" for number, goal in enumerate(self._loop.goals))
         for entry in self._model.named_by_goals:
             yield f"first_{self._model.actions[entry]} = executed_{self._model.actions[entry]}"
 
@@ -306,9 +264,5 @@ class _Printer:
             yield "              acted = true; assert(AS_REQUIRED) }\n"
 
 
-def _all(parts: Iterator[str] | Sequence[str]) -> str:
-    return " && ".join(parts) or "true"
-
-
-def _any(parts: Iterator[str] | Sequence[str]) -> str:
-    return f"({' || '.join(parts)})" if (parts := list(parts)) else "false"
+def _lines(parts: Sequence[str]) -> str:
+    return " \\\n    && ".join(parts) or "true"
