@@ -143,3 +143,20 @@ def test_the_documents_know_every_command() -> None:
     """The README or a document shows each command being called."""
     documents = "".join(path.read_text() for path in (ROOT / "README.md", *(ROOT / "docs").glob("*.md")))
     assert [name for name in COMMANDS if f"tumato-sym {name}" not in documents] == []
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "run amr.json amr.tum --faults none S_Location=corridor S_Battery=low S_Load=free S_Conveyor=on",
+        "run amr.json amr.tum S_Location=corridor --faults none S_Battery=low --seed 1 S_Load=free S_Conveyor=on",
+        "verify amr.json --prover walk amr.tum",
+        "decide amr.json S_Location=corridor S_Battery=low S_Load=free S_Conveyor=on",
+    ],
+)
+def test_words_may_follow_options(cli: Cli, words: str) -> None:
+    """Where any number of words may stand, they may stand after options; an unknown option is still refused."""
+    assert cli(*words.split()).code == 0
+    refused = cli(*words.split(), "--unknown", "word")
+    assert refused.code == 2
+    assert "unrecognized arguments: --unknown word" in refused.err

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
+from itertools import takewhile
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from tumato_symbolic.cli.commands import COMMANDS, Command, load
@@ -91,11 +92,19 @@ class _CommandParser(_Parser):
     def parse_known_args(  # type: ignore[override]  # a subset of what argparse overloads, all that subparsers need
         self, args: Sequence[str] | None = None, namespace: argparse.Namespace | None = None
     ) -> tuple[argparse.Namespace, list[str]]:
-        """Refuse what is unknown here, before the parser of the program does."""
+        """Refuse what is unknown here, before the parser of the program does.
+
+        Where any number of words may stand, argparse takes none after an option; they are taken here.
+        """
         found, left = super().parse_known_args(args, namespace)
+        several = next((each for each in self._get_positional_actions() if each.nargs == "*"), None)
+        if several is not None:
+            taken = list(takewhile(lambda word: not word.startswith("-"), left))
+            setattr(found, several.dest, [*getattr(found, several.dest), *taken])
+            left = left[len(taken) :]
         if left:
             self.error(f"unrecognized arguments: {' '.join(left)}")
-        return found, left
+        return found, []
 
 
 class _Version(argparse.Action):
