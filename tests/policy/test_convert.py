@@ -17,6 +17,7 @@ from tumato_symbolic.policy import (
     as_diagram,
     as_table,
     count_defined,
+    never_executed,
     policy_from_rows,
 )
 
@@ -28,6 +29,15 @@ def test_table_to_diagram_to_table(policy: Policy) -> None:
     diagram = Policy(policy.vocabulary, as_diagram(policy))
     assert count_defined(diagram) == count_defined(policy) == len(rows_of(policy))
     assert as_table(diagram, 1000) == policy.decisions
+
+
+@QUICK
+@given(policies())
+def test_what_is_never_executed_is_in_no_row(policy: Policy) -> None:
+    """Table or diagram, whatever roots say of states that are not decided."""
+    executed = {action for chosen in rows_of(policy).values() for action in chosen}
+    names = policy.vocabulary.actions
+    assert never_executed(policy) == tuple(name for number, name in enumerate(names) if number not in executed)
 
 
 @QUICK

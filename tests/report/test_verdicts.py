@@ -73,6 +73,21 @@ def test_a_policy_too_large_to_draw_is_shown_by_rules() -> None:
         assert ("What it does" in text, "tumato-sym rules p.json" in text) == (drawn, not drawn)
 
 
+def test_actions_that_no_state_needs_are_named() -> None:
+    """The policy tosses one coin only; of many such actions the first ones are listed."""
+    for example, line in (
+        ("coin", "  never executed: toss_for_tails"),
+        ("grid3", "left_from_top_right, up_from_middle_left and 11 more"),
+    ):
+        spec = parse((ROOT / "examples" / f"{example}.tum").read_text(encoding="utf-8"))
+        outcome = synthesize(spec)
+        done = replace(GIVEN_UP, spec=spec, outcome=outcome)
+        assert line in as_text(done, colour=False)
+        names = as_json(done)["never_executed"]
+        assert isinstance(names, tuple)
+        assert len(names) == (1 if example == "coin" else 16)
+
+
 def test_a_long_conflict_is_cut() -> None:
     """A conflict of many states lists the first ones and says how many are left."""
     assert isinstance(OUTCOME, Unrealizable)

@@ -1,7 +1,14 @@
 """Policies as data: tables, diagrams, their files."""
 
 from tumato_symbolic.policy.bind import bind
-from tumato_symbolic.policy.convert import as_diagram, as_table, count_defined, policy_from_rows, some_decided
+from tumato_symbolic.policy.convert import (
+    as_diagram,
+    as_table,
+    count_defined,
+    never_executed,
+    policy_from_rows,
+    some_decided,
+)
 from tumato_symbolic.policy.files import load, loads, save
 from tumato_symbolic.policy.lookup import UndecidedState
 from tumato_symbolic.policy.policy import Policy
@@ -35,6 +42,7 @@ __all__ = [
     "fits_table",
     "load",
     "loads",
+    "never_executed",
     "parse_assignments",
     "parse_state",
     "policy_from_rows",

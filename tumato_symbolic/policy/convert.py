@@ -70,6 +70,35 @@ def some_decided(policy: Policy) -> State | None:
     return None if fixed is None else tuple(fixed.get(variable, 0) for variable in range(len(sizes)))
 
 
+def never_executed(policy: Policy) -> tuple[str, ...]:
+    """The actions that the policy decides in no state."""
+    names, decisions = policy.vocabulary.actions, policy.decisions
+    if isinstance(decisions, Table):
+        executed = frozenset[int]().union(*decisions.rows.values())
+    else:
+        sizes = policy.vocabulary.sizes
+        executed = frozenset(a for a, root in enumerate(decisions.roots) if _executes(decisions, sizes, root))
+    return tuple(name for action, name in enumerate(names) if action not in executed)
+
+
+def _executes(decisions: DecisionDiagram, sizes: tuple[int, ...], action: Reference) -> bool:
+    """Whether a root leads to true in some decided state."""
+    diagram = decisions.diagram
+    levels = [len(diagram.order)] * len(diagram.leaves) + [level for level, _ in diagram.nodes]
+    pending: list[Roots] = [(decisions.defined, action)]
+    seen: set[Roots] = set(pending)
+    while pending:
+        found = together(diagram, levels, sizes, pending.pop())
+        if isinstance(found, frozenset):
+            if found:
+                return True
+        elif found is not None:
+            new = set(found[1]) - seen
+            seen |= new
+            pending += new
+    return False
+
+
 def as_table(policy: Policy, limit: int) -> Table | None:
     """The decisions as rows in row-major order; None where there are more than `limit`."""
     if count_defined(policy) > limit:

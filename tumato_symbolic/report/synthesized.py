@@ -6,10 +6,10 @@ import shlex
 from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Diagnostic, Source
-from tumato_symbolic.policy import as_table, some_decided
+from tumato_symbolic.policy import as_table, never_executed, some_decided
 from tumato_symbolic.report.failures import FAILURE_CODES, failure_json, failure_line, failure_text, left_out_lines
 from tumato_symbolic.report.findings import Finding, finding_json, findings_of, undecided
-from tumato_symbolic.report.layout import Paint, count, every, seconds
+from tumato_symbolic.report.layout import Paint, count, enumeration, every, seconds
 from tumato_symbolic.report.objections import Place
 from tumato_symbolic.report.policy_tree import policy_tree
 from tumato_symbolic.report.proof import ORDERINGS, proof_json, proof_text, provers
@@ -21,6 +21,7 @@ from tumato_symbolic.verify.result import UnrealizabilityVerdict, Verification
 
 _PICTURED_STATES = 500
 _PICTURED_LINES = 30
+_NAMES = 5
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,6 +115,7 @@ def _realizable(done: Synthesized, outcome: Realizable, paint: Paint) -> list[st
         f"{done.source.name} {verdict} {_decided(statistics)}. Found in {seconds(done.solved_in)}.",
         _states(statistics),
         longest,
+        *_never_executed(outcome),
         *restored_text(statistics),
         f"  effects: {ORDERINGS[statistics.ordering]}",
         *_engine(statistics),
@@ -142,6 +144,12 @@ def _left_out(done: Synthesized, statistics: Statistics) -> list[str]:
     """What the policy does not decide, as a paragraph."""
     lines = [] if statistics.part is None else left_out_lines(done.place, statistics.part)
     return ["\n".join(lines)] if lines else []
+
+
+def _never_executed(outcome: Realizable) -> list[str]:
+    names = never_executed(outcome.policy)
+    shown = [*names[:_NAMES], f"{len(names) - _NAMES:,} more"] if len(names) > _NAMES else list(names)
+    return [f"  never executed: {enumeration(shown)}"] if names else []
 
 
 def _drawn(done: Synthesized, outcome: Realizable) -> list[str]:
@@ -244,6 +252,7 @@ def as_json(done: Synthesized) -> dict[str, object]:
         if statistics
         else None,
         "longest_run": statistics.longest_run if statistics else None,
+        **({"never_executed": never_executed(outcome.policy)} if isinstance(outcome, Realizable) else {}),
         **restored_json(statistics),
         **_starts_json(done.spec, statistics),
         "policy": done.output if done.written else None,
