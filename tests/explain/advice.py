@@ -29,7 +29,7 @@ from tumato_symbolic.explain.explanation import Change, Explanation, Repair
 from tumato_symbolic.explain.writing import with_assumption
 from tumato_symbolic.limits import Context, Limits
 from tumato_symbolic.report.explained import Explained, as_text
-from tumato_symbolic.semantics import State, all_states, holds, is_valid
+from tumato_symbolic.semantics import State, all_states, count_states, holds, is_valid
 from tumato_symbolic.semantics.lint import lint
 from tumato_symbolic.spec import (
     TRUE,
@@ -55,6 +55,9 @@ UNSAID = "an assumption about the environment is not said"
 REMOVED = "removing a rule about the environment is advised"
 USELESS = "a repair gives no policy"
 KINDS = (GIVEN_UP, TAUTOLOGY, UNRELATED, UNSAID, REMOVED, USELESS)
+
+MOST_STATES = 20_000
+"""Larger specifications are not looked at: their states are looked at one by one."""
 
 _SETTINGS: dict[Restoration, tuple[Restoration, ...]] = {
     "one_step": ("one_step", "bounded", "fair"),
@@ -200,8 +203,10 @@ def examine_generated(seed: int) -> list[str] | None:
 
 
 def examine_text(text: str, seconds: float = 60.0) -> list[str] | None:
-    """The same for a text, as synthesis decides; None where it has a policy, or that is not known."""
+    """The same for a text, as synthesis decides; None where it has a policy, too many states, or that is not known."""
     spec = parse(text)
+    if count_states(spec) > MOST_STATES:
+        return None
     found = explain(spec, context=Context(Limits(seconds)))
     if not isinstance(found, Explanation):
         return None
@@ -234,8 +239,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
             continue
         explained += wrong is not None
         totals.update(wrong or ())
-        for each in wrong or ():
-            print(f"{name}: {each}", flush=True)
+        print(
+            f"{name}: {'; '.join(wrong or ('no policy, and no bad advice',)) if wrong is not None else 'passed over'}",
+            flush=True,
+        )
     told, seed = 0, options.seed
     while told < options.count:
         wrong = examine_generated(seed)

@@ -3,18 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import pytest
 
-from tests.explain.advice import examine_generated, examine_text
+from tests.explain.advice import (
+    GIVEN_UP,
+    TAUTOLOGY,
+    UNRELATED,
+    UNSAID,
+    USELESS,
+    bad_advice,
+    examine_generated,
+    examine_text,
+)
 from tests.explain.oracle import repaired
 from tests.explain.robots import BRAKE, FORKLIFT, NEAR, ROBOTS, TAUT, battery
 from tests.explain.variants import VARIANTS
 from tumato_symbolic import Realizable, parse, synthesize
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.explain.additions import NewAction, NoGoalWhile, Setting
+from tumato_symbolic.explain.elements import Element
 from tumato_symbolic.explain.explain import explain
-from tumato_symbolic.explain.explanation import Explanation, Wanted
+from tumato_symbolic.explain.explanation import Change, Explanation, Repair, Wanted
 from tumato_symbolic.explain.repairs import SHARE
 from tumato_symbolic.limits import Context, Limits
 from tumato_symbolic.report.explained import Explained, as_text
@@ -60,6 +71,28 @@ def test_advice_on_robots_is_safe(name: str) -> None:
 def test_advice_on_generated_specifications_is_safe(seed: int) -> None:
     """The same, by the explicit meaning, which also holds that every repair that is printed gives a policy."""
     assert examine_generated(seed) in (None, [])
+
+
+def _told(text: str, **changes: object) -> set[str]:
+    """What is wrong with an explanation that says something else than it should."""
+    spec, found = parse(text), replace(_explained(text), **changes)  # type: ignore[arg-type]
+    return set(bad_advice(spec, text, found, lambda each: isinstance(synthesize(each, certify=False), Realizable)))
+
+
+def _change(text: str | None) -> tuple[Repair, ...]:
+    return (Repair((Change(Element("state-rule", 0), text),)),)
+
+
+def test_bad_advice_is_noticed() -> None:
+    """Each kind that is counted: so that a count of 0 means something."""
+    part = _explained(BRAKE).part
+    assert part is not None
+    assert _told(BRAKE, repairs=_change(None)) == {GIVEN_UP}
+    assert _told(TAUT, repairs=_change("(IF B is low THEN NOT P is in) OR P is in")) == {GIVEN_UP, TAUTOLOGY}
+    assert _told(NEAR, repairs=_change("NOT B is critical OR (B is critical AND L is on)")) == {GIVEN_UP, UNRELATED}
+    assert _told(BRAKE, part=replace(part, environment=())) == {UNSAID}
+    assert _told(BRAKE, repairs=(Repair(additions=(NewAction(None, ((0, 0),)),)),)) == set()
+    assert _told(BRAKE, repairs=(Repair(additions=(NoGoalWhile(((0, (1,)),)),)),)) == {USELESS}
 
 
 def test_what_adds_comes_first() -> None:

@@ -70,27 +70,30 @@ def settings(spec: Spec) -> tuple[Setting, ...]:
 
 
 def single_additions(trouble: Trouble, joint: Iterable[Assignment]) -> Iterator[tuple[Addition, ...]]:
-    """Each kind of thing that serves when it alone is added. `joint` are effects of actions that were found to help.
+    """Of each kind the first thing that serves when it alone is added. `joint` are effects that were found to help.
 
-    An action with the effects of one that is there is none of them: to change that one says the same. An action for a
-    variable of the environment comes last, and only where no other action and no setting serves.
+    An action with the effects of one that is there is none of them: to change that one says the same. Nor is an action
+    for a variable of the environment.
     """
-    spec, missing = trouble.spec, list(missing_actions(trouble, trouble.states))
-    found = list(_serving(trouble, map(_alone, settings(spec)), 1))
-    yield from found
-    actions = [*(_new_action(trouble, each, trouble.states) for each in joint), *_robots_own(spec, missing)]
+    spec, states = trouble.spec, trouble.states
+    yield from _serving(trouble, map(_alone, settings(spec)))
     known = {action.nominal for action in spec.actions}
-    tried = [action for action in actions if action.effects not in known][:MOST_ACTIONS]
-    for additions in _serving(trouble, map(_alone, tried), 1):
-        found.append(additions)
+    actions = (_new_action(trouble, each, states) for each in joint)
+    tried = [*actions, *_robots_own(spec, missing_actions(trouble, states))]
+    tried = [action for action in tried if action.effects not in known][:MOST_ACTIONS]
+    for additions in _serving(trouble, map(_alone, tried)):
         yield narrowed(trouble, additions)
     free = goals_that_give_way(trouble)
     if free is not None and _serve(trouble, (free,)):
         yield (free,)
-    if not found:
-        others = [action for action in missing if environment_of(spec, action)][:MOST_ACTIONS]
-        for additions in _serving(trouble, map(_alone, others), 1):
-            yield narrowed(trouble, additions)
+
+
+def controlling_the_environment(trouble: Trouble) -> Iterator[tuple[Addition, ...]]:
+    """An action for a variable that no action controls, where it alone serves."""
+    missing = missing_actions(trouble, trouble.states)
+    actions = [action for action in missing if environment_of(trouble.spec, action)][:MOST_ACTIONS]
+    for additions in _serving(trouble, map(_alone, actions)):
+        yield narrowed(trouble, additions)
 
 
 def composed(trouble: Trouble, *, environment: bool) -> tuple[Addition, ...] | None:
@@ -266,9 +269,9 @@ def _serve(trouble: Trouble, additions: Iterable[Addition]) -> bool:
     return is_realizable(trouble.requirements, with_additions(trouble.spec, additions))
 
 
-def _serving(trouble: Trouble, tried: Iterable[tuple[Addition, ...]], wanted: int) -> Iterator[tuple[Addition, ...]]:
-    """The first of some additions that serve when new actions may start anywhere."""
-    return islice((each for each in tried if _serve(trouble, map(_anywhere, each))), wanted)
+def _serving(trouble: Trouble, tried: Iterable[tuple[Addition, ...]]) -> Iterator[tuple[Addition, ...]]:
+    """The first of some additions that serve when new actions may start anywhere, if any do."""
+    return islice((each for each in tried if _serve(trouble, map(_anywhere, each))), 1)
 
 
 def _alone(addition: Addition) -> tuple[Addition, ...]:

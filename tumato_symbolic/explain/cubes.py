@@ -89,7 +89,7 @@ def _expanded(encoding: Encoding, states: Bdd, forbidden: Bdd) -> Iterator[State
         freedom = [_freedom(encoding, seed, forbidden, variable) for variable in range(count)]
         freest = sorted(range(count), key=lambda variable: -freedom[variable])
         for order in (tuple(range(count)), tuple(range(count - 1, -1, -1)), tuple(freest), tuple(reversed(freest))):
-            found.setdefault(_expand(encoding, seed, forbidden, order))
+            found.setdefault(expanded(encoding, seed, forbidden, order))
     yield from found
 
 
@@ -115,8 +115,8 @@ def last_state(encoding: Encoding, states: Bdd) -> State:
     return tuple(found)
 
 
-def _expand(encoding: Encoding, seed: State, forbidden: Bdd, order: Sequence[int]) -> StateCube:
-    """The seed with one variable after another freed, as far as the ones freed before allow."""
+def expanded(encoding: Encoding, seed: State, forbidden: Bdd, order: Sequence[int]) -> StateCube:
+    """The largest cube around a state outside a set: one variable after another is freed as far as can be."""
     manager, spec = encoding.manager, encoding.spec
     cube: list[tuple[int, ...]] = [(value,) for value in seed]
     freed = manager.true

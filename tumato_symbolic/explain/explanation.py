@@ -10,6 +10,7 @@ from tumato_symbolic.explain.cubes import StateCube
 from tumato_symbolic.explain.elements import Element
 from tumato_symbolic.explain.environment import Restriction
 from tumato_symbolic.explain.near_misses import NearMiss
+from tumato_symbolic.explain.summary import Summary
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Formula, Ordering, Spec
 from tumato_symbolic.synthesis.diagnosis import Restorability
@@ -36,7 +37,7 @@ class Reason:
     `count` is the exact number of these states. `cubes` are disjoint and hold exactly these valid states, but for the
     `omitted` ones of which no cube is listed. `cores`: the core that all of them share, then more cores of `example`.
     `goals` are those of the example where it has no plan, `shortest_plan` the steps that it would need if only the plan
-    bound were gone. `together` are the states of a conflict.
+    bound were gone. `together` are the states of a conflict. `summary` says what a long first core comes to.
     """
 
     kind: FailureKind
@@ -49,6 +50,7 @@ class Reason:
     near: tuple[NearMiss, ...] = ()
     together: tuple[State, ...] = ()
     shortest_plan: int | None = None
+    summary: Summary | None = None
 
     @property
     def core(self) -> tuple[Element, ...]:

@@ -10,6 +10,7 @@ from tumato_symbolic.explain.cores import Cause, causes, core_finder, element_li
 from tumato_symbolic.explain.elements import Element, Elements
 from tumato_symbolic.explain.explanation import Explanation, Reason
 from tumato_symbolic.explain.failing_states import shortest_plan
+from tumato_symbolic.explain.summary import summary
 from tumato_symbolic.explain.unmet_goals import own_goals
 from tumato_symbolic.explain.work import Work
 
@@ -55,6 +56,7 @@ def _reason(work: Work, cause: Cause, limit: int) -> Reason:
         tuple(element_list(requirements, core) for core in shown),
         () if cause.kind != "no-plan" else own_goals(requirements, example),
         shortest_plan=shortest_plan(requirements, requirements.encoding.state_cube(example)) if bounded else None,
+        summary=summary(requirements, cause.core, cause.states, example),
     )
 
 

@@ -7,7 +7,14 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import Literal, TypeAlias
 
-from tumato_symbolic.explain.adding import Trouble, composed, derived, settings, single_additions
+from tumato_symbolic.explain.adding import (
+    Trouble,
+    composed,
+    controlling_the_environment,
+    derived,
+    settings,
+    single_additions,
+)
 from tumato_symbolic.explain.additions import Addition, with_additions
 from tumato_symbolic.explain.cores import element_list
 from tumato_symbolic.explain.dropping import ROUNDS, Search, droppable, harmless, serves_without
@@ -85,6 +92,9 @@ def _keeping_rules(work: Work, found: Explanation) -> Iterator[Explanation]:
     if found.repairs:
         return
     work.context.tell("repairs: trying what could be added together")
+    for additions in controlling_the_environment(trouble):
+        yield (found := _with(found, Repair(additions=additions)))
+        return
     together = composed(trouble, environment=False)
     if together is not None:
         yield _with(found, Repair(additions=together))
@@ -130,7 +140,7 @@ def _searched(
         if dropped is None:
             found = replace(found, repairs_complete=search.complete)
             break
-        if wanted != "all" and number > 1 and len(dropped) > max(MOST_LINES, len(found.repairs[-1].changes)):
+        if wanted != "all" and found.repairs and len(dropped) > max(MOST_LINES, len(found.repairs[-1].changes)):
             break
         try:
             repair = _lightest(requirements, dropped, additions)

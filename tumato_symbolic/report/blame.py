@@ -10,18 +10,18 @@ from tumato_symbolic.explain.as_predicates import predicate_text
 from tumato_symbolic.explain.elements import Element, span_of
 from tumato_symbolic.explain.explanation import Explanation, FailingGroup, Reason
 from tumato_symbolic.explain.near_misses import NearMiss, applicable
+from tumato_symbolic.explain.summary import LONG, Summary
 from tumato_symbolic.report.cubes import cube_text
 from tumato_symbolic.report.element_roles import KINDS, declared, role, where
 from tumato_symbolic.report.failures import FAILURE_CODES
 from tumato_symbolic.report.layout import count, enumeration
 from tumato_symbolic.report.objections import Place, objection_text
 from tumato_symbolic.semantics import Objection
-from tumato_symbolic.spec import variables_of
+from tumato_symbolic.spec import Spec, variables_of
 
 _REASONS_IN_FULL = 3
 _REASONS_IN_SHORT = 12
 _CUBES = 3
-_ELEMENTS = 6
 _LINES = 8
 _STATES_TOGETHER = 6
 
@@ -125,14 +125,45 @@ def _because(position: int, size: int) -> str:
 
 
 def _core(place: Place, core: tuple[Element, ...], reason: Reason) -> Iterator[str]:
+    """The elements of a core; of a long one what it comes to, and each line or text once."""
     able = frozenset(applicable(place.spec, reason.example))
     core = tuple(sorted(core, key=lambda each: each.kind == "alternative" and each.number not in able))
-    for element in core[:_ELEMENTS]:
-        yield f"    {where(place, element)}: {declared(place.spec, element)}"
-        yield f"      {role(place, element, core, reason)}"
-    rest = core[_ELEMENTS:]
+    groups = _alike(place, core) if len(core) > LONG else [[each] for each in core]
+    shown, rest = groups, 0
+    if reason.summary is not None and core == reason.core:
+        shown = [group for group in groups if group[0].kind != "precondition"][:LONG]
+        rest = len(core) - sum(map(len, shown))
+        yield f"    {summary_text(place.spec, reason.summary)}"
+    elif len(groups) > LONG:
+        shown, rest = groups[:LONG], len(core) - sum(map(len, groups[:LONG]))
+    for group in shown:
+        first, more = group[0], f" (and {len(group) - 1} more like this)" if len(group) > 1 else ""
+        yield f"    {where(place, first)}: {declared(place.spec, first)}{more}"
+        yield f"      {role(place, first, core, reason)}"
     if rest:
-        yield f"    … and {len(rest)} more: {_kinds(rest)} (--output-format json lists them)"
+        others = tuple(each for group in groups if group not in shown for each in group)
+        yield f"    … and {rest} more: {_kinds(others)} (--output-format json lists them)"
+
+
+def _alike(place: Place, core: tuple[Element, ...]) -> list[list[Element]]:
+    """The elements that stand in one line, or have one text, together."""
+    texts = Counter((each.kind, declared(place.spec, each)) for each in core)
+    groups: dict[object, list[Element]] = {}
+    for each in core:
+        text, span = (each.kind, declared(place.spec, each)), span_of(place.spec, each)
+        groups.setdefault(text if texts[text] > 1 or span is None else (each.kind, span), []).append(each)
+    return list(groups.values())
+
+
+def summary_text(spec: Spec, said: Summary) -> str:
+    """`no action raises S_Battery while S_Place is not dock`."""
+    variable = spec.variables[said.variable]
+    does = f"{said.change} {variable.name}"
+    if said.change == "changes" and len(said.values) < len(variable.values) - 1:
+        does = f"sets {variable.name} to {enumeration([variable.values[each] for each in said.values], 'or')}"
+    everywhere = all(len(values) == len(each.values) for values, each in zip(said.where, spec.variables, strict=True))
+    while_ = "" if everywhere else f" while {cube_text(spec, said.where, ' and ')}"
+    return f"no {'action' if said.by_itself else 'allowed set of actions'} {does}{while_}"
 
 
 def _kinds(elements: tuple[Element, ...]) -> str:

@@ -11,8 +11,8 @@ StateCube: TypeAlias = Sequence[Sequence[int]]
 """For every variable the values that it may have, ascending; all of them where it does not matter."""
 
 
-def cube_text(spec: Spec, cube: StateCube) -> str:
-    """`S_Location in {corridor, charger}, S_Conveyor is on`."""
+def cube_text(spec: Spec, cube: StateCube, between: str = ", ") -> str:
+    """`S_Location in {corridor, charger}, S_Conveyor is on`; with another word `between` the variables."""
     parts = []
     for variable, values in zip(spec.variables, cube, strict=True):
         others = [value for value in range(len(variable.values)) if value not in values]
@@ -22,7 +22,7 @@ def cube_text(spec: Spec, cube: StateCube) -> str:
             parts.append(f"{variable.name} is not {variable.values[others[0]]}")
         elif others:
             parts.append(f"{variable.name} in {{{', '.join(variable.values[value] for value in values)}}}")
-    return ", ".join(parts) or "every valid state"
+    return between.join(parts) or "every valid state"
 
 
 def cube_json(spec: Spec, cube: StateCube) -> dict[str, list[str]]:

@@ -19,7 +19,7 @@ from tumato_symbolic.explain.explanation import (
     Repair,
     Unexplained,
 )
-from tumato_symbolic.report.blame import goal_sentences, headline, near_miss_lines
+from tumato_symbolic.report.blame import goal_sentences, headline, near_miss_lines, summary_text
 from tumato_symbolic.report.cubes import cube_json, cube_text
 from tumato_symbolic.report.element_roles import role
 from tumato_symbolic.report.explained import Explained
@@ -107,6 +107,7 @@ def _reason_json(done: Explained, reason: Reason) -> dict[str, object]:
         "omitted": reason.omitted,
         "example": named(spec, reason.example),
         "core": [_in_core(done, element, reason.core, reason) for element in reason.core],
+        "summary": None if reason.summary is None else summary_text(spec, reason.summary),
         "more_cores": [[_in_core(done, element, core, reason) for element in core] for core in reason.cores[1:]],
         "goals": [_goal_json(spec, goal) for goal in reason.goals],
         "near": [

@@ -175,7 +175,7 @@ def _restriction(spec: Spec, taken: Restriction) -> Iterator[str]:
     elif taken.never:
         yield f"{name} is never {enumeration([values[each] for each in taken.never], 'or')}"
     for value, cubes in taken.partly:
-        while_ = " or ".join(cube_text(spec, cube).replace(", ", " and ") for cube in cubes)
+        while_ = " or ".join(cube_text(spec, cube, " and ") for cube in cubes)
         if while_ and len(while_) <= _LONGEST_CONDITION:
             yield f"{name} is never {values[value]} while {while_}"
         else:
