@@ -39,3 +39,14 @@ def test_the_environment_is_what_no_effect_writes() -> None:
     text = NEAR.replace("nominal effects: L is on", "nominal effects: L is on alternative effects: B is critical")
     assert parse(NEAR).environment == {0}
     assert parse(text).environment == frozenset()
+
+
+def test_an_assumption_repeats_no_rule() -> None:
+    """What a rule says is assumed in other words, so that nobody advises to remove the rule as a repetition."""
+    text = NEAR.replace("can be critical, ok", "can be critical, low, ok")
+    found = explain(parse(text), wanted_repairs=0)
+    assert isinstance(found, Explanation)
+    assert found.part is not None
+    written = with_assumption(Source("x.tum", text), found.part.text)
+    assert "assume: B is low OR B is ok" in written
+    assert lint(parse(written)) == ()

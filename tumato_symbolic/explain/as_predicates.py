@@ -60,6 +60,27 @@ def _negated(formula: Formula) -> Formula:
     return formula.operand if isinstance(formula, Not) else Not(formula)
 
 
+def in_other_words(spec: Spec, formula: Formula) -> Formula:
+    """The same said by the other values of each variable."""
+    match formula:
+        case Is(variable, value):
+            return conjunction([Not(Is(variable, other)) for other in _others(spec, variable, value)])
+        case Not(Is(variable, value)):
+            return disjunction([Is(variable, other) for other in _others(spec, variable, value)])
+        case Not(operand):
+            return Not(in_other_words(spec, operand))
+        case And(operands):
+            return And(tuple(in_other_words(spec, each) for each in operands))
+        case Or(operands):
+            return Or(tuple(in_other_words(spec, each) for each in operands))
+        case _:
+            return formula
+
+
+def _others(spec: Spec, variable: int, value: int) -> list[int]:
+    return [other for other in range(len(spec.variables[variable].values)) if other != value]
+
+
 def predicate_text(spec: Spec, formula: Formula) -> str:
     """A formula as a user writes it, with the parentheses that the language needs."""
     return _text(spec, formula, 0)

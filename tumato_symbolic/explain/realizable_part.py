@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from tumato_symbolic.diagnostics import Span
-from tumato_symbolic.explain.as_predicates import predicate_text, shortest_formula
+from tumato_symbolic.explain.as_predicates import in_other_words, predicate_text, shortest_formula
 from tumato_symbolic.explain.environment import Restriction, restrictions
 from tumato_symbolic.explain.failing_states import restricted
 from tumato_symbolic.explain.requirements import Requirements
@@ -106,8 +106,13 @@ def _first(states: Iterator[State], count: int) -> Iterator[State]:
 
 
 def assumption(requirements: Requirements, states: Bdd) -> Formula:
-    """What to assume beside the assumptions so that exactly these states are valid."""
-    return shortest_formula(requirements.encoding, states, requirements.encoding.domain() & ~requirements.valid)
+    """What to assume beside the assumptions so that exactly these states are valid.
+
+    Not word for word a state rule: who reads both should not take the rule, which guards it, for a repetition.
+    """
+    spec, encoding = requirements.spec, requirements.encoding
+    formula = shortest_formula(encoding, states, encoding.domain() & ~requirements.valid)
+    return in_other_words(spec, formula) if formula in [rule.formula for rule in spec.state_rules] else formula
 
 
 def assuming(spec: Spec, formula: Formula) -> Spec:
