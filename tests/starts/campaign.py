@@ -48,6 +48,12 @@ SMALL: dict[str, Profile] = {
     ),
 }
 
+LARGER: dict[str, Profile] = {
+    "larger": replace(MIXED, states=(12, 48), values=(2, 4), actions=(3, 6), helpers=0.4),
+    "larger, interacting": replace(INTERACTING, states=(12, 48), alternatives=0.2, helpers=0.2),
+}
+"""Too many states for trying every closed set; the greatest part is found state by state."""
+
 Decisions = Mapping[State, ActionSet]
 
 
@@ -91,7 +97,7 @@ def _condition(spec: Spec, random: Random) -> Formula:
 
 def specifications(seed: int) -> Iterator[tuple[str, Spec]]:
     """The specifications of a seed: every profile, every way to restore safety."""
-    for name, profile in SMALL.items():
+    for name, profile in {**SMALL, **LARGER}.items():
         random = Random(f"{name} {seed}")
         spec = with_starts(random_spec(seed, profile), random)
         restoration = random.choice(RESTORATIONS)
@@ -122,7 +128,7 @@ def examine(
             yield from _wrong_failures(outcome, lost)
             if outcome.certificate is not None:
                 yield from _wrong_certificate(outcome.certificate, Asked(spec, ordering, folder), tally)
-            elif any(world.kind(state) == "no-allowed-set" for state in lost):
+            elif not spec.restores_stepwise and any(world.kind(state) == "no-allowed-set" for state in lost):
                 yield "there is no certificate for a start without an allowed set"
         case Realizable():
             answer = "realizable"

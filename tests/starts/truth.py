@@ -13,6 +13,9 @@ from tumato_symbolic.semantics import State, is_start
 
 Part = frozenset[State]
 
+MOST_OTHERS = 9
+"""With more valid states that are no starts, not every set of states is tried."""
+
 
 def starts(world: World) -> Part:
     """All starts."""
@@ -33,6 +36,8 @@ def within(world: World, part: Part) -> World:
 def parts(world: World, most_policies: int) -> Iterator[tuple[Part, bool]] | None:
     """Every set that has all starts, with whether it has a policy, by trying all; None where they are too many."""
     first, others = starts(world), [state for state in world.valid if state not in starts(world)]
+    if len(others) > MOST_OTHERS:
+        return None
     closed = [first | set(more) for size in range(len(others) + 1) for more in combinations(others, size)]
     worlds = [(part, within(world, part)) for part in map(frozenset, closed)]
     if sum(_different(each) for _, each in worlds) > most_policies:
