@@ -10,7 +10,7 @@ import pytest
 from tests.printing import print_spec
 from tests.starts.campaign import LARGER, SMALL, Tally, examine, specifications
 from tumato_symbolic import Realizable, Undecided, Unrealizable, parse, synthesize
-from tumato_symbolic.diagnostics import UserError
+from tumato_symbolic.diagnostics import Code, UserError
 from tumato_symbolic.explain.explain import explain
 from tumato_symbolic.explain.explanation import Explanation, NothingToExplain
 from tumato_symbolic.export.closed_loop import ClosedLoop
@@ -80,6 +80,24 @@ def test_where_goals_conflict_what_is_left_out_is_told() -> None:
     assert isinstance(outcome, Realizable) and outcome.statistics.part is not None
     (left,) = outcome.statistics.part.left_out
     assert (left.kind, left.states) == ("conflict", ((2,),))
+
+
+def test_an_environment_that_leads_out_is_warned_of() -> None:
+    """A variable that no action changes, where another value of it is not decided; not where all values are."""
+    asked = """
+    BEGIN STATE VECTOR state x can be a, b state wind can be calm, strong END STATE VECTOR
+    BEGIN ACTIONS action go preconditions: x is a, wind is calm nominal effects: x is b END ACTIONS
+    BEGIN GOALS goal type: priority goal: x is b END GOALS
+    BEGIN START start: x is {} END START
+    """
+    for start, codes in (("a AND wind is calm", [Code.TUM357]), ("b", [Code.TUM357])):
+        outcome = synthesize(parse(asked.replace("{}", start)))
+        assert isinstance(outcome, Realizable)
+        assert [each.code for each in outcome.warnings] == codes
+    assert "to 1 state such as x=a wind=strong" in outcome.warnings[0].message
+    everywhere = asked.replace("x is a, wind is calm", "x is a").replace("{}", "b")
+    outcome = synthesize(parse(everywhere))
+    assert isinstance(outcome, Realizable) and not outcome.warnings
 
 
 def test_too_many_parts_are_undecided(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -77,6 +77,8 @@ def _environment(spec: Spec, used_variables: Set[int]) -> Iterator[Diagnostic]:
         they, them = ("it is", "its value") if len(names) == 1 else ("they are", "their values")
         message = f"no action changes {listed(names)}: {they} the environment's"
         way_out = f"the policy decides for all of {them}, and no plan waits for another"
+        if spec.starts:
+            way_out = f"no plan waits for another of {them}; with START, `synth` warns where not all are decided"
         yield Diagnostic(Code.TUM344, message, spec.variables[numbers[0]].span, way_out)
 
 

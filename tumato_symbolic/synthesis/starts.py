@@ -8,14 +8,15 @@ first.
 from __future__ import annotations
 
 import heapq
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
-from tumato_symbolic.diagnostics import UserError
+from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
+from tumato_symbolic.diagnostics.wording import count, listed
 from tumato_symbolic.diagrams import DiagramBuilder
 from tumato_symbolic.game import Problem
 from tumato_symbolic.policy.part import formula_of
-from tumato_symbolic.semantics import State
+from tumato_symbolic.semantics import State, named
 from tumato_symbolic.semantics.lint import no_start
 from tumato_symbolic.spec import Formula
 from tumato_symbolic.symbolic import Bdd, Encoding, Extractor, build_steps, regions, targets
@@ -103,7 +104,31 @@ def solve_from_starts(problem: Problem, so_far: Undecided, solve: Solve, *, cert
     if isinstance(found, Undecided):
         return found
     part, outcome = found
-    return replace(outcome, statistics=replace(outcome.statistics, part=_counted(part, starts)))
+    warnings = (*outcome.warnings, *_led_out(problem, part.states))
+    return replace(outcome, warnings=warnings, statistics=replace(outcome.statistics, part=_counted(part, starts)))
+
+
+def _led_out(problem: Problem, decided: Bdd) -> tuple[Diagnostic, ...]:
+    """The warning about variables that no action changes: where they change by themselves, to what is not decided."""
+    spec, encoding = problem.spec, problem.encoding
+
+    def beyond(variables: Sequence[int]) -> Bdd:
+        bits = [bit for variable in variables for bit in encoding.state_bits[variable]]
+        return encoding.manager.exists(bits, decided) & problem.steps.valid & ~decided
+
+    changing = sorted(spec.environment)
+    outside = beyond(changing)
+    if outside == problem.false:
+        return ()
+    alone = [variable for variable in changing if beyond((variable,)) != problem.false]
+    names = listed([spec.variables[variable].name for variable in alone or changing])
+    example = " ".join(f"{name}={value}" for name, value in named(spec, encoding.first_state(outside)).items())
+    message = (
+        f"no action changes {names}; if that changes by itself, it may lead out of what the policy decides, "
+        f"to {count(encoding.count_states(outside), 'state')} such as {example}"
+    )
+    way_out = "if that can happen, such states have to be starts: let a start condition hold there as well"
+    return (Diagnostic(Code.TUM357, message, spec.starts[0].span, way_out),)
 
 
 def _certified(problem: Problem, answer: Unrealizable, starts: Bdd) -> Unrealizable:
