@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from pathlib import Path
 from random import Random
 
 import pytest
 
+from tests.checker.standalone import ask
 from tests.printing import print_spec
 from tests.starts.campaign import LARGER, SMALL, Tally, examine, specifications
 from tumato_symbolic import Realizable, Undecided, Unrealizable, parse, synthesize
@@ -16,13 +18,16 @@ from tumato_symbolic.explain.explanation import Explanation, NothingToExplain
 from tumato_symbolic.export.closed_loop import ClosedLoop
 from tumato_symbolic.export.coq import export
 from tumato_symbolic.export.request import Request
-from tumato_symbolic.policy import as_table, policy_from_rows
+from tumato_symbolic.policy import as_table, dumps, guarantees_file, policy_from_rows
+from tumato_symbolic.semantics import guarantees as explicit_guarantees
 from tumato_symbolic.semantics import holds
+from tumato_symbolic.semantics.judge import one_of
 from tumato_symbolic.simulation import Dice, NoStartError, Starts
 from tumato_symbolic.spec import digest
 from tumato_symbolic.synthesis import starts as synthesis_starts
 from tumato_symbolic.synthesis.synthesize import PolicyFormat
 from tumato_symbolic.verify import verify, verify_unrealizable
+from tumato_symbolic.verify.guarantees.analyse import guarantees
 
 CONFLICT = """
 BEGIN STATE VECTOR state x can be l, m, r, L, R END STATE VECTOR
@@ -140,6 +145,30 @@ def test_what_does_not_know_starts_refuses_them() -> None:
         export(outcome.policy, spec, "any")
     with pytest.raises(UserError, match="does not support START"):
         ClosedLoop.of(Request(outcome.policy, spec, "any", "robot"))
+
+
+def test_what_is_guaranteed_is_guaranteed_of_decided_states(tmp_path: Path) -> None:
+    """The levels are those of the explicit meaning, and the stand-alone checker accepts their certificate."""
+    looked_at = 0
+    for seed in range(9100, 9110):
+        for name, spec in specifications(seed):
+            outcome = synthesize(spec, "any")
+            table = as_table(outcome.policy, 100) if isinstance(outcome, Realizable) else None
+            if not isinstance(outcome, Realizable) or table is None or name.startswith("larger"):
+                continue
+            found = guarantees(outcome.policy, spec, "any", certify=True)
+            truth = Counter(explicit_guarantees(spec.within(one_of(table.rows)), table.rows, "any").values())
+            counts: Counter[str] = Counter()
+            for level in found.levels:
+                counts[level.guarantee.kind] += level.states
+            assert counts == Counter(each.kind for each in truth.elements() if each is not None)
+            assert found.certificate is not None
+            (tmp_path / "guarantees.json").write_text(guarantees_file.dumps(found.certificate))
+            options = ("--effect-ordering", "any", "--guarantees", str(tmp_path / "guarantees.json"))
+            answer = ask(tmp_path, dumps(outcome.policy), print_spec(spec, Random(0)), *options)
+            assert answer.code == 0, answer.out
+            looked_at += 1
+    assert looked_at > 3
 
 
 @pytest.mark.parametrize("policy_format", ["table", "diagram"])

@@ -62,6 +62,8 @@ def _where(spec: Spec, level: Level) -> str:
     if level.cubes is None:
         return "(too many cases to list)"
     shown = [cube_text(spec, cube) for cube in level.cubes[:_CUBES]]
+    if spec.starts and shown == ["every valid state"]:
+        return "every decided state"
     more = len(level.cubes) - len(shown)
     return "; or ".join(shown) + (f"; … and {count(more, 'more case')}" if more else "")
 
