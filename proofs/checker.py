@@ -114,7 +114,7 @@ VALUE = re.compile(f"{NAME.pattern}|{NUMBER.pattern}")
 WHOLE_NUMBER = re.compile(f"[0-9]{{1,{MOST_DIGITS}}}")
 BRACES = re.compile(r"\{(\w+)((?:[+-][0-9]+)?)\}")  # in names: the value of a parameter
 ONE_WORD = re.compile(r"\{\w+\}")
-SHIFT = re.compile(r"[+-](0|[1-9][0-9]{0,17})")  # of a parameter
+SHIFT = re.compile(r"[+-][1-9][0-9]{0,17}")  # of a parameter
 KEYWORDS = {"BEGIN", "END", "AND", "OR", "NOT", "IF", "THEN", "IFONLYIF"}  # never a name
 OWN_WORDS = {"true", "false", "none", "executing"}  # only ever the name of a value
 
@@ -381,7 +381,7 @@ class Parser:
         return words[1:] == ["in"] and NAME.fullmatch(words[0]) is not None and words[0] not in NO_PARAMETERS
 
     def header(self) -> tuple[dict[str, dict[str, int]], list[Test]]:
-        outer, self.scope = self.scope, {}  # there are no braces here
+        outer, self.scope, dry, self.dry = self.scope, {}, self.dry, False  # no braces here, and no mistakes either
         found: dict[str, dict[str, int]] = {}
         while not found or self.accept(","):
             self.need(self.parameter_begins(), "expected `PARAMETER in`")
@@ -395,7 +395,7 @@ class Parser:
         tests = [self.test()] if self.accept("where") else []
         while tests and self.accept(","):
             tests.append(self.test())
-        self.scope = outer
+        self.scope, self.dry = outer, dry
         return found, tests
 
     def test(self) -> Test:
@@ -413,8 +413,6 @@ class Parser:
         orders: list[dict[str, int]] = []
         for (word, shift), (partner, _) in ((one, other), (other, one)):
             value, order = self.scope.get(word, (word, self.scope.get(partner, ("", {}))[1]))
-            known = word in self.scope or (not shift and (word in order or NUMBER.fullmatch(word)))
-            self.need(bool(known), f"`{word}` is no parameter, and no value that it is compared with")
             values.append(self.shifted(value, shift))
             orders.append(order)
         numbers = [NUMBER.fullmatch(value) is not None for value in values]
@@ -425,8 +423,16 @@ class Parser:
             values = [orders[0][value] for value in values]
         return OPERATORS[sign](*values)
 
+    def check(self, tests: list[Test], scope: dict[str, tuple[str, dict[str, int]]]) -> None:
+        for one, _, other in tests:
+            for (word, shift), (partner, _) in ((one, other), (other, one)):
+                value = NUMBER.fullmatch(word) is not None or word in scope.get(partner, ("", {}))[1]
+                known = word in scope or (value and not shift)
+                self.need(known, f"`{word}` is no parameter, and no value that it is compared with")
+
     def copies(self, before: str = "") -> Iterator[None]:
         domains, tests = self.header()
+        self.check(tests, {**self.scope, **{name: ("1", order) for name, order in domains.items()}})
         if before:
             self.expect(before)
         start, outer, dry, made = self.position, self.scope, self.dry, 0

@@ -222,7 +222,24 @@ WRONG_PREDICATES = [
 ]  # fmt: skip
 """Predicates with a mistake."""
 
+NEVER = "for Q in r1 where Q != Q"
 WRONG_TEXTS = [
+    *(
+        f"{STATES}BEGIN STATE RULES {NEVER} {header} rule: N is 1 end for end for END STATE RULES"
+        for header in (
+            "for R in r1, r1",
+            "for R in 2..1",
+            "for R in 0..b",
+            "for R in r1 where R = r2",
+            "for R in r1 where S = 1",
+            "for R in 1 where R+01 > 1",
+            "for R in 1 where R+0 > 1",
+            "for Q in r1",
+            "for R in Q where {R} = 1",
+        )  # fmt: skip
+    ),
+    f"{STATES}BEGIN STATE RULES {NEVER} rule: N is 01 end for END STATE RULES",
+    f"{STATES}BEGIN STATE RULES rule: all Q in r1 where Q != Q: some R in r1, r1: N is 1 END STATE RULES",
     "BEGIN STATE VECTOR state S can be 3..1 END STATE VECTOR",
     "BEGIN STATE VECTOR state S can be 0..10000 END STATE VECTOR",
     "BEGIN STATE VECTOR state S can be 0..5000, 10000..15000 END STATE VECTOR",

@@ -10,6 +10,7 @@ from random import Random
 
 from tests.generate import random_text
 from tests.profiles import PROFILES
+from tests.shorthand import shorthand
 from tests.syntax.mutations import SNIPPETS, mutations
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -18,7 +19,7 @@ STRANGE: tuple[str, ...] = (
     *map(chr, (0, 8, 11, 12, 13, 26, 27, 28, 29, 30, 31, 127, 0x80, 0x85, 0x9F, 0xA0, 0xAD, 0x1680, 0x180E, 0x2000)),
     *map(chr, (0x200B, 0x200C, 0x200D, 0x200E, 0x2028, 0x2029, 0x202E, 0x202F, 0x205F, 0x2060, 0x2066, 0x3000, 0xFEFF)),
     *"é²٣߁４Ａıſ", "a\u0308", "\U0001d7d8", "\U0001f916", "\ufffd", "\uffff", "\r", "\r\n", "\n\r", "\t", " ", ".", "-",
-    *"+_=;#'\"\\/*[]{}<>|&!?$%",
+    *"+_=;#'\"\\/*[]{}<>|&!?$%", "..", "!=", "<=", "{R}", "{}", "{R-1}", "_{R}",
 )  # fmt: skip
 """Spaces, line ends, digits and letters that may be taken for others, and signs that the language does not have."""
 
@@ -26,7 +27,8 @@ KEYWORDS = tuple(
     """BEGIN END AND OR NOT IF THEN IFONLYIF STATE VECTOR ALIASES RESOURCES ACTIONS REACTION RULES ASSUMPTIONS START
     GOALS CONFIG state can be define as resource action duration cost controlled resources preconditions nominal effects
     alternative none rule assume start goal type priority constraint when then max_plan_length effect_ordering any first
-    is executing true false""".split()  # noqa: SIM905 - a page of quotes says no more
+    is executing true false for end in all some exactly one where not severity restoration
+    R {R} {R+1} P_{R}""".split()  # noqa: SIM905 - a page of quotes says no more
 )
 
 PIECE = re.compile(r"\s+|//[^\n]*|/\*.*?\*/|\w+|.", re.DOTALL)
@@ -36,11 +38,12 @@ Damage = Callable[[str, Random], str]
 
 @cache
 def sources() -> tuple[str, ...]:
-    """Specifications without a mistake: all examples, and some of every profile."""
+    """Specifications without a mistake: all examples, some of every profile, and some in short forms."""
     written = [path.read_text(encoding="utf-8") for path in sorted(EXAMPLES.glob("*.tum"))]
     small = [text for text in written if len(text) < 6000]
     texts = [random_text(seed, profile) for profile in PROFILES.values() for seed in range(25)]
-    return (*small, *(_with_starts(text) if number % 4 == 0 else text for number, text in enumerate(texts)))
+    started = (_with_starts(text) if number % 4 == 0 else text for number, text in enumerate(texts))
+    return (*small, *started, *(shorthand(seed)[0] for seed in range(80)))
 
 
 def _with_starts(text: str) -> str:
@@ -229,7 +232,57 @@ def _older(text: str, random: Random) -> str:
             return re.sub(r"^(rule|resource|assume|define)(.*)\n\1(.*)$", r"\1\3\n\1\2", text, flags=re.MULTILINE)
 
 
+HEADER = re.compile(
+    r"\b(for|all|some|exactly one) +(\w+) +in +(\{[^}]*\}|[^\s,:]+(?: *, *[^\s,:]+(?! +in\b))*)"
+    r"((?:(?!\bwhere\b|[:\n]).)*)(where[^:\n]*)?"
+)
+"""What copies and quantifiers begin with: its words, a parameter with its values, others, the conditions."""
+
+
+def _header(text: str, random: Random) -> str:
+    """Another list of values, another condition, or another parameter; often one that leaves no copy."""
+    found = list(HEADER.finditer(text))
+    if not found:
+        return _snippet(text, random)
+    match = random.choice(found)
+    word, name, values, others, where = match.groups(default="")
+    names = [name, random.choice(found)[2], "R"]
+    first = values.strip("{}").split(",")[0]
+    lists = (
+        f"{values}, {first}", f"{{{first}, {first}}}", first, "{}", "3..1", "1..3", "0..b", "-1, 2", "{1, 01}",
+        "ROBOTS", "{ROBOTS}", f"{{{name}}}", f"{first}, {{{name}}}", "1..1000000", "-3..-1", "a..b", f"{first},",
+        "x, y", "no, yes",
+    )  # fmt: skip
+    one, other = random.choice((*names, first, "unheard", "1")), random.choice((*names, first, "unheard", "0"))
+    sign = random.choice(("=", "!=", "<", ">=", "=="))
+    tests = (
+        f"{name} != {name}", f"{one} {sign} {other}", f"{one}+1 {sign} {other}", f"{one} {sign} {other}-1", "1 < 0",
+        f"{name} != {name}, {one} {sign} {other}", f"{one} {sign} {other}, {name} != {name}", "1 > 0", "",
+        f"{{{name}}} = {other}",
+    )  # fmt: skip
+    match random.randrange(5):
+        case 0:
+            values = random.choice(lists)
+        case 1:
+            name = random.choice((*names, "in", "action", "for", "N", "1"))
+        case 2:
+            others += f", {random.choice((*names, 'Z'))} in {random.choice(lists)} "
+        case _:
+            where = f"where {random.choice(tests)}"
+    return f"{text[: match.start()]}{word} {name} in {values} {others} {where}{text[match.end() :]}"
+
+
+def _never_made(text: str, random: Random) -> str:
+    """A header that no combination satisfies, and another damage anywhere: also there, mistakes count."""
+    found = [match for match in HEADER.finditer(text) if not match[5]]
+    if found:
+        match = random.choice(found)
+        text = f"{text[: match.end()]} where {match[2]} != {match[2]} {text[match.end() :]}"
+    return random.choice((_header, _header, _token, _put_in, _digits, _lines, _snippet))(text, random)
+
+
 DAMAGES: tuple[Damage, ...] = (
+    *(_header, _header, _header, _never_made, _never_made),
     *(_respaced, _respaced, _respaced, _older, _older, _older),
     *(_put_in, _in_comment, _in_comment, _other_space, _glued, _digits, _token, _token, _renamed, _renamed, _renamed),
     *(_lines, _block, _snippet, _predicate, _predicate),

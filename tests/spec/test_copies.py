@@ -74,6 +74,13 @@ MISTAKES = [
         "places in one list",
     ),
     ("TUM316", rules("for N in 1..2 for V in «x{N}», a rule: S is {V} end for end for"), None),
+    ("TUM114", rules("for N in 1..2 where N«+01» > 2 rule: S is a end for"), "write `+1`"),
+    ("TUM114", rules("for N in 1..2 where N«-0» > 1 rule: S is a end for"), "leave it out"),
+    ("TUM114", rules("for N in 1..2 rule: S_{N«+01»} is a end for"), "write `+1`"),
+    ("TUM114", rules("for V in a where V != V rule: S is «03» end for"), "write `3`"),
+    ("TUM314", rules("for V in a where V != V for N in «2..1» rule: S is a end for end for"), "write `1..2`"),
+    ("TUM201", rules("for V in a where V != V for N in 1..2 where N < «x» rule: S is a end for end for"), "values are"),
+    ("TUM203", rules("for V in a where V != V for W in b, «b» rule: S is {W} end for end for"), "remove one"),
     ("TUM314", rules("for N in «2..1» rule: S is a end for"), "write `1..2`"),
     ("TUM311", rules("for N in 1..2000, M in 1..2000 rule: S_{N} is {M} end for"), "fewer parameters"),
     ("TUM311", rules("for N in «1..99999999999» rule: S_{N} is a end for"), "fewer parameters"),
@@ -150,3 +157,11 @@ def test_a_mistake_in_a_copy_does_not_hide_others() -> None:
     """The syntax of what follows is read on."""
     text = f"{VECTOR} BEGIN STATE RULES for V in a, b rule: S is rule: S is {{V}} end for rule: S b END STATE RULES"
     assert [each.code.name for each in loaded(text).diagnostics] == ["TUM105", "TUM105"]
+
+
+def test_a_quantifier_of_one_copy_stands_where_it_was_written() -> None:
+    """Its rule begins with it, as where there are several copies."""
+    found = loaded(rules("rule: (all V in a:\nS is {V})")).spec
+    assert found is not None
+    (rule,) = found.state_rules
+    assert rule.text == "all V in a: S is {V}"

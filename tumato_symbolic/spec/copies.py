@@ -6,11 +6,13 @@ What a copy holds has a `CopySpan`: its place in the text, and the parameters th
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from typing import Any
 
 from tumato_symbolic.diagnostics import Code, CopySpan, Span
 from tumato_symbolic.diagnostics.wording import listed, quoted
 from tumato_symbolic.spec.collector import Findings
+from tumato_symbolic.spec.numbers import is_right
 from tumato_symbolic.spec.parameters import (
     BRACES,
     MAX_COMBINATIONS,
@@ -95,7 +97,9 @@ class _Copier:
     def _check(self, node: object, scope: Scope, used: set[str]) -> bool:
         """Look at everything below a node; `used` gathers the parameters that are named."""
         if isinstance(node, ast.Name):
-            return "{" not in node.text or self._is_known(node, scope, used)
+            return (
+                self._is_known(node, scope, used) if "{" in node.text else not scope or is_right(node, self._findings)
+            )
         if isinstance(node, tuple):
             return all([self._check(each, scope, used) for each in node])  # noqa: C419 - all are looked at
         if isinstance(node, ast.Copies | ast.Quantifier):
@@ -239,8 +243,11 @@ class _Copier:
     def _quantified(self, node: ast.Quantifier, binding: Binding, own: tuple[tuple[str, str], ...]) -> ast.Predicate:
         span = self.node(node.span, binding, own)
         copies = [self.node(node.body, inner, tuple(inner.items())) for inner in self._bindings(node, binding)]
-        if len(copies) < 2:
-            return copies[0] if copies else ast.Truth(node.kind == "all", span)
+        if not copies:
+            return ast.Truth(node.kind == "all", span)
+        if len(copies) == 1:
+            only: ast.Predicate = replace(copies[0], span=span)
+            return only
         if node.kind == "all":
             return ast.Conjunction(tuple(copies), span)
         if node.kind == "some":

@@ -96,9 +96,15 @@ def _character(here: Situation) -> Diagnostic | None:
 def _range(here: Situation) -> Diagnostic | None:
     """`1..3` where a name must be, and ranges in other spellings."""
     token, before, after = here.token, here.at(-1), here.at(1)
+    offset = here.at(2) if token.text == "{" else token
+    if re.fullmatch("[+-]0[0-9]*", offset.text) and ("OFFSET" in here.expected or offset is not token):
+        number = int(offset.text[1:])
+        way_out = f"write `{offset.text[0]}{number}`" if number else "leave it out"
+        return told(offset.span, way_out, f"{quoted(offset.text)} is not how this number is written", Code.TUM114)
     if token.text == "." and before.text == ".." and after.kind == "number":
         return unexpected(joined(before, token), "...", "write `..`", Code.TUM104)
-    if token.kind == "number" and token.text[0] in "+-" and touch(before, token) and before.kind in ("word", "number"):
+    signed = token.kind == "number" and token.text[0] in "+-" and "OFFSET" not in here.expected
+    if signed and touch(before, token) and before.kind in ("word", "number"):
         ranged = before.kind == "number" and ".." in here.expected
         form = f"{before.text}..{token.text[1:]}" if ranged else f"{before.text}_{token.text[1:]}"
         return unexpected(token.span, token.text, f"write `{form}`")

@@ -145,7 +145,9 @@ class _Run:
         if token.kind == "symbol":
             return token.text
         if token.kind == "number" and token.text[0] in "+-":
-            return "OFFSET" if "OFFSET" in row else "NUMBER" if token.text[0] == "-" else "OTHER"
+            if "OFFSET" in row and token.text[1] != "0":
+                return "OFFSET"
+            return "NUMBER" if token.text[0] == "-" else "OTHER"
         return {"number": "NUMBER", "end": "$END"}.get(token.kind, "OTHER")
 
     def _for(self, index: int, row: Row) -> str:

@@ -74,7 +74,7 @@ class Tokens:
 
 def pattern(space: str, comment: str, name: str, number: str) -> re.Pattern[str]:
     """The pattern of one token, made of the terminals that the grammar defines."""
-    tail = rf"\{{{name}(?:[+-][0-9]+)?\}}[A-Za-z0-9_]*"
+    tail = rf"\{{{name}(?:[+-](?:0|[1-9][0-9]*))?\}}[A-Za-z0-9_]*"
     word = rf"{name}(?!\w)(?:{tail})*|[0-9]*(?:{tail})+"
     return re.compile(
         rf"(?P<space>{space})|(?P<comment>{comment})|(?P<word>(?:{word})(?!\w))|(?P<number>{number}(?!\w|\.(?!\.)))"
