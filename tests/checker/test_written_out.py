@@ -236,7 +236,7 @@ WRONG_TEXTS = [
             "for R in 1 where R+0 > 1",
             "for Q in r1",
             "for R in Q where {R} = 1",
-        )  # fmt: skip
+        )
     ),
     f"{STATES}BEGIN STATE RULES {NEVER} rule: N is 01 end for END STATE RULES",
     f"{STATES}BEGIN STATE RULES rule: all Q in r1 where Q != Q: some R in r1, r1: N is 1 END STATE RULES",

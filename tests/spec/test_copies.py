@@ -164,4 +164,4 @@ def test_a_quantifier_of_one_copy_stands_where_it_was_written() -> None:
     found = loaded(rules("rule: (all V in a:\nS is {V})")).spec
     assert found is not None
     (rule,) = found.state_rules
-    assert rule.text == "all V in a: S is {V}"
+    assert rule.text == "(all V in a: S is {V})"

@@ -173,6 +173,10 @@ CLEAN = {
         config="restoration: bounded",
     ),
     "nothing to reach": robot(goal="true"),
+    "a value to start from": robot(
+        "state B can be empty, low, ok", "action charge effects: B is ok action use effects: B is low", goal="B is low"
+    )
+    + "BEGIN START start: B is empty END START",
 }
 """What is usual in specifications."""
 

@@ -317,6 +317,18 @@ GOALS = [
 
 BLOCKS = [
     (
+        "TUM105",
+        f"{VECTOR} BEGIN «INIT» S is a END INIT",
+        "did you mean `BEGIN START`?",
+        f"{VECTOR} BEGIN START start: S is a END START",
+    ),
+    (
+        "TUM105",
+        f"{VECTOR} BEGIN START «S» is a END START",
+        "write `start: PREDICATE`",
+        f"{VECTOR} BEGIN START start: S is a END START",
+    ),
+    (
         "TUM111",
         "«begin state vector» state S can be a END STATE VECTOR",
         "`BEGIN STATE VECTOR`",

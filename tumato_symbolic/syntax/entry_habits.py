@@ -40,6 +40,7 @@ _SETTINGS: Final = ("max_plan_length:", "effect_ordering:", "restoration:", "pre
 _ENTRIES: Final = {
     "rule": "write `rule: PREDICATE`",
     "assume": "write `assume: PREDICATE`",
+    "start": "write `start: PREDICATE`",
     "define": "write `define NAME as PREDICATE`",
     "resource": "write `resource NAME`",
     "state": "write `state NAME can be VALUE, VALUE`",
@@ -56,6 +57,7 @@ _HOMES: Final = {
     "rule": "STATE RULES",
     "severity": "STATE RULES",
     "assume": "ASSUMPTIONS",
+    "start": "START",
     "goal": "GOALS",
     "when": "GOALS",
     **dict.fromkeys(("max_plan_length", "effect_ordering", "restoration", "preconditions"), "CONFIG"),

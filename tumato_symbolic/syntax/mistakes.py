@@ -91,6 +91,8 @@ def _block_title(here: Situation) -> Diagnostic | None:
         here.token.span,
         help="did you mean `BEGIN STATE RULES` or `BEGIN REACTION RULES`?"
         if words == ["RULES"]
+        else "did you mean `BEGIN START`?"
+        if words[:1] in (["INIT"], ["INITIAL"])
         else f"did you mean `BEGIN {' '.join(here.meant_title)}`?"
         if here.meant_title
         else f"the blocks are {listed(titles)}",
