@@ -104,7 +104,7 @@ def within_limit(count: int, what: str) -> None:
 TOKEN = re.compile(
     r"[ \t\n]+|//[^\n]*|/\*.*?\*/|(?P<token>"
     r"(?:[A-Za-z0-9_]|\{[A-Za-z_][A-Za-z0-9_]*(?:[+-](?:0|[1-9][0-9]*))?\})+(?!\w)"
-    r"|[+-][0-9]+(?![\w{])|[(),:{}]|\.\.|[<>!]=|[<>=])",
+    r"|[+-][0-9]+(?![\w{])|[+-](?![0-9])|[(),:{}]|\.\.|[<>!]=|[<>=])",
     re.DOTALL,
 )
 MISLEADING = re.compile(r"[^\t\n -~\u00a0-\U0010ffff]|[\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]")  # nowhere
@@ -141,6 +141,7 @@ def tokens_of(text: str) -> list[tuple[str, int]]:
 #      ("is", variable, value)  ("executing", action)  ("alias", name)
 #      ("in", variable, items)  ("compared", variable, operator, number or variable)
 #      ("all", f, …)  ("some", f, …)  ("exactly one", f, …)  ("no instance", constant, f)
+#    An effect may also be ("change", variable, variable, how much).
 #    The parser leaves names as (text, line); section 3 replaces them: variables by their position, aliases by their
 #    meaning, `IF p THEN q` by `NOT p OR q`, the last two lines by what they stand for. Copies are made here: what is
 #    inside `for … end for` is read once for each, while `scope` has the values of its parameters.
@@ -165,11 +166,27 @@ SETTINGS = {
 }
 NO_PARAMETERS = {*KEYWORDS, "action", "define", "for", "in", "is", "not", "where"}
 NO_VALUES = {*KEYWORDS, "when", "then", "action", "define", "for", "end"}  # after `S is not`: there, `not` is the value
+ENTRIES = {"duration", "cost", "preconditions", "effects", "rule", "severity", "assume", "goal", "start"}
+ENTRIES |= {"max_plan_length", "effect_ordering", "restoration"}  # followed by a colon
+TITLES = {("controlled", "resources"), ("nominal", "effects"), ("alternative", "effects")}
+NO_PREDICATES = (KEYWORDS - {"NOT", "IF"}) | {"is", "in", "not", "action", "for", "end", "when"}  # none begins one
+
+
+@dataclass
+class EffectSet:
+    """A set of effects: what stands before all clauses, and the clauses `when CONDITION: EFFECT, …`."""
+
+    line: int = 0
+    effects: list[Located] = field(default_factory=list)
+    clauses: list[tuple[Located, list[Located]]] = field(default_factory=list)
 
 
 @dataclass
 class Action:
-    """An action as it is written; section 3 computes `effects`: the nominal assignment, then every alternative."""
+    """An action as it is written; section 3 computes `effects`: the nominal assignment, then every alternative.
+
+    Of an action with clauses, `effects` are known for the values that its conditions speak of, those of `places`.
+    """
 
     name: str = ""
     line: int = 0
@@ -177,10 +194,16 @@ class Action:
     duration: int = 0
     resources: list[tuple[str, int]] = field(default_factory=list)
     preconditions: list[Located] = field(default_factory=list)
-    nominal: list[Located] = field(default_factory=list)
-    alternatives: list[list[Located]] = field(default_factory=list)
+    nominal: EffectSet = field(default_factory=EffectSet)
+    alternatives: list[EffectSet] = field(default_factory=list)
     holds_resources: frozenset[str] = frozenset()
-    effects: list[Effect] = field(default_factory=list)
+    conditional: bool = False
+    places: list[int] = field(default_factory=list)
+    effects: dict[State, list[Effect]] = field(default_factory=dict)
+
+    def effects_in(self, state: State) -> list[Effect]:
+        """The effects that it takes when it starts in a state; none where effects disagree, which no such state is."""
+        return self.effects.get(tuple(state[place] for place in self.places) if self.places else (), [])
 
 
 @dataclass
@@ -560,16 +583,16 @@ class Parser:
             if any(map(self.at, self.FIELDS)):
                 self.count()
                 self.field(action)
-            elif self.at("for") and not self.actions_follow():
+            elif self.at("for") and not self.follows("action"):
                 self.repeat(self.field, action)
             else:
                 return
 
-    def actions_follow(self) -> bool:  # behind all headers that follow one another
+    def follows(self, word: str) -> bool:  # behind all headers that follow one another
         start = self.position
         while self.accept("for"):
             self.header()
-        found = self.at("action")
+        found = self.next == word
         self.position = start
         return found
 
@@ -586,19 +609,58 @@ class Parser:
         elif kind == "preconditions :":
             action.preconditions = self.list_of(self.located_predicate)
         elif kind == "nominal effects :":
-            action.nominal = self.list_of(self.located_predicate)
+            action.nominal = self.effect_set()
         else:
-            action.alternatives.append(self.list_of(self.located_predicate))
+            action.alternatives.append(self.effect_set())
+
+    def effect_set(self) -> EffectSet:
+        found = EffectSet(self.line, self.list_of(self.located_effect))
+        while self.at("when") or (self.at("for") and self.follows("when")):
+            if self.at("when"):
+                self.clause(found.clauses)
+            else:
+                self.repeat(self.clause, found.clauses)
+        return found
+
+    def clause(self, clauses: list[tuple[Located, list[Located]]]) -> None:  # when PREDICATE: EFFECT, …
+        self.count()
+        self.expect("when")
+        condition = self.located_predicate()
+        self.expect(":")
+        clauses.append((condition, self.list_of(self.located_effect)))
+
+    def located_effect(self) -> Located:  # a predicate, or S is S + 1
+        line, (variable, word, origin, sign) = self.line, (*self.ahead(0, 4), *[""] * 4)[:4]
+        self.position += 2
+        denied = origin == "not" and self.value_follows()
+        self.position -= 2
+        if word != "is" or sign[:1] not in ("+", "-") or denied or not is_name(variable) or not is_name(origin):
+            return self.located_predicate()
+        name = self.located_name()
+        self.expect("is")
+        other = self.located_name()
+        step = self.next
+        self.position += 1
+        number = self.word(WHOLE_NUMBER, "a number") if step in ("+", "-") else step[1:]
+        self.need(step in ("+", "-") or number[0] != "0", "expected a number without zeros before it")
+        amount = int(number) * (-1 if step[0] == "-" else 1) if number.isdigit() else 1
+        need(1 <= abs(amount) <= LARGEST_NUMBER, f"line {line}: {amount} is not 1 to {LARGEST_NUMBER}")
+        return ("change", name, other, amount), line
 
     def list_of(self, read: Callable[[], tuple[Any, int]]) -> list[tuple[Any, int]]:  # …, … or none; may be empty
         ends = self.at("END") or any(map(self.at, self.FIELDS)) or self.action_begins()
         copies = (self.at("for") and self.parameter_begins(1)) or (self.scope != {} and self.at("end for"))
-        if self.accept("none") or ends or copies:
+        if self.accept("none") or ends or copies or self.clause_begins():
             return []
         found = [read()]
         while self.accept(","):
             found.append(read())
         return found
+
+    def clause_begins(self) -> bool:  # `when` may also be the name of a variable or an alias
+        following, after = (*self.ahead(1, 2), "", "")[:2]
+        word = re.match(r"[A-Za-z_]|\w*\{\w", following) is not None and following not in NO_PREDICATES
+        return self.at("when") and (following == "(" or (word and not entry_begins(following, after)))
 
     def action_begins(self) -> bool:  # `action` may also be the name of a variable or an alias
         following, after = (*self.ahead(1, 2), "", "")[:2]
@@ -688,8 +750,8 @@ class Parser:
 
     def value_follows(self) -> bool:  # after `S is not`; otherwise `not` is the value
         word, following = (*self.ahead(1, 2), "")[:2]
-        is_value = re.match(r"[\w+-]|\{\w", word) is not None and word not in NO_VALUES
-        return is_value and following != ":" and not any(self.at(words[:-2], 1) for words in self.FIELDS[4:])
+        is_value = re.match(r"\w|[+-][0-9]|\{\w", word) is not None and word not in NO_VALUES
+        return is_value and not entry_begins(word, following)
 
     def quantified(self, quantifier: str) -> Formula:  # all PARAMETER in r1, r2 where COND: PREDICATE
         self.accept(quantifier)
@@ -700,6 +762,16 @@ class Parser:
         if empty:
             return ("no instance", ("true" if quantifier == "all" else "false",), bodies[0])
         return (quantifier, *bodies)
+
+
+def is_name(word: str) -> bool:
+    """Whether a word can name a variable."""
+    return re.match(r"[A-Za-z_]|\{\w", word) is not None and word not in KEYWORDS
+
+
+def entry_begins(word: str, after: str) -> bool:
+    """Whether a word and the next begin a field, a rule, a goal or a setting."""
+    return (word, after) in TITLES or (word in ENTRIES and after == ":")
 
 
 ATOMS = {"true", "false", "is", "executing", "alias", "in", "compared", "denied"}  # as a formula is written
@@ -742,6 +814,9 @@ def resolve(spec: Specification) -> Specification:
     spec.state_rules = [(resolved(spec, rule, False), line) for rule, line in spec.state_rules]
     spec.assumptions = [(resolved(spec, rule, False), line) for rule, line in spec.assumptions]
     spec.starts = [(resolved(spec, rule, False), line) for rule, line in spec.starts]
+    for action in spec.actions.values():
+        if action.conditional:
+            check_clauses(spec, action)
     if spec.goals is not None:
         resolve_goal(spec, spec.goals)
     return spec
@@ -855,20 +930,80 @@ class Speller:
 
 
 def resolve_action(spec: Specification, action: Action) -> None:
-    """Names in an action, and its effects: the nominal ones leave exactly one assignment."""
+    """Names in an action, and its effects, unless they depend on the state in which it starts."""
     for name, line in action.resources:
         need(name in spec.resources, f"line {line}: there is no resource `{name}`")
     action.holds_resources = frozenset(name for name, _ in action.resources)
     action.preconditions = [(resolved(spec, part, False), line) for part, line in action.preconditions]
-    action.effects = assignments(spec, action.nominal)
-    count = len(action.effects)
-    left = counted(count, "assignment")
-    need(count == 1, f"line {action.line}: the nominal effects of `{action.name}` leave {left}, not one")
-    for alternative in action.alternatives:
-        outcomes = assignments(spec, alternative)
-        need(outcomes != [], f"line {action.line}: alternative effects of `{action.name}` cannot happen")
-        need(len(outcomes) <= MOST_OUTCOMES, f"line {action.line}: alternative effects of `{action.name}` are too many")
-        action.effects += outcomes
+    sets = [action.nominal, *action.alternatives]
+    for each in sets:
+        each.effects = [(resolved_effect(spec, effect), line) for effect, line in each.effects]
+        each.clauses = [
+            ((resolved(spec, condition, False), line), [(resolved_effect(spec, effect), at) for effect, at in effects])
+            for (condition, line), effects in each.clauses
+        ]
+    changes = {effect[1] for each in sets for effect, _ in each.effects if effect[0] == "change"}
+    clauses = [clause for each in sets for clause in each.clauses]
+    changes |= {effect[1] for _, effects in clauses for effect, _ in effects if effect[0] == "change"}
+    action.places = sorted(changes | {atom[1] for (condition, _), _ in clauses for atom in atoms(condition)})
+    action.conditional = clauses != [] or changes != set()
+    if not action.conditional:
+        action.effects[()], why = effects_from(spec, action, ())
+        need(why == "", f"line {action.line}: {why}")
+
+
+def resolved_effect(spec: Specification, effect: Formula) -> Formula:
+    """A predicate with its names replaced; or what becomes of each value of a variable that changes relatively."""
+    if effect[0] != "change":
+        return resolved(spec, effect, False)
+    (name, line), (origin, _), step = effect[1:]
+    need(name in spec.variables and name == origin, f"line {line}: `{name}` is not changed relative to itself")
+    values = spec.variables[name]
+    need(all(map(NUMBER.fullmatch, values)), f"line {line}: `{name}` has values that are no numbers")
+    least, most = min(map(int, values)), max(map(int, values))
+    becomes = {value: str(min(max(int(value) + step, least), most)) for value in values}
+    need(set(becomes.values()) <= set(values), f"line {line}: `{name}` changes to what is none of its values")
+    place, atoms = list(spec.variables).index(name), spec.atoms[name]
+    return ("change", place, {value: atoms[new] for value, new in becomes.items()})
+
+
+def effects_from(spec: Specification, action: Action, state: State) -> tuple[list[Effect], str]:
+    """The effects that an action takes when it starts in a state, and what is wrong with them: then there are none."""
+    found = []
+    for number, each in enumerate([action.nominal, *action.alternatives]):
+        happening = [each.effects, *(effects for (condition, _), effects in each.clauses if holds(condition, state))]
+        parts = [effect for effects in happening for effect, _ in effects]
+        outcomes = assignments(spec, [part[2][state[part[1]]] if part[0] == "change" else part for part in parts])
+        need(len(outcomes) <= MOST_OUTCOMES, f"line {action.line}: effects of `{action.name}` are too many")
+        if number == 0 and len(outcomes) != 1:
+            return [], f"the nominal effects of `{action.name}` leave {counted(len(outcomes), 'assignment')}, not one"
+        if not outcomes:
+            return [], f"alternative effects of `{action.name}` cannot happen"
+        found += outcomes
+    return found, ""
+
+
+def check_clauses(spec: Specification, action: Action) -> None:
+    """The effects of an action for all values that its conditions speak of.
+
+    Where they disagree, no valid state satisfies its preconditions.
+    """
+    domains = list(spec.variables.values())
+    within_limit(math.prod(len(domains[place]) for place in action.places), "values that conditions speak of")
+    wrong: dict[State, str] = {}
+    for values in itertools.product(*(domains[place] for place in action.places)):
+        here = {place: values[number] for number, place in enumerate(action.places)}
+        state = tuple(here.get(place, "") for place in range(len(domains)))
+        action.effects[values], why = effects_from(spec, action, state)
+        if why:
+            wrong[values] = why
+    if not wrong:
+        return
+    within_limit(math.prod(map(len, domains)), "states")
+    for state in itertools.product(*domains):
+        why = wrong.get(tuple(state[place] for place in action.places), "")
+        rules = [*action.preconditions, *spec.assumptions] if why else []
+        need(not why or not all(holds(rule, state) for rule, _ in rules), f"line {action.line}: in {state}, {why}")
 
 
 def resolve_goal(spec: Specification, goal: Goal) -> None:
@@ -953,9 +1088,9 @@ def meaning(spec: Specification, formula: Formula) -> Formula:
     return spec.aliases[name]
 
 
-def assignments(spec: Specification, written: list[Located]) -> list[Effect]:
+def assignments(spec: Specification, effects: list[Formula]) -> list[Effect]:
     """The assignments to the mentioned variables that satisfy the whole list of effects."""
-    parts = conjuncts(resolved(spec, formula, False) for formula, _ in written)
+    parts = conjuncts(effects)
     domains = list(spec.variables.values())
     choices = {atom[1]: domains[atom[1]] for part in parts for atom in atoms(part)}
     for kind, *rest in parts:
@@ -1042,7 +1177,7 @@ class World:
         self.all_rules: Required = tuple(range(len(spec.state_rules)))
         self.known: dict[Required, dict[State, bool]] = {}  # of `meets`
         self.levels: dict[State, int] = {}
-        self.answers: dict[tuple[State, ActionSet, Required], bool] = {}  # of `stays_within`
+        self.answers: dict[tuple[State, ActionSet, Required, State], bool] = {}  # of `stays_within`
         self.part: set[State] | None = None  # None: all valid states count
 
     @cached_property
@@ -1129,28 +1264,33 @@ class World:
             values[place] = value
         return tuple(values)
 
-    def effects(self, name: str) -> list[Effect]:
-        """Every effect that an action may take, the nominal one first; none where no effect mentions a variable."""
-        found = self.spec.actions[name].effects
+    def effects(self, start: State, name: str) -> list[Effect]:
+        """Every effect that an action may take that starts in a state, the nominal one first.
+
+        None where no effect mentions a variable.
+        """
+        found = self.spec.actions[name].effects_in(start)
         return found if any(found) else []
 
-    def nominal(self, name: str) -> Effect:
-        """What an action writes nominally."""
-        return self.spec.actions[name].effects[0]
+    def nominal(self, start: State, name: str) -> Effect:
+        """What an action writes nominally that starts in a state."""
+        found = self.spec.actions[name].effects_in(start)
+        return found[0] if found else {}
 
-    def acts(self, chosen: Iterable[str]) -> bool:
+    def acts(self, start: State, chosen: Iterable[str]) -> bool:
         """Whether some action of a set takes effect."""
-        return any(map(self.effects, chosen))
+        return any(self.effects(start, name) for name in chosen)
 
-    def agree(self, chosen: ActionSet) -> bool:
+    def agree(self, start: State, chosen: ActionSet) -> bool:
         """Whether the nominal effects of a set never give one variable two values."""
-        given = {pair for name in chosen for pair in self.nominal(name).items()}
+        given = {pair for name in chosen for pair in self.nominal(start, name).items()}
         return len(given) == len({variable for variable, _ in given})
 
     def successor(self, state: State, chosen: ActionSet) -> State:
         """`δ(s, A)`: all nominal effects at once. Where they agree, their order does not matter."""
+        start = state
         for name in chosen:
-            state = self.apply(state, self.nominal(name))
+            state = self.apply(state, self.nominal(start, name))
         return state
 
     def outcomes(self, state: State, chosen: ActionSet) -> Iterator[tuple[State, list[State]]]:
@@ -1160,7 +1300,7 @@ class World:
         and every state on the way counts. Under `first` only one action takes effect. Where no action of the set has
         effects, as in the empty one, the only outcome is the state itself.
         """
-        if not self.acts(chosen):
+        if not self.acts(state, chosen):
             yield state, [state]
         yield from ((after, way) for after, _, way in self.in_turn(state, chosen))
 
@@ -1169,7 +1309,7 @@ class World:
         waiting, seen = [(state, chosen, [state])], set()
         while waiting:
             here, idle, way = waiting.pop()
-            for name, effect in [(each, effect) for each in sorted(idle) for effect in self.effects(each)]:
+            for name, effect in [(each, effect) for each in sorted(idle) for effect in self.effects(state, each)]:
                 after, rest = self.apply(here, effect), idle - {name}
                 if (after, rest) not in seen:
                     seen.add((after, rest))
@@ -1182,16 +1322,21 @@ class World:
         """`Next(s, A)`: every state in which the next decision may be taken."""
         return {self.successor(state, chosen), *(after for after, _ in self.outcomes(state, chosen))}
 
-    def stays_within(self, state: State, chosen: ActionSet, required: Required) -> bool:
-        """Whether the rules are kept wherever effects of a set lead. Answers are kept: orders share states."""
-        asked = state, chosen, required
+    def stays_within(self, start: State, state: State, chosen: ActionSet, required: Required) -> bool:
+        """Whether the rules are kept wherever effects of a set lead that are still to come; they began in `start`.
+
+        Answers are kept: orders share states.
+        """
+        conditional = any(self.spec.actions[name].conditional for name in chosen)
+        asked = state, chosen, required, start if conditional else ()
         if asked not in self.answers:
             within_limit(len(self.answers), "outcomes of sets of actions")
-            after = ((self.apply(state, effect), chosen - {name}) for name in chosen for effect in self.effects(name))
+            effects = ((name, effect) for name in chosen for effect in self.effects(start, name))
+            after = ((self.apply(state, effect), chosen - {name}) for name, effect in effects)
             self.answers[asked] = all(
                 self.meets(required, there)
                 and self.falsified(there, rest) is None
-                and (self.ordering == "first" or self.stays_within(there, rest, required))
+                and (self.ordering == "first" or self.stays_within(start, there, rest, required))
                 for there, rest in after
             )
         return self.answers[asked]
@@ -1216,14 +1361,14 @@ class World:
         for one, other in itertools.combinations(actions, 2):
             if one.holds_resources & other.holds_resources:
                 return f"{one.name} and {other.name} share {min(one.holds_resources & other.holds_resources)}"
-        if not self.agree(chosen):
+        if not self.agree(state, chosen):
             return "the nominal effects disagree"
         line = self.broken(self.spec.reaction_rules, state, chosen)
         if line is not None:
             return f"a reaction rule is broken: {self.quote(line)}"
         required = self.required(state)
-        acts = self.acts(chosen)
-        within = acts and self.stays_within(state, chosen, required)
+        acts = self.acts(state, chosen)
+        within = acts and self.stays_within(state, state, chosen, required)
         for after, way in self.outcomes(state, chosen) if not within else ():
             if not self.meets(required, after):
                 there = "; the effects lead to " + ", then ".join(map(self.show, way[1:])) if acts else ""
@@ -1266,9 +1411,9 @@ class World:
         return (
             self.duration(chosen) < below
             and len(held) == len(set(held))
-            and self.agree(chosen)
+            and self.agree(state, chosen)
             and all(truth(rule, state, chosen, others) is not False for rule, _ in self.spec.reaction_rules)
-            and self.stays_within(state, chosen, self.required(state))
+            and self.stays_within(state, state, chosen, self.required(state))
         )
 
     def steps(self, state: State) -> Iterator[tuple[ActionSet, State]]:
@@ -1543,7 +1688,7 @@ class Restoring:
     def __init__(self, world: World, decided: dict[State, ActionSet]) -> None:
         self.world, self.decided = world, decided
         unsafe = [(state, chosen) for state, chosen in decided.items() if not world.is_safe(state)]
-        self.open = {state: self.open_after(state, chosen) for state, chosen in unsafe if world.agree(chosen)}
+        self.open = {state: self.open_after(state, chosen) for state, chosen in unsafe if world.agree(state, chosen)}
         self.worst: dict[State, Effort] = {}
         left = {state: len(after) for state, after in self.open.items()}
         before: dict[State, list[State]] = {}
@@ -1582,7 +1727,7 @@ class Restoring:
         """The effort of the nominal run until the state is restored, with this set in it; None: it never is."""
         effort, here, seen = (0, 0), state, set[State]()
         following: ActionSet | None = chosen
-        while following is not None and self.world.agree(following) and here not in seen:
+        while following is not None and self.world.agree(here, following) and here not in seen:
             seen.add(here)
             effort, here = self.longer(following, effort), self.world.successor(here, following)
             if self.world.restored(state, here):
@@ -1621,7 +1766,7 @@ class Judge:
         judged = ((state, world.objection(state, chosen)) for state, chosen in self.decided.items())
         self.objections = {state: why for state, why in judged if why is not None}
         self.allowed = [state for state in self.decided if state not in self.objections]
-        agreeing = {state: chosen for state, chosen in self.decided.items() if world.agree(chosen)}
+        agreeing = {state: chosen for state, chosen in self.decided.items() if world.agree(state, chosen)}
         self.after = {state: world.successor(state, chosen) for state, chosen in agreeing.items()}
         self.steps: dict[Residual, dict[State, int | None]] = {}
         self.rivals_of: dict[State, list[ActionSet]] = {}
@@ -1925,7 +2070,7 @@ def check_restoring(judge: Judge, claimed: Claimed | None) -> str:
     for state, better, missed in claimed.deviations:
         shown = f"with {world.show_set(better)} in {world.show(state)}"
         need(state in judge.decided and not world.is_safe(state), f"{world.show(state)} is not unsafe and decided")
-        need(world.agree(better), f"{shown}, nominal effects disagree")
+        need(world.agree(state, better), f"{shown}, nominal effects disagree")
         spoiled = judge.run(state, better, {state: better}) is None
         misses = spoiled if missed == state else missed in judge.losers(state, better)
         need(misses, f"{shown}, {world.show(missed)} does not miss its goal for that")
@@ -1994,16 +2139,44 @@ def texts_of(spec: Specification, rules: list[Located]) -> list[str]:
 
 def meaning_of_action(spec: Specification, action: Action) -> dict[str, Any]:
     """An action by names; what it does nominally is no alternative, and an alternative counts once."""
-    names = list(spec.variables)
-    nominal, *others = ({names[place]: value for place, value in effect.items()} for effect in action.effects)
-    alternatives = sorted({tuple(sorted(effect.items())) for effect in others if effect != nominal})
-    return {
+    found = {
         "duration": action.duration,
         "resources": sorted(action.holds_resources),
         "preconditions": texts_of(spec, action.preconditions),
+    }
+    if action.conditional:
+        nominal, *others = [meaning_of_effects(spec, each) for each in (action.nominal, *action.alternatives)]
+        return {**found, "nominal": nominal, "alternatives": each_once(others)}
+    names = list(spec.variables)
+    nominal, *others = [{names[place]: value for place, value in effect.items()} for effect in action.effects[()]]
+    alternatives = sorted({tuple(sorted(effect.items())) for effect in others if effect != nominal})
+    return {
+        **found,
         "nominal": nominal,
         "alternatives": [dict(effect) for effect in alternatives],
     }
+
+
+def meaning_of_effects(spec: Specification, effects: EffectSet) -> dict[str, Any]:
+    """A set of effects with clauses by names; a relative effect is a clause for each value."""
+    clauses = []
+    for condition, then in [(None, effects.effects), *((condition, then) for (condition, _), then in effects.clauses)]:
+        fixed = [effect for effect, _ in then if effect[0] != "change"]
+        changes = [effect for effect, _ in then if effect[0] == "change"]
+        if condition is not None and (fixed or not changes):
+            clauses.append([text_of(condition, spec), sorted({text_of(effect, spec) for effect in fixed})])
+        for _, place, becomes in changes:
+            for value, new in becomes.items():
+                here = ("is", place, value)
+                when = here if condition in (None, ("true",)) else ("and", condition, here)
+                clauses.append([text_of(when, spec), [text_of(new, spec)]])
+    always = sorted({text_of(effect, spec) for effect, _ in effects.effects if effect[0] != "change"})
+    return {"effects": always, "clauses": each_once(clauses)}
+
+
+def each_once(values: list[Any]) -> list[Any]:
+    """Values of JSON, sorted."""
+    return [json.loads(text) for text in sorted({json.dumps(each, sort_keys=True) for each in values})]
 
 
 def meaning_of_goal(spec: Specification, goal: Goal) -> list[Any]:
@@ -2335,16 +2508,16 @@ def unviolated(world: World, state: State, cube: Cube) -> str:
     if cube.kind == "resource":
         return "" if named[0].holds_resources & named[1].holds_resources else "the two share no resource"
     if cube.kind == "nominal-conflict":
-        return "" if not world.agree(cube.actions) else "the nominal effects of the two agree"
+        return "" if not world.agree(state, cube.actions) else "the nominal effects of the two agree"
     if cube.kind == "reaction-rule":
         return kept_rule(world, state, cube)
     if cube.kind in ("unsafe", "falsified"):
         return safe_outcome(world, state, cube)
     if cube.kind == "idle":
-        changes = world.acts(set(world.spec.actions) - cube.idle)
+        changes = world.acts(state, set(world.spec.actions) - cube.idle)
         kept = changes or world.meets(world.required(state), state)
         return "doing nothing may be allowed" if kept else ""
-    if not settled or not world.agree(cube.executed):
+    if not settled or not world.agree(state, cube.executed):
         return "there is not one nominal successor"
     kept = world.meets(world.required(state), world.successor(state, cube.executed))
     return "the nominal successor is safe" if kept else ""
@@ -2371,13 +2544,13 @@ def kept_rule(world: World, state: State, cube: Cube) -> str:
 
 def safe_outcome(world: World, state: State, cube: Cube) -> str:
     """Why the effects of an `Outcome` break no rule that has to be kept, or cannot happen in all sets."""
-    names, required = [name for name, _ in cube.outcome], world.required(state)
+    names, required, start = [name for name, _ in cube.outcome], world.required(state), state
     if not names or len(set(names)) < len(names) or not cube.executed.issuperset(names):
         return "its effects are not those of different actions that all sets execute"
     if world.ordering == "first" and len(names) > 1:
         return "only the first effect counts"
     for name, effect in cube.outcome:
-        if effect not in world.effects(name):
+        if effect not in world.effects(start, name):
             return f"`{name}` does not have the effect"
         state = world.apply(state, effect)
     if cube.kind == "falsified":

@@ -65,7 +65,7 @@ def test_allowed_sets(ordering: Ordering) -> None:
                     assert {end for end, _ in own.outcomes(named(spec, state), each)} == ends
                     inside = [named(spec, end) for end in literal.states(spec) if literal.safe(spec, end)]
                     unchanged = not any(literal.effects(spec, action) for action in chosen)
-                    kept = own.stays_within(named(spec, state), each, own.all_rules)
+                    kept = own.stays_within(named(spec, state), named(spec, state), each, own.all_rules)
                     falsified = "falsified" in literal.broken(spec, state, chosen, ordering)
                     assert kept == (unchanged or (ends <= set(inside) and not falsified))
 
@@ -88,7 +88,7 @@ def test_what_grows_no_further() -> None:
                 for rule, _ in own.spec.reaction_rules
             )
             kinds = set(literal.broken(spec, state, chosen, "any")) & {"resource", "nominal-conflict"}
-            fine = not kinds and not hopeless and (not each or own.stays_within(here, each, own.required(here)))
+            fine = not kinds and not hopeless and (not each or own.stays_within(here, here, each, own.required(here)))
             takes = duration(spec, chosen)
             assert own.may_grow(here, each, others, takes + 1) == fine
             assert not own.may_grow(here, each, others, takes)

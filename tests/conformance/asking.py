@@ -26,7 +26,9 @@ class Asked:
 
     def allowed(self, state: str) -> list[str]:
         """All allowed sets in a state, the small ones first, then as declared."""
-        return [self.world.names(chosen) for chosen in self.world.sets() if self._is_allowed(state, chosen)]
+        here = self.world.state(state)
+        allowed = (self.world.cases(here, chosen) for chosen in self.world.sets() if self._is_allowed(state, chosen))
+        return list(map(self.world.names, allowed))
 
     def allows(self, state: str, actions: str) -> bool:
         """Whether one set is allowed."""
@@ -34,15 +36,20 @@ class Asked:
 
     def leads(self, state: str, actions: str) -> str:
         """The nominal successor."""
-        return self.world.words(self.engine.successor(self.world, self.world.state(state), self.world.actions(actions)))
+        here = self.world.state(state)
+        return self.world.words(self.engine.successor(self.world, here, self._cases(here, actions)))
 
     def meets(self, state: str, actions: str = "") -> str:
         """All states that satisfy the residual goal of a state with its first set."""
-        here, chosen = self.world.state(state), self.world.actions(actions)
-        return self._states(lambda there: self.engine.meets(self.world, here, chosen, there))
+        here = self.world.state(state)
+        return self._states(lambda there: self.engine.meets(self.world, here, self._cases(here, actions), there))
+
+    def _cases(self, state: State, actions: str) -> ActionSet:
+        return self.world.cases(state, self.world.actions(actions))
 
     def _is_allowed(self, state: str, chosen: ActionSet) -> bool:
-        return self.engine.allowed(self.world, self.world.state(state), chosen)
+        here = self.world.state(state)
+        return self.engine.allowed(self.world, here, self.world.cases(here, chosen))
 
     def _states(self, test: Callable[[State], bool]) -> str:
         return " ".join(self.world.words(state) for state in all_states(self.world.spec) if test(state))
@@ -62,7 +69,8 @@ def faults(judge: Judge, text: str, decisions: Decisions, ordering: Ordering = "
 def following(restorer: Restorer, text: str, state: str, actions: str, ordering: Ordering = "any") -> str:
     """All states that a step leads to."""
     asked = world(text, ordering)
-    found = restorer.following(asked, asked.state(state), asked.actions(actions))
+    here = asked.state(state)
+    found = restorer.following(asked, here, asked.cases(here, asked.actions(actions)))
     return " ".join(map(asked.words, sorted(found)))
 
 

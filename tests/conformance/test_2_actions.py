@@ -119,3 +119,32 @@ def test_an_action_may_take_any_of_its_effects(stepper: Stepper) -> None:
             assert asked.leads("aa", "go") == "ba"
             assert asked.allows("aa", "go")
             assert asked.allows("ab", "go") is is_allowed
+
+
+@rule("2.6")
+def test_clauses_are_read_where_the_action_starts(stepper: Stepper) -> None:
+    """What holds there adds to what stands before all clauses, also when another action takes effect first."""
+    actions = (
+        "action go nominal effects: x is b when y is a: z is b when x is b AND y is b: z is c"
+        " alternative effects: none when y is b: x is c"
+        " action other nominal effects: y is b"
+    )
+    variables = {"x": "abc", "y": "ab", "z": "abc"}
+    for asked in under_both(stepper, text(variables, ACTIONS=actions, STATE_RULES="rule: NOT x is c")):
+        assert [asked.leads(state, "go") for state in ("aaa", "aba", "bba")] == ["bab", "bba", "bbc"]
+        assert [asked.allows(state, "go") for state in ("aaa", "aba")] == [True, False]
+        assert asked.allows("aaa", "go other")
+        assert asked.leads("aaa", "go other") == "bbb"
+
+
+@rule("2.7")
+def test_relative_effects_stay_within_the_values(stepper: Stepper) -> None:
+    """Each value has its own result; beyond the largest and the smallest the value stays there."""
+    actions = (
+        "action up nominal effects: n is n + 2 action down nominal effects: n is n - 1"
+        " action some nominal effects: none when y is a: n is n + 1"
+    )
+    asked = Asked(stepper, text({"n": "0123", "y": "ab"}, ACTIONS=actions))
+    for name, ends in (("up", "2333"), ("down", "0012"), ("some", "1233")):
+        assert "".join(asked.leads(f"{start}a", name)[0] for start in range(4)) == ends
+    assert "".join(asked.leads(f"{start}b", "some")[0] for start in range(4)) == "0123"

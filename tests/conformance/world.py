@@ -8,7 +8,7 @@ from functools import cache
 from itertools import combinations
 
 from tumato_symbolic import parse
-from tumato_symbolic.semantics import ActionSet, State, action_names, all_states, named
+from tumato_symbolic.semantics import ActionSet, State, action_names, all_states, cases_in, named
 from tumato_symbolic.spec import Ordering, Spec
 
 BOTH: tuple[Ordering, ...] = ("any", "first")
@@ -39,9 +39,12 @@ class World:
         return ("" if all(len(value) == 1 for value in values) else " ").join(values)
 
     def actions(self, names: str) -> ActionSet:
-        """A set of actions by their names."""
-        numbers = {action.name: number for number, action in enumerate(self.spec.actions)}
-        return frozenset(numbers[name] for name in names.split())
+        """A set of actions by their names, in the order of declaration."""
+        return frozenset(map(self.spec.action_names.index, names.split()))
+
+    def cases(self, state: State, actions: ActionSet) -> ActionSet:
+        """What a set of actions is in a state, as engines number it."""
+        return cases_in(self.spec, actions, state)
 
     def names(self, chosen: ActionSet) -> str:
         """The names of a set of actions, as declared."""
@@ -49,7 +52,8 @@ class World:
 
     def rows(self, decisions: Decisions) -> dict[State, ActionSet]:
         """A policy in the numbers of the specification."""
-        return {self.state(state): self.actions(names) for state, names in decisions.items()}
+        rows = {self.state(state): self.actions(names) for state, names in decisions.items()}
+        return {state: self.cases(state, chosen) for state, chosen in rows.items()}
 
     def decisions(self, rows: Mapping[State, ActionSet]) -> dict[str, str]:
         """A policy in words."""
@@ -57,7 +61,7 @@ class World:
 
     def sets(self) -> Iterable[ActionSet]:
         """Every set of actions, the small ones first."""
-        numbers = range(len(self.spec.actions))
+        numbers = range(len(self.spec.cases))
         return (frozenset(some) for size in range(len(numbers) + 1) for some in combinations(numbers, size))
 
 

@@ -5,16 +5,20 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from math import prod
 from pathlib import Path
 from typing import Any
 
 from tests.checker.standalone import checker
 from tumato_symbolic.diagnostics import UserError
+from tumato_symbolic.semantics import State, case_in, holds
 from tumato_symbolic.spec import ConditionalGoal, Goal, GoalList, Rule, SimpleGoal, Spec, canonical_text, digest, load
 from tumato_symbolic.syntax import read_source
 
 REFUSED = "refused"
 NO_VERDICT = "no verdict"
+MOST_STATES = 60
+"""In so many states, at least half of them, the effects of actions with clauses are compared."""
 
 Meaning = dict[str, Any]
 
@@ -60,6 +64,12 @@ def meaning_by_package(spec: Spec) -> Meaning:
             (spec.variables[variable].name, spec.variables[variable].values[value]) for variable, value in pairs
         )
 
+    def effects(number: int, state: State) -> list[Any]:
+        case = spec.actions[case_in(spec, number, state)]
+        if case.guard is not None and not holds(case.guard.formula, state):
+            return []
+        return [assignment(case.nominal), sorted(map(assignment, case.effects))]
+
     def goal(found: Goal | None) -> list[Any] | None:
         match found:
             case SimpleGoal(body):
@@ -80,10 +90,11 @@ def meaning_by_package(spec: Spec) -> Meaning:
                 "duration": action.duration,
                 "resources": sorted(spec.resources[number] for number in action.resources),
                 "preconditions": rules(action.preconditions),
-                "nominal": assignment(action.nominal),
-                "effects": sorted(map(assignment, action.effects)),
+                "effects": [effects(number, state) for state in _states([len(each.values) for each in spec.variables])]
+                if action.written
+                else effects(number, ()),
             }
-            for action in spec.actions
+            for number, action in enumerate(spec.actions[cases[0]] for cases in spec.cases)
         ],
         "reaction rules": rules(spec.reaction_rules),
         "state rules": rules(spec.state_rules),
@@ -99,13 +110,17 @@ def meaning_by_package(spec: Spec) -> Meaning:
 
 def meaning_by_checker(spec: Any) -> Meaning:
     """The same."""
-    names = list(spec.variables)
+    names, domains = list(spec.variables), list(spec.variables.values())
 
     def rules(found: Iterable[Any]) -> list[tuple[str, int]]:
         return [(checker.text_of(formula, spec), line) for formula, line in found]
 
     def assignment(effect: dict[int, str]) -> list[tuple[str, str]]:
         return sorted((names[place], value) for place, value in effect.items())
+
+    def effects(action: Any, state: State) -> list[Any]:
+        found = action.effects_in(tuple(values[place] for values, place in zip(domains, state, strict=False)))
+        return [assignment(found[0]), _once_each(map(assignment, found if any(found) else []))] if found else []
 
     def goal(found: Any) -> list[Any]:
         if found.kind == "goal":
@@ -123,8 +138,9 @@ def meaning_by_checker(spec: Any) -> Meaning:
                 "duration": action.duration,
                 "resources": sorted(action.holds_resources),
                 "preconditions": rules(action.preconditions),
-                "nominal": assignment(action.effects[0]),
-                "effects": _once_each(map(assignment, action.effects if any(action.effects) else [])),
+                "effects": [effects(action, state) for state in _states([len(values) for values in domains])]
+                if action.conditional
+                else effects(action, ()),
             }
             for action in spec.actions.values()
         ],
@@ -138,6 +154,19 @@ def meaning_by_checker(spec: Any) -> Meaning:
         "restoration": spec.restoration or "one_step",
         "digest": checker.digest(spec),
     }
+
+
+def _states(sizes: list[int]) -> list[State]:
+    """Some states, evenly spread."""
+    total = prod(sizes)
+    found = []
+    for number in range(0, total, max(1, total // MOST_STATES)):
+        rest, state = number, []
+        for size in reversed(sizes):
+            rest, value = divmod(rest, size)
+            state.append(value)
+        found.append(tuple(reversed(state)))
+    return found
 
 
 def _once_each(effects: Iterable[list[tuple[str, str]]]) -> list[list[tuple[str, str]]]:

@@ -8,6 +8,7 @@ from functools import cache
 from pathlib import Path
 from random import Random
 
+from tests.clauses.generate import random_pair
 from tests.generate import random_text
 from tests.profiles import PROFILES
 from tests.shorthand import shorthand
@@ -36,14 +37,35 @@ PIECE = re.compile(r"\s+|//[^\n]*|/\*.*?\*/|\w+|.", re.DOTALL)
 Damage = Callable[[str, Random], str]
 
 
+CONDITIONAL = tuple(
+    f"""BEGIN STATE VECTOR
+    state S_Level can be 0..5 state when can be when, not state S_r1 can be x, y state S_r2 can be x, y
+    END STATE VECTOR BEGIN ACTIONS action go preconditions: S_Level > 2 {effects} END ACTIONS"""
+    for effects in (
+        """nominal effects: S_Level is S_Level - 1
+        when when is when: when is not when when is not: S_r1 is x""",
+        """effects: when is when
+        alternative effects: when S_r1 is not x: S_Level is S_Level + 1 when S_r2 is x: none""",
+        """effects: for R in r1, r2 when S_{R} is x AND S_Level in {1, 3..4}: S_{R} is y end for
+        alternative effects:""",
+        """effects: S_r1 is y for N in 1..3 when S_Level = {N}: S_Level is S_Level -{N} end for duration: 1
+        for R in r2, r1 action do_{R} effects: S_{R} is x end for action last effects: when S_r2 is x : S_r1 is x""",
+        """effects: when all R in r1, r2: S_{R} is x: S_Level is S_Level-1 when NOT (some R in r1, r2: S_{R} is y): none
+        alternative effects: S_Level is S_Level +2 when when is not : when is when action action effects: none""",
+    )
+)
+"""Clauses in `for`, relative effects, and `when` as a name."""
+
+
 @cache
 def sources() -> tuple[str, ...]:
     """Specifications without a mistake: all examples, some of every profile, and some in short forms."""
     written = [path.read_text(encoding="utf-8") for path in sorted(EXAMPLES.glob("*.tum"))]
     small = [text for text in written if len(text) < 6000]
     texts = [random_text(seed, profile) for profile in PROFILES.values() for seed in range(25)]
-    started = (_with_starts(text) if number % 4 == 0 else text for number, text in enumerate(texts))
-    return (*small, *started, *(shorthand(seed)[0] for seed in range(80)))
+    started = [_with_starts(text) if number % 4 == 0 else text for number, text in enumerate(texts)]
+    conditional = (*(random_pair(seed).text for seed in range(60)), *CONDITIONAL)
+    return (*small, *started, *(shorthand(seed)[0] for seed in range(80)), *conditional)
 
 
 def _with_starts(text: str) -> str:

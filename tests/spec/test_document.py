@@ -7,7 +7,19 @@ import pytest
 
 from tests.spec.marked import codes
 from tumato_symbolic.diagnostics import Code
-from tumato_symbolic.spec import actions, copies, effects, lint, names, parameters, predicates, resolve, values
+from tumato_symbolic.spec import (
+    actions,
+    cases,
+    clauses,
+    copies,
+    effects,
+    lint,
+    names,
+    parameters,
+    predicates,
+    resolve,
+    values,
+)
 from tumato_symbolic.syntax import nesting, parser, reading, tokens
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -35,6 +47,10 @@ LIMITS = [
     ("`max_plan_length`", resolve.MAX_PLAN_LENGTH),
     ("assignments that one entry of alternative effects denotes", effects.MAX_OUTCOMES),
     ("terms looked at to find what all effects denote", effects.MAX_EFFECT_WORK),
+    ("cases of all actions, an action without clauses being one", cases.MAX_CASES),
+    ("terms of conditions looked at to find all cases", cases.MAX_CASE_WORK),
+    ("terms looked at to find where effects disagree, or leave a range", cases.MAX_SEARCH_WORK),
+    ("by how much a relative effect may change a value", clauses.MAX_CHANGE),
     ("assignments up to which a predicate is checked for being always or never true", lint.MAX_DECIDED),
     ("terms looked at in all these checks", lint.MAX_LINT_WORK),
 ]

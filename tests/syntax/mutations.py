@@ -21,7 +21,7 @@ SNIPPETS = (
     "IFONLYIF ", "is ", "executing ", "true ", "none ", "when ", "then ", "goal ", "goal: ", "goal type: ", "priority ",
     "rule: ", "assume: ", "define x as x ", "state ", "can be ", "action ", "resource ", "duration: ", "effects: ",
     "nominal ", "alternative effects: ", "controlled resources: ", "max_plan_length: ", "effect_ordering: ",
-    "NOT (" * 60,
+    "NOT (" * 60, "when S_A is 0: ", "- 1 ", "S_A is S_A + 1, ", "end for ",
 )  # fmt: skip
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import partial
 from importlib import import_module
@@ -21,13 +21,15 @@ from tumato_symbolic.limits import Budget
 from tumato_symbolic.policy import as_diagram, policy_from_rows
 from tumato_symbolic.semantics import (
     ActionSet,
+    Contest,
     Residual,
     State,
     active_goals,
-    disagreeing_pairs,
+    contested_resources,
+    contested_values,
     duration,
+    excluded,
     exclusive_groups,
-    exclusive_pairs,
     residual_goal,
 )
 from tumato_symbolic.spec import And, Executing, Not, Ordering, Spec
@@ -87,20 +89,30 @@ def _choices(model: ClosedLoop) -> list[literal.Actions]:
     return [each for each in sets if all(len(each & set(group)) <= 1 for group in model.groups)]
 
 
+def _apart(contests: Iterable[Contest]) -> set[tuple[int, int]]:
+    """The pairs of actions on different sides."""
+    sides = [side for contest in contests for side in combinations(contest, 2)]
+    return {(min(one, other), max(one, other)) for first, second in sides for one in first for other in second}
+
+
 def test_groups_and_their_order() -> None:
     """No two actions of a group may be together; each group is tested just above the first variable that it writes."""
     for spec in ALL:
         pairs = list(combinations(range(len(spec.actions)), 2))
         state = literal.states(spec)[0]
         broken = {pair: set(literal.broken(spec, state, frozenset(pair), "first")) for pair in pairs}
-        assert disagreeing_pairs(spec) == [pair for pair in pairs if "nominal-conflict" in broken[pair]]
-        assert exclusive_pairs(spec) == [pair for pair in pairs if broken[pair] & {"nominal-conflict", "resource"}]
+        assert _apart(contested_values(spec)) == {pair for pair in pairs if "nominal-conflict" in broken[pair]}
+        assert _apart(contested_resources(spec)) == {pair for pair in pairs if "resource" in broken[pair]}
+        exclusive = [pair for pair in pairs if broken[pair] & {"nominal-conflict", "resource"}]
+        masks = excluded(spec)
+        assert [(one, other) for one, other in pairs if masks[one] >> other & 1] == exclusive
+        assert [(one, other) for one, other in pairs if masks[other] >> one & 1] == exclusive
         groups = exclusive_groups(spec)
         assert sorted(action for group in groups for action in group) == list(range(len(spec.actions)))
         for group in groups:
-            assert set(combinations(sorted(group), 2)) <= set(exclusive_pairs(spec))
+            assert set(combinations(sorted(group), 2)) <= set(exclusive)
         for one, other in combinations(groups, 2):
-            assert not all(tuple(sorted((other[0], action))) in exclusive_pairs(spec) for action in one)
+            assert not all(tuple(sorted((other[0], action))) in exclusive for action in one)
         count = len(spec.variables)
         for tested in ([], list(reversed(range(count))), [count - 1]):
             order = walk_order(spec, tested, groups)

@@ -246,7 +246,7 @@ def test_every_violation_of_every_cube(ordering: Ordering) -> None:
         for cube in reason.cubes or ():
             for violation in (cube.violation, *violations(cube.violation, len(spec.actions), rules)):
                 each = replace(cube, violation=violation)
-                given = _unproved(step, reason.state, each, ordering)
+                given = _unproved(step, spec, reason.state, each, ordering)
                 assert (given is None) == violated(meaning, reason.state, each), (each, given)
 
 

@@ -60,6 +60,8 @@ class Code(Enum):
     TUM315 = ("error", "a comparison of values that are not numbers")
     TUM316 = ("error", "copies that cannot be made")
     TUM317 = ("error", "no valid state is a start")
+    TUM318 = ("error", "a relative effect that has no meaning")
+    TUM319 = ("error", "conditions of effects that make too many cases")
 
     TUM321 = ("warning", "an unused resource")
     TUM322 = ("warning", "an unused alias")
@@ -71,6 +73,7 @@ class Code(Enum):
     TUM328 = ("warning", "a resource listed twice")
     TUM329 = ("warning", "an unused parameter")
     TUM330 = ("warning", "copies of which there are none")
+    TUM331 = ("warning", "a relative effect that may leave the range of its variable")
     TUM341 = ("warning", "a state variable that nothing mentions")
     TUM342 = ("warning", "values that nothing tells apart")
     TUM343 = ("remark", "a value that nothing mentions")

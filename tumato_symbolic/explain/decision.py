@@ -16,6 +16,7 @@ from tumato_symbolic.semantics import (
     Quality,
     Run,
     State,
+    cases_in,
     duration,
     follow,
     holds,
@@ -87,13 +88,14 @@ class Decisions(Mapping[State, ActionSet]):
     def __init__(self, spec: Spec, policy: Policy) -> None:
         self._spec = spec
         self._policy = policy
-        self._numbers = {action.name: number for number, action in enumerate(spec.actions)}
+        self._numbers = {name: number for number, name in enumerate(spec.action_names)}
 
     def __getitem__(self, state: State) -> ActionSet:
         try:
-            return frozenset(self._numbers[name] for name in self._policy.decide(named(self._spec, state)))
+            names = self._policy.decide(named(self._spec, state))
         except UndecidedState:
             raise KeyError(state) from None
+        return cases_in(self._spec, (self._numbers[name] for name in names), state)
 
     def __iter__(self) -> Iterator[State]:
         raise TypeError("a policy is looked up, not listed")

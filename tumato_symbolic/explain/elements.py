@@ -29,8 +29,8 @@ PREFERENCE: Final[tuple[ElementKind, ...]] = (
 class Element:
     """One thing that a specification requires.
 
-    `number` is that of the rule, the assumption or the action (0 for the plan bound). Of an action, `part` is the
-    position of the precondition or the alternative entry, or the number of the resource.
+    `number` is that of the rule, the assumption or the first case of the action (0 for the plan bound). Of an action,
+    `part` is the position of the precondition or the alternative entry, or the number of the resource.
     """
 
     kind: ElementKind
@@ -50,7 +50,7 @@ def _elements(spec: Spec) -> Iterator[Element]:
     yield from (Element("state-rule", number) for number in range(len(spec.state_rules)))
     yield from (Element("reaction-rule", number) for number in range(len(spec.reaction_rules)))
     yield from (Element("assumption", number) for number in range(len(spec.assumptions)))
-    for number, action in enumerate(spec.actions):
+    for number, action in ((cases[0], spec.actions[cases[0]]) for cases in spec.cases):
         yield from (Element("precondition", number, part) for part in range(len(action.preconditions)))
         yield from (Element("alternative", number, part) for part in range(len(action.alternatives)))
         yield from (Element("resource", number, resource) for resource in sorted(action.resources))
@@ -60,9 +60,10 @@ def _elements(spec: Spec) -> Iterator[Element]:
 
 def keep_only(spec: Spec, kept: Elements) -> Spec:
     """The specification with every element dropped but `kept`; nominal effects and goals stay."""
+    each = zip(spec.first_case, spec.actions, strict=True)
     return replace(
         spec,
-        actions=tuple(_action(number, action, kept) for number, action in enumerate(spec.actions)),
+        actions=tuple(_action(first, action, kept) for first, action in each),
         reaction_rules=_rules("reaction-rule", spec.reaction_rules, kept),
         state_rules=_rules("state-rule", spec.state_rules, kept),
         assumptions=_rules("assumption", spec.assumptions, kept),
@@ -100,9 +101,10 @@ def replace_rule(spec: Spec, element: Element, rule: Rule) -> Spec:
         case "reaction-rule":
             return replace(spec, reaction_rules=_put(spec.reaction_rules, element.number, rule))
         case "precondition":
-            action = spec.actions[element.number]
-            wider = replace(action, preconditions=_put(action.preconditions, element.part, rule))
-            return replace(spec, actions=(*spec.actions[: element.number], wider, *spec.actions[element.number + 1 :]))
+            cases = spec.cases_from(element.number)
+            rules = _put(spec.actions[element.number].preconditions, element.part, rule)
+            wider = (replace(spec.actions[case], preconditions=rules) for case in cases)
+            return replace(spec, actions=(*spec.actions[: cases.start], *wider, *spec.actions[cases.stop :]))
     raise ValueError(f"a {element.kind} is not replaced")
 
 

@@ -72,9 +72,9 @@ def candidates(spec: Spec, state: State) -> Iterator[ActionSet]:
 
 
 def applicable(spec: Spec, state: State) -> list[int]:
-    """The actions whose preconditions hold in a state."""
+    """The actions that may start in a state."""
     return [
         number
         for number, action in enumerate(spec.actions)
-        if all(holds(rule.formula, state) for rule in action.preconditions)
+        if all(holds(rule.formula, state) for rule in action.conditions)
     ]

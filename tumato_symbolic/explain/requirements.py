@@ -23,6 +23,7 @@ from tumato_symbolic.symbolic import (
     build_steps,
     compatible_sets,
     encode,
+    meant_sets,
     regions,
     staying_in,
     tiers_within,
@@ -41,7 +42,7 @@ class Requirements:
     """The steps of a specification and of everything that dropping elements makes of it.
 
     `valid` are the states that satisfy *all* assumptions: whatever is dropped, only these are asked about. `compatible`
-    has the sets that are compatible when no action needs a resource.
+    has the sets that are compatible when no action needs a resource, with the cases that are meant.
     """
 
     def __init__(self, spec: Spec, ordering: Ordering, backend: Backend, context: Context | None = None) -> None:
@@ -53,7 +54,7 @@ class Requirements:
         self.manager = self.encoding.manager
         self.valid: Bdd = self.encoding.domain() & self.encoding.all_of(rule.formula for rule in spec.assumptions)
         self.regions = regions(self.encoding, self.valid)
-        self.compatible: Bdd = self.encoding.domain() & compatible_sets(self.encoding)
+        self.compatible: Bdd = self.encoding.domain() & compatible_sets(self.encoding) & meant_sets(self.encoding)
         self._relevant = {rule: self._relevant_alternatives(rule) for rule in self.elements if self._is_lasting(rule)}
         self._known: dict[Requirement, Bdd] = {}
         self._here: tuple[State, dict[Requirement, Bdd]] | None = None
@@ -163,7 +164,7 @@ class Requirements:
         if element.kind == "reaction-rule":
             return holds
         if element.kind == "precondition":
-            holds = ~self.encoding.executing(element.number) | holds
+            holds = ~self._executing(element.number) | holds
         if not self._is_lasting(element):
             return holds
         encoding, domain = replace(self.encoding, spec=keep_only(self.spec, requirement.others)), self.encoding.domain()
@@ -189,10 +190,14 @@ class Requirements:
         throughout = self.spec.preconditions == "throughout"
         return element.kind in ("state-rule", "assumption") or (throughout and element.kind == "precondition")
 
+    def _executing(self, first: int) -> Bdd:
+        """The sets that execute an action, of which this is the first case."""
+        return self.encoding.executing_any(self.spec.cases_from(first))
+
     def _at_most_one(self, actions: list[int]) -> Bdd:
         none, one = self.manager.true, self.manager.false
         for action in actions:
-            runs = self.encoding.executing(action)
+            runs = self._executing(action)
             none, one = none & ~runs, (one & ~runs) | (none & runs)
         return none | one
 
@@ -203,8 +208,8 @@ class Requirements:
         """
         mentioned = variables_of(_rule(self.spec, element).formula)
         return frozenset(
-            Element("alternative", number, part)
-            for number, action in enumerate(self.spec.actions)
+            Element("alternative", first, part)
+            for first, action in zip(self.spec.first_case, self.spec.actions, strict=True)
             for part, entry in enumerate(action.alternatives)
             if any(_on(outcome, mentioned) != _on(action.nominal, mentioned) for outcome in entry.outcomes)
             or (not action.nominal and any(entry.outcomes))

@@ -13,6 +13,7 @@ from tumato_symbolic.export.decisions import MOST_QUESTIONS, Answer, questions, 
 from tumato_symbolic.export.request import Request
 from tumato_symbolic.semantics import count_states
 from tumato_symbolic.spec import Assignment, Connectives, Executing, Formula, Is, fold
+from tumato_symbolic.spec.support import require_no_lasting_cases
 
 MOST_STATES = 10_000_000
 """The program holds a byte for every state, valid or not, and goes through all of them."""
@@ -20,6 +21,7 @@ MOST_STATES = 10_000_000
 
 def check(request: Request) -> str:
     """The text of the program. Raises `UserError` (TUM508) where there are too many states."""
+    require_no_lasting_cases(request.spec, "the check in C")
     count = count_states(request.spec)
     if count > MOST_STATES:
         message = f"the specification has {count:,} states; the check in C goes through each, for up to {MOST_STATES:,}"

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from tumato_symbolic.export.request import Request
-from tumato_symbolic.semantics import exclude_each_other
+from tumato_symbolic.semantics import excluded
 from tumato_symbolic.spec import (
     FALSE,
     TRUE,
@@ -90,7 +90,8 @@ class ClosedLoop:
         spec = request.spec
         require_no_starts(spec, "what checks an export")
         names = request.policy.vocabulary.actions
-        cases = tuple(tuple(n for n, each in enumerate(spec.actions) if each.name == name) for name in names)
+        by_name = {spec.actions[cases[0]].name: tuple(cases) for cases in spec.cases}
+        cases = tuple(by_name[name] for name in names)
         active = active_bodies(spec.goals, lambda formula: formula, _SHORT)
         return cls(
             spec.variables,
@@ -99,7 +100,7 @@ class ClosedLoop:
             _all(spec.assumptions),
             tuple(_levels(spec)),
             _all(spec.reaction_rules),
-            tuple(pair for pair in combinations(range(len(spec.actions)), 2) if _excluded(spec, *pair)),
+            tuple(_excluded(spec)),
             tuple(_required(spec)),
             tuple(ActiveGoal(when, spec.bodies[body].formula) for body, when in sorted(active.items())),
             spec.max_plan_length,
@@ -139,6 +140,11 @@ _SHORT: Connectives[Formula] = Connectives(Constant, negation, conjunction, disj
 
 def preconditions(action: Action) -> Formula:
     """All that has to hold where an action starts."""
+    return _all(action.conditions)
+
+
+def lasting(action: Action) -> Formula:
+    """What may have to hold until an action takes effect."""
     return _all(action.preconditions)
 
 
@@ -146,8 +152,11 @@ def _all(rules: Sequence[Rule]) -> Formula:
     return conjunction([rule.formula for rule in rules])
 
 
-def _excluded(spec: Spec, first: int, second: int) -> bool:
-    return spec.actions[first].name != spec.actions[second].name and exclude_each_other(spec, first, second)
+def _excluded(spec: Spec) -> Iterator[tuple[int, int]]:
+    masks, of = excluded(spec), spec.first_case
+    for first, second in combinations(range(len(spec.actions)), 2):
+        if masks[first] >> second & 1 and of[first] != of[second]:
+            yield first, second
 
 
 def _levels(spec: Spec) -> Iterator[Formula]:

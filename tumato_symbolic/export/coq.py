@@ -42,7 +42,7 @@ from tumato_symbolic.spec import (
     fold,
     fold_goal,
 )
-from tumato_symbolic.spec.support import require_no_starts
+from tumato_symbolic.spec.support import require_no_lasting_cases, require_no_starts
 
 MOST_STATES = 30_000
 """Coq goes through all states, valid or not; so many take it about a minute (`proofs/coq/README.md`)."""
@@ -55,6 +55,11 @@ _HEAD = """\
 From Coq Require Import List NArith.
 From Tumato Require Import Semantics Checker Correct.
 Import ListNotations.
+"""
+
+_CASES = """\
+(* An action whose effects depend on the state stands here as several, its cases, one for each thing that it may do: the
+   last precondition of a case tells in which states the action does that. *)
 """
 
 _THEOREM = """\
@@ -84,11 +89,21 @@ def export(policy: Policy, spec: Spec, ordering: Ordering) -> str:
     (TUM502), or where the specification has more than `MOST_STATES` states (TUM508).
     """
     require_no_starts(spec, "the theorem for Coq")
+    require_no_lasting_cases(spec, "export-proof")
     rows = _rows(bind(policy, spec), spec)
     several = spec.restoration != "one_step"
     theorem = _THEOREM.format(ordering=ordering.capitalize(), efforts="known" if several else "no_efforts")
     efforts = _efforts(spec, rows, ordering) if several else ()
-    return "\n".join([_HEAD, *_specification(spec), *_decisions(spec, rows), *efforts, theorem])
+    return "\n".join(
+        [
+            _HEAD,
+            *([_CASES] if spec.has_cases else []),
+            *_specification(spec),
+            *_decisions(spec, rows),
+            *efforts,
+            theorem,
+        ]
+    )
 
 
 def _rows(policy: Policy, spec: Spec) -> dict[State, ActionSet]:
@@ -205,7 +220,7 @@ _COQ: Connectives[str] = Connectives(
 def _action(action: Action) -> str:
     return (
         f"{{| duration := {action.duration}%N; resources := {_list(map(str, sorted(action.resources)))};\n"
-        f"       preconditions := {_list(_formula(rule.formula) for rule in action.preconditions)};\n"
+        f"       preconditions := {_list(_formula(rule.formula) for rule in action.conditions)};\n"
         f"       nominal := {_assignment(action.nominal)};\n"
         f"       alternatives := {_list(_assignment(o) for entry in action.alternatives for o in entry.outcomes)} |}}"
     )

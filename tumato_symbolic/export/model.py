@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from tumato_symbolic.export.closed_loop import ClosedLoop, preconditions
+from tumato_symbolic.export.closed_loop import ClosedLoop, lasting, preconditions
 from tumato_symbolic.export.decisions import DecisionRule, rules_of
 from tumato_symbolic.export.identifiers import distinct, identifier
 from tumato_symbolic.export.request import Request
@@ -154,7 +154,7 @@ class Claims:
         if not self.model.loop.preconditions_last:
             return []
         entries = zip(self.model.actions, self.model.loop.actions, strict=True)
-        return [self._implied(f"waiting_{name}", self.now(preconditions(action))) for name, action in entries]
+        return [self._implied(f"waiting_{name}", self.now(lasting(action))) for name, action in entries]
 
     def met(self, safe: str) -> list[str]:
         """What holds where the goals of a run are reached; `safe` is the name for safe states."""

@@ -9,7 +9,7 @@ from typing import TypeAlias
 
 from tumato_symbolic.game.problem import Problem
 from tumato_symbolic.spec import Assignment
-from tumato_symbolic.symbolic import Bdd
+from tumato_symbolic.symbolic import Bdd, Leading
 
 Layers: TypeAlias = list[Bdd]
 """Disjoint sets of safe states: in layer `j` are those that reach the target in `j` steps and not earlier."""
@@ -56,8 +56,7 @@ def preimage(problem: Problem, relation: Bdd) -> Callable[[Bdd], Bdd]:
     moves = steps.moves(relation, max(MOST_MOVES, exclusive), keep_sets=True)
     if moves is None:
         return lambda target: relation & steps.before(target)
-    cofactors = [(problem.encoding.assignment_bits(effect), pairs) for effect, pairs in moves.items()]
-    return lambda target: manager.union(pairs & manager.cofactor(target, effect) for effect, pairs in cofactors)
+    return Leading(manager, [(problem.encoding.assignment_bits(effect), pairs) for effect, pairs in moves.items()]).into
 
 
 def distances(problem: Problem, pairs: Bdd | None = None) -> tuple[Layers, ...]:

@@ -8,6 +8,7 @@ from itertools import islice
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.diagrams import Diagram, Leaf, Reference, rebuild
+from tumato_symbolic.policy.cases import by_case
 from tumato_symbolic.policy.messages import MOST, show, way_out
 from tumato_symbolic.policy.policy import Policy
 from tumato_symbolic.policy.records import (
@@ -24,6 +25,14 @@ from tumato_symbolic.spec import Assignment, Spec
 
 
 def bind(policy: Policy, spec: Spec) -> Policy:
+    """The same policy in the numbers of `spec`, where an action with clauses is executed by its cases.
+
+    Raises `UserError` as `fitted` does.
+    """
+    return by_case(fitted(policy, spec), spec)
+
+
+def fitted(policy: Policy, spec: Spec) -> Policy:
     """The same policy, renumbered so that its vocabulary is that of `spec`.
 
     Raises `UserError` with (at most 20 of) the variables, values and actions that only one side has (TUM503, TUM504,

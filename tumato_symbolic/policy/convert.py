@@ -9,7 +9,7 @@ from typing import TypeAlias
 from tumato_symbolic.diagrams import Diagram, DiagramBuilder, Reference, count_true
 from tumato_symbolic.policy.policy import Policy
 from tumato_symbolic.policy.records import Certificate, DecisionDiagram, Table, Vocabulary
-from tumato_symbolic.semantics import ActionSet, State
+from tumato_symbolic.semantics import ActionSet, State, actions_of
 from tumato_symbolic.spec import Ordering, Spec
 
 Roots: TypeAlias = tuple[Reference, ...]
@@ -23,8 +23,9 @@ def policy_from_rows(
     digest: str | None = None,
     certificate: Certificate | None = None,
 ) -> Policy:
-    """The policy that decides exactly the states of `rows`, as a table in row-major order."""
-    return Policy(Vocabulary.of(spec), Table(dict(sorted(rows.items()))), ordering, digest, certificate)
+    """The policy that decides exactly the states of `rows`, in the numbers of `spec`, as a table in row-major order."""
+    table = {state: actions_of(spec, chosen) for state, chosen in sorted(rows.items())}
+    return Policy(Vocabulary.of(spec), Table(table), ordering, digest, certificate)
 
 
 def as_diagram(policy: Policy) -> DecisionDiagram:

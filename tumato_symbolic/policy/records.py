@@ -22,7 +22,7 @@ class Vocabulary:
         """The names of a specification, in its order of declaration."""
         return cls(
             tuple((variable.name, variable.values) for variable in spec.variables),
-            tuple(action.name for action in spec.actions),
+            spec.action_names,
         )
 
     @property

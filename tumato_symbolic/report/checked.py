@@ -52,7 +52,7 @@ def _size(spec: Spec) -> str:
         (
             count(len(spec.variables), "state variable"),
             count(count_states(spec), "state"),
-            count(len(spec.actions), "action"),
+            count(len(spec.cases), "action"),
             count(rules, "rule"),
         )
     )

@@ -6,7 +6,7 @@ from tumato_symbolic.explain.elements import Element, ElementKind, rule_of, span
 from tumato_symbolic.explain.explanation import Reason
 from tumato_symbolic.report.layout import count, enumeration
 from tumato_symbolic.report.objections import Place
-from tumato_symbolic.semantics import holds
+from tumato_symbolic.semantics import case_in, holds
 from tumato_symbolic.spec import Spec
 
 KINDS: dict[ElementKind, str] = {
@@ -35,7 +35,7 @@ def role(place: Place, element: Element, core: tuple[Element, ...], reason: Reas
             here = rule is None or holds(rule.formula, reason.example)
             return f"`{name}` may only start where this holds{'' if here else ', which it does not in the example'}"
         case "alternative":
-            action = spec.actions[element.number]
+            action = spec.actions[case_in(spec, spec.action_of(element.number), reason.example)]
             written = [place.assignment(outcome) for outcome in action.alternatives[element.part].outcomes]
             ends = enumeration(written, "or") if any(written) else "no change"
             return f"`{action.name}` may end with {ends} instead of its nominal effect"

@@ -42,7 +42,7 @@ def as_text(done: Explained, colour: bool) -> str:
 def pieces(done: Explained, colour: bool) -> list[str]:
     """The report in pieces, each of whole lines; as more is found, there are more of them, and none changes."""
     paint, name = Paint(colour), done.source.name
-    size = f"{name}: {count(count_states(done.spec), 'state')}, {count(len(done.spec.actions), 'action')}"
+    size = f"{name}: {count(count_states(done.spec), 'state')}, {count(len(done.spec.cases), 'action')}"
     match done.found:
         case NothingToExplain():
             return [

@@ -15,6 +15,7 @@ from tumato_symbolic.report.policy_tree import policy_tree
 from tumato_symbolic.report.proof import ORDERINGS, proof_json, proof_text, provers
 from tumato_symbolic.report.restorable import restorable_json, restorable_lines
 from tumato_symbolic.report.restored import restored_json, restored_text
+from tumato_symbolic.semantics import cases_in
 from tumato_symbolic.spec import Ordering, Restoration, Spec
 from tumato_symbolic.synthesis.result import Realizable, Statistics, SynthesisResult, Undecided, Unrealizable
 from tumato_symbolic.verify.result import UnrealizabilityVerdict, Verification
@@ -156,7 +157,8 @@ def _drawn(done: Synthesized, outcome: Realizable) -> list[str]:
     table = as_table(outcome.policy, _PICTURED_STATES)
     if table is None:
         return []
-    lines = policy_tree(done.spec, table.rows)
+    rows = {state: cases_in(done.spec, chosen, state) for state, chosen in table.rows.items()}
+    lines = policy_tree(done.spec, rows)
     if len(lines) > _PICTURED_LINES:
         return []
     legend = " (! restores safety)" if outcome.statistics.unsafe else ""

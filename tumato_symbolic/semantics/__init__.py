@@ -1,6 +1,14 @@
 """The meaning of specifications: explicit, one state at a time, slow and plain. See `docs/semantics.md`."""
 
-from tumato_symbolic.semantics.exclusion import disagreeing_pairs, exclude_each_other, exclusive_groups, exclusive_pairs
+from tumato_symbolic.semantics.cases import actions_of, case_in, cases_in, without_cases
+from tumato_symbolic.semantics.exclusion import (
+    Contest,
+    contested_resources,
+    contested_values,
+    exclude_each_other,
+    excluded,
+    exclusive_groups,
+)
 from tumato_symbolic.semantics.goals import ActiveGoals, Residual, active_goals, reached, residual_goal
 from tumato_symbolic.semantics.guarantees import Guarantee, Prospects, guarantees, steps_from
 from tumato_symbolic.semantics.judge import Judgement, better_sets, judge
@@ -51,6 +59,7 @@ __all__ = [
     "NOTHING",
     "ActionSet",
     "ActiveGoals",
+    "Contest",
     "Disturbance",
     "EffectSequence",
     "EffectStep",
@@ -71,6 +80,7 @@ __all__ = [
     "State",
     "Trace",
     "action_names",
+    "actions_of",
     "active_goals",
     "all_states",
     "allowed",
@@ -78,12 +88,15 @@ __all__ = [
     "apply",
     "better_sets",
     "broken_rule",
+    "case_in",
+    "cases_in",
+    "contested_resources",
+    "contested_values",
     "count_states",
-    "disagreeing_pairs",
     "duration",
     "exclude_each_other",
+    "excluded",
     "exclusive_groups",
-    "exclusive_pairs",
     "falsified",
     "fault_after",
     "first_broken",
@@ -113,4 +126,5 @@ __all__ = [
     "steps_from",
     "successor",
     "takes_effect",
+    "without_cases",
 ]

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from itertools import combinations
+from collections.abc import Iterator, Sequence
+from typing import TypeAlias
 
 from tumato_symbolic.semantics.step import nominal_agrees
 from tumato_symbolic.spec import Spec
+
+Contest: TypeAlias = Sequence[Sequence[int]]
+"""What only one side may have: actions of different sides are never executed together."""
 
 
 def disagree(spec: Spec, first: int, second: int) -> bool:
@@ -15,32 +18,54 @@ def disagree(spec: Spec, first: int, second: int) -> bool:
 
 
 def exclude_each_other(spec: Spec, first: int, second: int) -> bool:
-    """Whether two actions are never in one allowed set: a common resource, or nominal effects that disagree."""
+    """Whether two actions are never in one allowed set.
+
+    They have a common resource, or nominal effects that disagree, or are cases of one action.
+    """
+    if spec.first_case[first] == spec.first_case[second]:
+        return True
     return bool(spec.actions[first].resources & spec.actions[second].resources) or disagree(spec, first, second)
 
 
-def disagreeing_pairs(spec: Spec) -> list[tuple[int, int]]:
-    """Pairs of actions whose nominal effects disagree."""
-    return [pair for pair in _pairs(spec) if disagree(spec, *pair)]
+def contested_resources(spec: Spec) -> Iterator[Contest]:
+    """Each resource that several actions control."""
+    for resource in range(len(spec.resources)):
+        users = [(number,) for number, action in enumerate(spec.actions) if resource in action.resources]
+        if len(users) > 1:
+            yield users
 
 
-def exclusive_pairs(spec: Spec) -> list[tuple[int, int]]:
-    """Pairs of actions that exclude each other."""
-    return [pair for pair in _pairs(spec) if exclude_each_other(spec, *pair)]
+def contested_values(spec: Spec) -> Iterator[Contest]:
+    """Each variable to which nominal effects give different values: the actions by the value."""
+    writers: list[dict[int, list[int]]] = [{} for _ in spec.variables]
+    for number, action in enumerate(spec.actions):
+        for variable, value in action.nominal:
+            writers[variable].setdefault(value, []).append(number)
+    return (list(by_value.values()) for by_value in writers if len(by_value) > 1)
 
 
-def _pairs(spec: Spec) -> Iterator[tuple[int, int]]:
-    return combinations(range(len(spec.actions)), 2)
+def excluded(spec: Spec) -> list[int]:
+    """For each action, a bit for every one that excludes it or that it is a case with; its own among them, perhaps."""
+    found = [sum(1 << case for case in cases) if len(cases) > 1 else 0 for cases in spec.cases for _ in cases]
+    for contest in (*contested_resources(spec), *contested_values(spec)):
+        sides = [sum(1 << number for number in side) for side in contest]
+        everyone = sum(sides)
+        for side, own in zip(contest, sides, strict=True):
+            for number in side:
+                found[number] |= everyone ^ own
+    return found
 
 
 def exclusive_groups(spec: Spec) -> list[tuple[int, ...]]:
     """Every action in one group whose members exclude each other: greedily, in the order of declaration."""
     groups: list[list[int]] = []
-    for action in range(len(spec.actions)):
-        fitting = (group for group in groups if all(exclude_each_other(spec, action, other) for other in group))
-        home = next(fitting, None)
+    members: list[int] = []
+    for action, others in enumerate(excluded(spec)):
+        home = next((number for number, group in enumerate(members) if not group & ~others), None)
         if home is None:
             groups.append([action])
+            members.append(1 << action)
         else:
-            home.append(action)
+            groups[home].append(action)
+            members[home] |= 1 << action
     return [tuple(group) for group in groups]

@@ -16,7 +16,8 @@ ActiveGoals: TypeAlias = frozenset[int]
 class Residual:
     """A residual goal: active bodies whose `executing` atoms are settled by the first set.
 
-    `executed` holds those actions of the first set that the bodies speak of; every other atom `executing a` is false.
+    `executed` holds those actions of the first set that the bodies speak of, each by its first case; every other atom
+    `executing a` is false.
     """
 
     bodies: ActiveGoals
@@ -52,7 +53,7 @@ def residual_goal(spec: Spec, state: State, chosen: ActionSet) -> Residual:
     """The residual goal of `state` when `chosen` is the first set."""
     bodies = active_goals(spec, state)
     mentioned = frozenset[int]().union(*(executing_atoms(spec.bodies[body].formula) for body in bodies))
-    return Residual(bodies, chosen & mentioned)
+    return Residual(bodies, spec.as_actions(chosen & mentioned))
 
 
 def reached(spec: Spec, goal: Residual, state: State) -> bool:

@@ -9,6 +9,7 @@ from typing import TypeAlias
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Note
 from tumato_symbolic.diagnostics.copies import merged
+from tumato_symbolic.semantics.cases import actions_of, case_in, cases_in
 from tumato_symbolic.semantics.states import ActionSet, State, all_states, count_states, holds, is_start, is_valid
 from tumato_symbolic.semantics.step import allowed, nominal_agrees, takes_effect
 from tumato_symbolic.spec import (
@@ -229,15 +230,17 @@ def _rules(spec: Spec, valid: States, work: _Work) -> Iterator[Diagnostic]:
         cost = _cost([rule])
         if keeps_guard(spec, rule):
             continue
-        sets = list(_compatible(spec, executing_atoms(rule.formula), work))
+        sets = list(_compatible(spec, actions_of(spec, executing_atoms(rule.formula)), work))
         broken = (
             chosen
             for state in valid
-            for chosen in sets
+            for chosen in _meant(spec, state, sets)
             if not work.holds(rule.formula, cost, state, chosen) and _applicable(spec, state, chosen, work)
         )
         if next(broken, None) is None and not all(
-            work.holds(rule.formula, cost, state, chosen) for state in all_states(spec) for chosen in sets
+            work.holds(rule.formula, cost, state, chosen)
+            for state in all_states(spec)
+            for chosen in _meant(spec, state, sets)
         ):
             yield idle_rule(rule, SETS)
 
@@ -247,16 +250,22 @@ def _actions(spec: Spec, valid: States, work: _Work) -> Iterator[Diagnostic]:
 
     Where none of these has effects, they may need one of the others, which restores safety.
     """
-    mentioned = frozenset[int]().union(*(executing_atoms(rule.formula) for rule in spec.reaction_rules))
-    for number, action in enumerate(spec.actions):
+    executing = (executing_atoms(rule.formula) for rule in spec.reaction_rules)
+    mentioned = actions_of(spec, frozenset[int]().union(*executing))
+    acting = frozenset(number for number, cases in enumerate(spec.cases) if takes_effect(spec, frozenset(cases)))
+    for number, cases in enumerate(spec.cases):
         alone = frozenset((number,))
         sets = [chosen | alone for chosen in _compatible(spec, mentioned - alone, work)]
-        if not action.effects:
-            idle = [chosen for chosen in sets if not takes_effect(spec, chosen)]
-            sets += [chosen | {other} for chosen in idle for other, each in enumerate(spec.actions) if each.effects]
-        applicable = (state for state in valid if _applicable(spec, state, alone, work))
-        if not any(_is_allowed(spec, state, chosen, work) for state in applicable for chosen in sets):
-            yield idle_action(action)
+        if not all(spec.actions[case].effects for case in cases):
+            idle = [chosen for chosen in sets if not (chosen - alone) & acting]
+            sets += [chosen | {other} for chosen in idle for other in sorted(acting)]
+        applicable = (
+            state for state in valid if _applicable(spec, state, frozenset((case_in(spec, number, state),)), work)
+        )
+        if not any(
+            _is_allowed(spec, state, chosen, work) for state in applicable for chosen in _meant(spec, state, sets)
+        ):
+            yield idle_action(spec.actions[cases[0]])
 
 
 def _is_allowed(spec: Spec, state: State, chosen: ActionSet, work: _Work) -> bool:
@@ -271,17 +280,32 @@ def _is_allowed(spec: Spec, state: State, chosen: ActionSet, work: _Work) -> boo
     return allowed(spec, state, chosen, spec.ordering)
 
 
+def _meant(spec: Spec, state: State, sets: Sequence[ActionSet]) -> Iterator[ActionSet]:
+    """Sets of actions by the cases that are meant in a state, without those that disagree nominally."""
+    if not spec.has_cases:
+        yield from sets
+        return
+    for chosen in sets:
+        cases = cases_in(spec, chosen, state)
+        if nominal_agrees(spec, cases):
+            yield cases
+
+
 def _compatible(spec: Spec, actions: frozenset[int], work: _Work) -> Iterator[ActionSet]:
-    """The sets of some actions that neither share a resource nor disagree nominally, smaller ones first."""
+    """The sets of some actions that neither share a resource nor disagree nominally, smaller ones first.
+
+    Whether actions with cases disagree depends on the state, and is left open.
+    """
     for size in range(len(actions) + 1):
         for chosen in combinations(sorted(actions), size):
             work.spend(1)
-            held = [resource for number in chosen for resource in spec.actions[number].resources]
-            if len(held) == len(set(held)) and nominal_agrees(spec, frozenset(chosen)):
+            first = frozenset(spec.cases[number][0] for number in chosen)
+            held = [resource for number in first for resource in spec.actions[number].resources]
+            if len(held) == len(set(held)) and (spec.has_cases or nominal_agrees(spec, first)):
                 yield frozenset(chosen)
 
 
 def _applicable(spec: Spec, state: State, chosen: ActionSet, work: _Work) -> bool:
-    rules = [rule for number in chosen for rule in spec.actions[number].preconditions]
+    rules = [rule for number in chosen for rule in spec.actions[number].conditions]
     work.spend(_cost(rules))
     return all(holds(rule.formula, state) for rule in rules)

@@ -113,9 +113,11 @@ class Objection:
 def objections(spec: Spec, state: State, chosen: ActionSet, ordering: Ordering) -> Iterator[Objection]:
     """Every reason why `chosen` is not allowed in `state`, in the order of section 3; none when it is."""
     for number in sorted(chosen):
-        for rule in spec.actions[number].preconditions:
-            if not holds(rule.formula, state):
-                yield Objection("precondition", (number,), rule)
+        broken = [rule for rule in spec.actions[number].preconditions if not holds(rule.formula, state)]
+        yield from (Objection("precondition", (number,), rule) for rule in broken)
+        guard = spec.actions[number].guard
+        if guard is not None and not broken and not holds(guard.formula, state):
+            yield Objection("precondition", (number,), guard)
     for first, second in combinations(sorted(chosen), 2):
         if spec.actions[first].resources & spec.actions[second].resources:
             yield Objection("resource", (first, second))
@@ -126,16 +128,16 @@ def objections(spec: Spec, state: State, chosen: ActionSet, ordering: Ordering) 
             yield Objection("reaction-rule", tuple(sorted(chosen)), rule)
     required = required_rules(spec, state)
     for reached, way in outcomes_in_turn(spec, state, chosen, ordering):
-        broken = first_broken(required, reached)
-        if broken is not None:
-            yield Objection("unsafe", tuple(sorted(chosen)), _written(spec, broken), way, reached)
+        fault = first_broken(required, reached)
+        if fault is not None:
+            yield Objection("unsafe", tuple(sorted(chosen)), _written(spec, fault), way, reached)
     if spec.preconditions == "throughout":
         yield from falsified(spec, state, chosen, ordering)
     if nominal_agrees(spec, chosen):
         end = successor(spec, state, chosen)
-        broken = first_broken(required, end)
-        if broken is not None:
-            yield Objection("nominal-unsafe", tuple(sorted(chosen)), _written(spec, broken), (), end)
+        fault = first_broken(required, end)
+        if fault is not None:
+            yield Objection("nominal-unsafe", tuple(sorted(chosen)), _written(spec, fault), (), end)
 
 
 def _written(spec: Spec, broken: Rule) -> Rule | None:
@@ -198,7 +200,7 @@ def allowed_sets(spec: Spec, state: State, ordering: Ordering) -> Iterator[Actio
     applicable = [
         number
         for number, action in enumerate(spec.actions)
-        if all(holds(rule.formula, state) for rule in action.preconditions)
+        if all(holds(rule.formula, state) for rule in action.conditions)
     ]
     for size in range(len(applicable) + 1):
         for chosen in combinations(applicable, size):

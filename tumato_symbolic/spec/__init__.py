@@ -2,6 +2,7 @@
 
 from typing import TYPE_CHECKING
 
+from tumato_symbolic.spec.by_action import executing_actions
 from tumato_symbolic.spec.canonical import canonical_text, digest
 from tumato_symbolic.spec.fold import FORMULAS, THREE_VALUED, Connectives, active_bodies, fold, fold_goal, subgoals
 from tumato_symbolic.spec.formula import (
@@ -25,6 +26,7 @@ from tumato_symbolic.spec.specification import (
     Alternative,
     Assignment,
     ConditionalGoal,
+    EffectSet,
     Goal,
     GoalList,
     Ordering,
@@ -50,6 +52,7 @@ __all__ = [
     "ConditionalGoal",
     "Connectives",
     "Constant",
+    "EffectSet",
     "Executing",
     "Formula",
     "Goal",
@@ -70,6 +73,7 @@ __all__ = [
     "canonical_text",
     "children",
     "digest",
+    "executing_actions",
     "executing_atoms",
     "fold",
     "fold_goal",

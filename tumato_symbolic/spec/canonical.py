@@ -7,9 +7,10 @@ import json
 from collections.abc import Iterable
 from typing import Any
 
+from tumato_symbolic.spec.by_action import executing_actions
 from tumato_symbolic.spec.fold import Connectives, fold, fold_goal
 from tumato_symbolic.spec.formula import Executing, Formula, Is
-from tumato_symbolic.spec.specification import Action, Assignment, Goal, Rule, Spec
+from tumato_symbolic.spec.specification import Action, Assignment, EffectSet, Goal, Rule, Spec
 
 _VERSION = 1
 """Part of every digest; changes when the same meaning would be digested differently."""
@@ -28,7 +29,7 @@ def canonical_text(spec: Spec, formula: Formula) -> str:
         variable = spec.variables[atom.variable]
         return f"{variable.name} is {variable.values[atom.value]}"
 
-    return fold(formula, atom, _TEXTS)
+    return fold(executing_actions(spec, formula), atom, _TEXTS)
 
 
 _TEXTS: Connectives[str] = Connectives(
@@ -49,7 +50,7 @@ def digest(spec: Spec) -> str:
     meaning: dict[str, Any] = {
         "version": _VERSION,
         "variables": {each.name: sorted(each.values) for each in spec.variables},
-        "actions": {each.name: _action(spec, each) for each in spec.actions},
+        "actions": {spec.actions[cases[0]].name: _action(spec, spec.actions[cases[0]]) for cases in spec.cases},
         "reaction_rules": _texts(spec, spec.reaction_rules),
         "state_rules": _texts(spec, spec.state_rules),
         "assumptions": _texts(spec, spec.assumptions),
@@ -71,15 +72,37 @@ def _texts(spec: Spec, rules: Iterable[Rule]) -> list[str]:
 
 
 def _action(spec: Spec, action: Action) -> dict[str, Any]:
-    return {
+    found = {
         "duration": action.duration,
         "resources": sorted(spec.resources[number] for number in action.resources),
         "preconditions": _texts(spec, action.preconditions),
+    }
+    if action.written:
+        nominal, *alternatives = (_effect_set(spec, each) for each in action.written)
+        return {**found, "nominal": nominal, "alternatives": _each_once(alternatives)}
+    return {
+        **found,
         "nominal": _assignment(spec, action.nominal),
         "alternatives": sorted(
             (_assignment(spec, outcome) for outcome in action.effects[1:]), key=lambda each: sorted(each.items())
         ),
     }
+
+
+def _effect_set(spec: Spec, effects: EffectSet) -> dict[str, Any]:
+    clauses = [
+        [canonical_text(spec, condition), sorted({canonical_text(spec, each) for each in then})]
+        for condition, then in effects.clauses
+    ]
+    return {
+        "effects": sorted({canonical_text(spec, each) for each in effects.effects}),
+        "clauses": _each_once(clauses),
+    }
+
+
+def _each_once(values: Iterable[Any]) -> list[Any]:
+    """Values of JSON, sorted."""
+    return [json.loads(text) for text in sorted({json.dumps(each, sort_keys=True) for each in values})]
 
 
 def _assignment(spec: Spec, assignment: Assignment) -> dict[str, str]:

@@ -39,12 +39,13 @@ _LIMITS = (MAX_DECLARATIONS, MAX_COMBINATIONS, MAX_TERMS_IN_ALL)
 
 _ENTRIES = (
     *(ast.VariableDeclaration, ast.AliasDefinition, ast.NamedList, ast.ResourceDeclaration, ast.ActionDeclaration),
-    *(ast.Duration, ast.ControlledResources, ast.Preconditions, ast.NominalEffects, ast.AlternativeEffects),
+    *(ast.Duration, ast.ControlledResources, ast.Preconditions, ast.NominalEffects, ast.AlternativeEffects, ast.Clause),
     *(ast.SimpleGoal, ast.ConditionalGoal, ast.GoalList),
     *(ast.Severity, ast.MaxPlanLength, ast.EffectOrdering, ast.Restoration, ast.PreconditionsHold),
 )
 _RULES = (ast.ReactionRules, ast.StateRules, ast.Assumptions, ast.Start)
 _NOT_RULES = (*_ENTRIES, ast.Copies)
+_WITH_NUMBERS = (ast.Duration, ast.MaxPlanLength, ast.Change)
 _NUMBER_SLOTS = {"value", "other", "low", "high", "values", "items"}
 """Where a number may stand for a name."""
 
@@ -211,13 +212,15 @@ class _Copier:
             return ast.Name(filled(ast.Name(node.text, place), binding, numeric, self._findings), place)
         if isinstance(node, ast.Quantifier):
             return self._quantified(node, binding, own)
-        if isinstance(node, ast.Duration | ast.MaxPlanLength) and isinstance(node.value, ast.Name):
-            return type(node)(self._number(node.value, binding, own), self.node(node.span, binding, own))
         if isinstance(node, ast.Node):
-            slots = node.__slots__
-            parts = [self.node(getattr(node, each), binding, own, each in _NUMBER_SLOTS) for each in slots]
-            return type(node)(*parts)
+            return type(node)(*[self._part(node, each, binding, own) for each in node.__slots__])
         return node
+
+    def _part(self, node: ast.Node, slot: str, binding: Binding, own: tuple[tuple[str, str], ...]) -> Any:  # noqa: ANN401
+        part = getattr(node, slot)
+        if isinstance(part, ast.Name) and slot == "value" and isinstance(node, _WITH_NUMBERS):
+            return self._number(part, binding, own)
+        return self.node(part, binding, own, slot in _NUMBER_SLOTS)
 
     def _number(self, name: ast.Name, binding: Binding, own: tuple[tuple[str, str], ...]) -> int:
         found: ast.Name = self.node(name, binding, own, numeric=True)

@@ -74,19 +74,24 @@ class Effects:
             )
             return None
         if len(found) > MAX_OUTCOMES:
-            self._too_many(action, span)
+            self.too_many(action, span)
             return None
         return tuple(found)
 
     def _assignments(self, parts: Sequence[Rule], limit: int, action: str, span: Span) -> list[Assignment] | None:
+        return self.denoted([part.formula for part in parts], limit, action, span)
+
+    def denoted(self, parts: Sequence[Formula], limit: int, action: str, span: Span) -> list[Assignment] | None:
+        """At most so many of the assignments that effects denote; None, and a report, where that is too much work."""
         try:
-            known = list(islice(models(_conjunction(parts), self._sizes, self._budget), limit))
+            known = list(islice(models(conjunction(parts), self._sizes, self._budget), limit))
         except OutOfBudgetError:
-            self._too_many(action, span)
+            self.too_many(action, span)
             return None
         return [tuple(sorted((number, value) for (_, number), value in each.items())) for each in known]
 
-    def _too_many(self, action: str, span: Span) -> None:
+    def too_many(self, action: str, span: Span) -> None:
+        """Report that effects denote more than can be listed."""
         self._findings.add(
             Code.TUM307,
             f"these effects of {quoted(action)} denote too many assignments to list them",
@@ -95,8 +100,7 @@ class Effects:
         )
 
     def _worded(self, assignment: Assignment) -> str:
-        pairs = [f"{self._variables[each].name} is {self._variables[each].values[value]}" for each, value in assignment]
-        return quoted(", ".join(pairs))
+        return quoted(worded(assignment, self._variables))
 
 
 def _conditional_effect() -> str:
@@ -105,9 +109,20 @@ def _conditional_effect() -> str:
     return CONDITIONAL_EFFECT
 
 
-def _conjunction(parts: Sequence[Rule]) -> Formula:
+def worded(assignment: Assignment, variables: tuple[Variable, ...]) -> str:
+    """`S_Place is dock, S_Arm is up`."""
+    return ", ".join([f"{variables[each].name} is {variables[each].values[value]}" for each, value in assignment])
+
+
+def conjunction(parts: Sequence[Formula]) -> Formula:
     """One formula for a list of effects; conjunctions inside are opened, since they say the same as commas."""
-    opened: list[Formula] = []
+    parts = opened(parts)
+    return And(tuple(parts)) if len(parts) > 1 else parts[0] if parts else TRUE
+
+
+def opened(parts: Sequence[Formula]) -> list[Formula]:
+    """The same parts, with those of conjunctions in their place."""
+    found: list[Formula] = []
     for part in parts:
-        opened.extend(part.formula.operands if isinstance(part.formula, And) else (part.formula,))
-    return And(tuple(opened)) if len(opened) > 1 else opened[0] if opened else TRUE
+        found.extend(part.operands if isinstance(part, And) else (part,))
+    return found

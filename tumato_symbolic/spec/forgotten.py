@@ -60,7 +60,7 @@ def _mentioned_values(spec: Spec) -> set[tuple[int, int]]:
 
 def _rules(spec: Spec) -> Iterator[Rule]:
     for action in spec.actions:
-        yield from action.preconditions
+        yield from action.conditions
     yield from (*spec.reaction_rules, *spec.state_rules, *spec.assumptions, *spec.starts, *spec.bodies)
     yield from _conditions(spec)
 
@@ -117,12 +117,14 @@ class _Leaving:
 
     def _note(self, action: Action, variable: int, values: set[int]) -> None:
         found = self._left.setdefault(variable, set())
-        for value in range(self._sizes[variable]):
+        conditions = (rule.formula for rule in action.conditions)
+        pinned = {each.value for each in conditions if isinstance(each, Is) and each.variable == variable}
+        for value in pinned or range(self._sizes[variable]):
             if value not in found and values - {value} and self._may_start(action, variable, value):
                 found.add(value)
 
     def _may_start(self, action: Action, variable: int, value: int) -> bool:
-        formulas = [rule.formula for rule in action.preconditions]
+        formulas = [rule.formula for rule in action.conditions]
         if any(isinstance(each, Is) and each.variable == variable and each.value != value for each in formulas):
             return False
         about = [each for each in formulas if variable in variables_of(each)]
@@ -154,8 +156,8 @@ def _commanded(spec: Spec) -> Iterator[Diagnostic]:
         writing = [action for action in spec.actions if number in _values_written(action)]
         if not writing or not all(_only_sets(action, number) for action in writing):
             continue
-        names = listed([action.name for action in writing])
-        verb = "commands" if len(writing) == 1 else "command"
+        commanding = list(dict.fromkeys(action.name for action in writing))
+        names, verb = listed(commanding), "commands" if len(commanding) == 1 else "command"
         message = f"{names} {verb} {quoted(spec.variables[number].name)}, which everything else only observes"
         way_out = "what the environment does needs no action: without one, the policy decides for every value"
         notes = (Note("it is declared here", spec.variables[number].span),)
@@ -164,7 +166,7 @@ def _commanded(spec: Spec) -> Iterator[Diagnostic]:
 
 def _only_sets(action: Action, variable: int) -> bool:
     """Whether an action sets a variable and nothing else, and needs nothing else for it."""
-    needed = (variables_of(rule.formula) for rule in action.preconditions)
+    needed = (variables_of(rule.formula) for rule in action.conditions)
     return (
         not action.resources
         and set(_values_written(action)) == {variable}

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from math import prod
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Span
 from tumato_symbolic.diagnostics.wording import quoted
+from tumato_symbolic.spec.by_action import executing_actions
 from tumato_symbolic.spec.fold import subgoals
 from tumato_symbolic.spec.forgotten import forgotten
 from tumato_symbolic.spec.formula import And, Constant, Formula, Not
@@ -66,7 +68,7 @@ def _implications(action: ast.ActionDeclaration) -> Iterator[Diagnostic]:
     """Effects that read as if they depended on the state before."""
     fields: Iterator[ast.Field] = ast.one_by_one(action.fields)
     for field in fields:
-        for each in field.predicates if isinstance(field, ast.NominalEffects | ast.AlternativeEffects) else ():
+        for each in field.effects if isinstance(field, ast.NominalEffects | ast.AlternativeEffects) else ():
             if isinstance(each, ast.Implication):
                 from tumato_symbolic.syntax.habits import CONDITIONAL_EFFECT
 
@@ -78,12 +80,12 @@ def _decided(spec: Spec) -> Iterator[Diagnostic]:
     """Predicates that their own variables decide."""
     sizes = {number: len(each.values) for number, each in enumerate(spec.variables)}
     constants = _Constants(sizes)
-    for action in spec.actions:
+    for action in (spec.actions[cases[0]] for cases in spec.cases):
         single = [each for rule in action.preconditions for each in constants.of(rule, "precondition")]
         yield from single
         if not single and len(action.preconditions) > 1:
             yield from constants.together(action.preconditions, action.name)
-    for rule in (*spec.reaction_rules, *spec.state_rules):
+    for rule in (*_by_action(spec, spec.reaction_rules), *spec.state_rules):
         yield from constants.of(rule, "rule")
     for rule in spec.assumptions:
         yield from constants.of(rule, "assumption")
@@ -92,8 +94,13 @@ def _decided(spec: Spec) -> Iterator[Diagnostic]:
     for goal in subgoals(spec.goals):
         if isinstance(goal, ConditionalGoal):
             yield from constants.of(goal.condition, "condition")
-    for rule in spec.bodies:
+    for rule in _by_action(spec, spec.bodies):
         yield from constants.of(rule, "goal")
+
+
+def _by_action(spec: Spec, rules: Sequence[Rule]) -> Iterator[Rule]:
+    """Rules that speak of the first case of an action in the place of all of them: it is executed, or it is not."""
+    return (replace(rule, formula=executing_actions(spec, rule.formula)) for rule in rules)
 
 
 class _Constants:

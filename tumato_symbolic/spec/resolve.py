@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from tumato_symbolic.diagnostics import Code, Diagnostic, Note, Source, Span
 from tumato_symbolic.diagnostics.wording import quoted
 from tumato_symbolic.spec.actions import Actions
+from tumato_symbolic.spec.by_action import executing_cases
 from tumato_symbolic.spec.collector import Findings
 from tumato_symbolic.spec.formula import Formula
 from tumato_symbolic.spec.names import Names, collect
@@ -54,7 +55,8 @@ def resolve(parsed: Parsed, tree: ast.Specification, source: Source, findings: F
     if not names.variables and not parsed.lost:
         _no_state_vector(tree, findings)
     predicates = Predicates(names, Excerpts(source), findings, parsed.lost)
-    actions = Actions(names, predicates, Excerpts(source), findings).resolve()
+    resolver = Actions(names, predicates, Excerpts(source), findings)
+    unfinished = resolver.resolve()
     reaction_rules = _rules(predicates, _of(tree, ast.ReactionRules), None)
     state_rules = _state_rules(predicates, _of(tree, ast.StateRules), findings)
     assumptions = _rules(predicates, _of(tree, ast.Assumptions), "an assumption")
@@ -62,6 +64,7 @@ def resolve(parsed: Parsed, tree: ast.Specification, source: Source, findings: F
     goals = _Goals(predicates)
     goal_list = goals.outermost(_of(tree, ast.Goals))
     settings = _settings(tree, findings)
+    actions = resolver.cases(unfinished, assumptions)
     errors = bool(parsed.diagnostics) or any(each.severity == "error" for each in findings.diagnostics)
     spec = None
     if not errors:
@@ -78,6 +81,8 @@ def resolve(parsed: Parsed, tree: ast.Specification, source: Source, findings: F
             None,
             starts=starts,
         )
+        if spec.has_cases:
+            spec = executing_cases(spec)
         for setting in settings:
             spec = _with_setting(spec, setting)
     used_aliases, used_variables = frozenset(predicates.used_aliases), frozenset(predicates.used_variables)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TypeAlias
 
 from tumato_symbolic.spec.fold import THREE_VALUED, fold
@@ -54,13 +54,16 @@ def models(formula: Formula, sizes: Mapping[int, int], budget: Budget) -> Iterat
     remaining = And(tuple(rest)) if len(rest) > 1 else rest[0] if rest else Constant(True)
     waiting = [each for each in open_ if each not in known]
     options = [range(sizes[number]) if kind == "variable" else range(2) for kind, number in waiting]
-    yield from _search(remaining, list(zip(waiting, options, strict=True)), known, budget)
+    yield from search(remaining, list(zip(waiting, options, strict=True)), known, budget)
 
 
-def _search(
-    formula: Formula, open_: list[tuple[tuple[str, int], range]], known: Known, budget: Budget
+def search(
+    formula: Formula, open_: Sequence[tuple[tuple[str, int], Iterable[int]]], known: Known, budget: Budget
 ) -> Iterator[Known]:
-    """Depth first, without recursion, cutting off what cannot become true any more."""
+    """Depth first, without recursion, cutting off what cannot become true any more.
+
+    `open_` are the unknowns that are not known yet, each with what it may be.
+    """
     cost = size(formula)
     choices: list[Iterator[int]] = []
     budget.spend(cost)

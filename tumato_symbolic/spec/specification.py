@@ -52,12 +52,26 @@ class Alternative:
 
 
 @dataclass(frozen=True, slots=True)
+class EffectSet:
+    """A set of effects with clauses, as it is written: `clauses` are pairs of a condition and the effects under it.
+
+    A relative effect is one clause for each value of its variable.
+    """
+
+    effects: tuple[Formula, ...]
+    clauses: tuple[tuple[Formula, tuple[Formula, ...]], ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Action:
-    """An action. `resources` are resource numbers; the preconditions are a conjunction.
+    """An action, or one case of an action with clauses. `resources` are resource numbers; preconditions a conjunction.
 
     `resource_span` is where the resources are listed, None where the text has no such field. `effects` has the nominal
     assignment first, then every alternative one; each assignment once. It is empty for an action without effects, none
     of whose effects mentions a variable: it never takes effect.
+
+    The cases of an action have its name. `guard` tells in which states one is meant, None where it is all; the guards
+    of an action exclude each other. `written` are the sets of effects of an action with clauses, the nominal one first.
     """
 
     name: str
@@ -68,11 +82,18 @@ class Action:
     alternatives: tuple[Alternative, ...]
     span: Span
     resource_span: Span | None = field(default=None, compare=False)
+    guard: Rule | None = None
+    written: tuple[EffectSet, ...] = field(default=(), repr=False, compare=False)
     effects: tuple[Assignment, ...] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         found = [self.nominal, *(outcome for entry in self.alternatives for outcome in entry.outcomes)]
         object.__setattr__(self, "effects", tuple(dict.fromkeys(found)) if any(found) else ())
+
+    @property
+    def conditions(self) -> tuple[Rule, ...]:
+        """What holds wherever it starts: its preconditions, and the guard of a case."""
+        return self.preconditions if self.guard is None else (*self.preconditions, self.guard)
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,7 +136,9 @@ class Spec:
     or the command line in its place. `preconditions` is when those of actions have to hold. `tiers` are the state rules
     by severity, the most severe first; one tier at least. A valid state that satisfies one of `starts` is a start;
     where there are none, every valid state is one. `part` is what a policy from the starts decides, where only that is
-    looked at (`within`): one more thing that valid states satisfy.
+    looked at (`within`): one more thing that valid states satisfy. `cases[n]` are the numbers of the cases of the n-th
+    action: one, its own, for an action without clauses. They follow one another in `actions`; `first_case` has, for
+    each of these, the first case of the same action.
     """
 
     variables: tuple[Variable, ...]
@@ -134,8 +157,16 @@ class Spec:
     starts: tuple[Rule, ...] = ()
     part: Rule | None = field(default=None, repr=False, compare=False)
     tiers: tuple[tuple[Rule, ...], ...] = field(init=False, repr=False, compare=False)
+    cases: tuple[range, ...] = field(init=False, repr=False, compare=False)
+    first_case: tuple[int, ...] = field(init=False, repr=False, compare=False)
+    _action_at: dict[int, int] = field(init=False, repr=False, compare=False, hash=False)
 
     def __post_init__(self) -> None:
+        names = [action.name for action in self.actions]
+        starts = [number for number, name in enumerate(names) if number == 0 or names[number - 1] != name]
+        object.__setattr__(self, "cases", tuple(map(range, starts, [*starts[1:], len(names)])))
+        object.__setattr__(self, "_action_at", {start: number for number, start in enumerate(starts)})
+        object.__setattr__(self, "first_case", tuple(cases[0] for cases in self.cases for _ in cases))
         severities = sorted({rule.severity for rule in self.state_rules}) or [1]
         tiers = tuple(tuple(rule for rule in self.state_rules if rule.severity == each) for each in severities)
         object.__setattr__(self, "tiers", tiers)
@@ -164,6 +195,28 @@ class Spec:
         """Where a valid state is a start."""
         formulas = tuple(rule.formula for rule in self.starts)
         return Or(formulas) if len(formulas) > 1 else formulas[0] if formulas else TRUE
+
+    @property
+    def has_cases(self) -> bool:
+        """Whether some action has more than one case."""
+        return len(self.cases) < len(self.actions)
+
+    def as_actions(self, chosen: frozenset[int]) -> frozenset[int]:
+        """The first case of each action in a set: by it, residual goals name the action."""
+        return frozenset(map(self.first_case.__getitem__, chosen)) if self.has_cases else chosen
+
+    def cases_from(self, first: int) -> range:
+        """All cases of an action, from the first one."""
+        return self.cases[self._action_at[first]]
+
+    def action_of(self, case: int) -> int:
+        """The number, in the order of declaration, of the action that has a case."""
+        return self._action_at[self.first_case[case]]
+
+    @property
+    def action_names(self) -> tuple[str, ...]:
+        """The names of the actions, each once."""
+        return tuple(self.actions[cases[0]].name for cases in self.cases)
 
     @property
     def environment(self) -> frozenset[int]:

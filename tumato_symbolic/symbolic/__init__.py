@@ -5,13 +5,23 @@ from tumato_symbolic.symbolic.encoding import Encoding, encode
 from tumato_symbolic.symbolic.extract import Extractor
 from tumato_symbolic.symbolic.goals import Regions, Target, never_entered, regions, targets
 from tumato_symbolic.symbolic.manager import Backend, Bdd, Manager, available_backend
-from tumato_symbolic.symbolic.steps import Steps, build_steps, compatible_sets, staying_in, tiers_within, without_effect
+from tumato_symbolic.symbolic.present import Leading
+from tumato_symbolic.symbolic.steps import (
+    Steps,
+    build_steps,
+    compatible_sets,
+    meant_sets,
+    staying_in,
+    tiers_within,
+    without_effect,
+)
 
 __all__ = [
     "Backend",
     "Bdd",
     "Encoding",
     "Extractor",
+    "Leading",
     "Manager",
     "Regions",
     "Steps",
@@ -23,6 +33,7 @@ __all__ = [
     "encode",
     "lasting",
     "least_duration",
+    "meant_sets",
     "never_entered",
     "preferred",
     "regions",

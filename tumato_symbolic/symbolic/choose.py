@@ -35,12 +35,11 @@ def _first_alone(encoding: Encoding, relation: Bdd) -> Bdd:
     """For each state the first action that the relation has as a set of its own."""
     manager = encoding.manager
     result = decided = manager.false
-    for action in range(len(encoding.spec.actions)):
-        choice = {**_all_idle(encoding), **encoding.action_bits(action)}
-        states = manager.cofactor(relation, choice) & ~decided
-        if states != manager.false:
-            result = result | (states & manager.cube(choice))
-            decided = decided | states
+    for alone in encoding.alone:
+        chosen = relation & alone & ~decided
+        if chosen != manager.false:
+            result = result | chosen
+            decided = decided | manager.exists(encoding.all_choice_bits, chosen)
     return result
 
 
@@ -51,8 +50,8 @@ def _first_declared(encoding: Encoding, relation: Bdd) -> Bdd:
     first action in which they differ, so a pass over the actions decides.
     """
     manager = encoding.manager
-    for action in range(len(encoding.spec.actions)):
-        with_it = relation & encoding.executing(action)
+    for cases in encoding.spec.cases:
+        with_it = relation & encoding.executing_any(cases)
         if with_it != manager.false:
             relation = with_it | (relation & ~manager.exists(encoding.all_choice_bits, with_it))
     return relation

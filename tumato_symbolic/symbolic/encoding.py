@@ -7,7 +7,7 @@ first variable that it writes, so that independent parts of a robot stay apart i
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 
@@ -17,6 +17,7 @@ from tumato_symbolic.spec import Assignment, Connectives, Executing, Formula, Is
 from tumato_symbolic.symbolic.effect_tree import EffectTree, after_every, effect_tree
 from tumato_symbolic.symbolic.manager import Backend, Bdd, Manager
 from tumato_symbolic.symbolic.order import variable_order
+from tumato_symbolic.symbolic.present import FEW_MOVES, Leading, present
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,6 +83,19 @@ class Encoding:
         """The choices that contain an action."""
         return self._executing[action]
 
+    def executing_any(self, actions: Iterable[int]) -> Bdd:
+        """The choices that contain one of some actions."""
+        return self.manager.union(map(self.executing, actions))
+
+    @cached_property
+    def alone(self) -> list[Bdd]:
+        """For every action, the choices that contain it, by any of its cases, and no other."""
+        idle = {bit: value for group in self.groups for bit, value in self.idle_bits(group).items()}
+        return [
+            self.manager.union(self.manager.cube({**idle, **self.action_bits(case)}) for case in cases)
+            for cases in self.spec.cases
+        ]
+
     @cached_property
     def _executing(self) -> list[Bdd]:
         return [self.manager.cube(self.action_bits(action)) for action in range(len(self.spec.actions))]
@@ -106,6 +120,32 @@ class Encoding:
     def nominal_writes(self) -> list[list[tuple[Mapping[str, bool], Bdd]]]:
         """`nominal_moves` with the constants for bits that stand for what is written."""
         return [[(self.assignment_bits(effect), choices) for effect, choices in moves] for moves in self.nominal_moves]
+
+    @cached_property
+    def leading(self) -> list[Leading]:
+        """`nominal_writes` by where they lead."""
+        return [Leading(self.manager, moves) for moves in self.nominal_writes]
+
+    def writes_in(self, group: int, relation: Bdd) -> Sequence[tuple[Mapping[str, bool], Bdd]]:
+        """Those of `nominal_writes` of a group that choices in a relation make; perhaps some others."""
+        moves = self.nominal_writes[group]
+        if len(moves) <= FEW_MOVES:
+            return moves
+        codes = present(self.manager, relation, self.groups[group].bits, len(moves) // 2)
+        if codes is None:
+            return moves
+        return [moves[number] for number in sorted({self._move_of_code[group][code] for code in codes})]
+
+    @cached_property
+    def _move_of_code(self) -> list[dict[tuple[bool, ...], int]]:
+        """For every group, the number of the move in `nominal_writes` by the bits of the choice."""
+        found = []
+        for group in self.groups:
+            effects = [(), *(self.spec.actions[action].nominal for action in group.actions)]
+            numbers = {effect: number for number, effect in enumerate(dict.fromkeys(effects))}
+            codes = (tuple(number_bits(group.bits, choice).values()) for choice in range(len(effects)))
+            found.append({code: numbers[effect] for code, effect in zip(codes, effects, strict=True)})
+        return found
 
     @cached_property
     def effect_trees(self) -> list[EffectTree]:

@@ -100,7 +100,7 @@ def targets(steps: Steps, active_regions: Regions) -> list[Target]:
     by_states: dict[Bdd, list[tuple[Residual, Bdd]]] = {}
     for active, region in active_regions.items():
         bodies = [encoding.spec.bodies[body].formula for body in sorted(active)]
-        mentioned = sorted(frozenset[int]().union(*map(executing_atoms, bodies)))
+        mentioned = sorted(encoding.spec.as_actions(frozenset[int]().union(*map(executing_atoms, bodies))))
         for executed, pairs in _split(encoding, mentioned, steps.allowed & region):
             goal = encoding.all_of(settle(body, executed) for body in bodies)
             by_states.setdefault(goal & steps.safe, []).append((Residual(active, executed), pairs))
@@ -112,10 +112,10 @@ def targets(steps: Steps, active_regions: Regions) -> list[Target]:
 
 
 def _split(encoding: Encoding, atoms: list[int], pairs: Bdd) -> list[tuple[ActionSet, Bdd]]:
-    """Pairs by which of the given actions they execute; empty parts are left out."""
+    """Pairs by which of the given actions (by their first cases) they execute; empty parts are left out."""
     parts: list[tuple[ActionSet, Bdd]] = [(frozenset(), pairs)]
     for action in atoms:
-        runs = encoding.executing(action)
+        runs = encoding.executing_any(encoding.spec.cases_from(action))
         parts = [
             (executed | extra, part)
             for executed, whole in parts

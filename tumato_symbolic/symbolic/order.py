@@ -39,7 +39,7 @@ def variable_order(spec: Spec) -> tuple[int, ...]:
 def _action_scopes(spec: Spec) -> Iterator[Scope]:
     """What each action reads or writes."""
     for action, written in zip(spec.actions, _written(spec), strict=True):
-        yield written.union(*(variables_of(rule.formula) for rule in action.preconditions))
+        yield written.union(*(variables_of(rule.formula) for rule in action.conditions))
 
 
 def _rule_scopes(spec: Spec) -> Iterator[Scope]:

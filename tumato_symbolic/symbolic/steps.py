@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from itertools import accumulate, pairwise
 from operator import and_
 
-from tumato_symbolic.semantics import exclude_each_other
+from tumato_symbolic.semantics import contested_resources, contested_values
 from tumato_symbolic.spec import Assignment, Ordering
 from tumato_symbolic.symbolic.encoding import Encoding, Group
 from tumato_symbolic.symbolic.manager import Bdd
@@ -58,9 +58,9 @@ class Steps:
     def successors(self, relation: Bdd) -> Bdd:
         """`{δ(s, A) : (s, A) ∈ relation}` for sets whose nominal effects agree."""
         encoding, manager = self.encoding, self.encoding.manager
-        for group, moves in zip(encoding.groups, encoding.nominal_writes, strict=True):
+        for number, group in enumerate(encoding.groups):
             moved = []
-            for written, choices in moves:
+            for written, choices in encoding.writes_in(number, relation):
                 moved.append(manager.and_exists([*group.bits, *written], relation, choices) & manager.cube(written))
             relation = manager.union(moved)
         return relation
@@ -112,7 +112,7 @@ def build_steps(encoding: Encoding, ordering: Ordering, within: Bdd | None = Non
     tiers = tiers_within(encoding, valid)
     safe = tiers[-1]
     compatible, applicable = compatible_sets(encoding), applicable_sets(encoding)
-    candidates = valid & compatible & applicable
+    candidates = valid & compatible & applicable & meant_sets(encoding)
     allowed = candidates & encoding.all_of(rule.formula for rule in spec.reaction_rules)
     pending = compatible & applicable if spec.preconditions == "throughout" else compatible
     if spec.restores_stepwise:
@@ -166,30 +166,42 @@ def staying_in(encoding: Encoding, ordering: Ordering, safe: Bdd, pending: Bdd, 
 
 def nominal_predecessor(encoding: Encoding, target: Bdd) -> Bdd:
     """`{(s, A) : δ(s, A) ∈ target}`, group by group: agreeing effects commute."""
-    for moves in encoding.nominal_writes:
-        target = encoding.manager.union(
-            choices & encoding.manager.cofactor(target, written) for written, choices in moves
-        )
+    for moves in encoding.leading:
+        target = moves.into(target)
     return target
 
 
 def applicable_sets(encoding: Encoding) -> Bdd:
     """The pairs in which every precondition of the chosen actions holds (condition 1)."""
+    spec = encoding.spec
     return encoding.manager.intersection(
-        ~encoding.executing(number) | encoding.all_of(rule.formula for rule in action.preconditions)
-        for number, action in enumerate(encoding.spec.actions)
+        ~encoding.executing_any(cases) | encoding.all_of(rule.formula for rule in spec.actions[cases[0]].preconditions)
+        for cases in spec.cases
     )
+
+
+def meant_sets(encoding: Encoding) -> Bdd:
+    """The pairs in which every chosen case is that of the state."""
+    manager, parts = encoding.manager, []
+    for group in encoding.groups:
+        actions = [(action, encoding.spec.actions[action].guard) for action in group.actions]
+        if any(guard is not None for _, guard in actions):
+            met = [manager.true if guard is None else encoding.formula(guard.formula) for _, guard in actions]
+            chosen = [encoding.executing(action) & here for (action, _), here in zip(actions, met, strict=True)]
+            parts.append(manager.union([encoding.idle(group), *chosen]))
+    return manager.intersection(parts)
 
 
 def compatible_sets(encoding: Encoding) -> Bdd:
     """Choices without two actions that share a resource or disagree nominally (conditions 2 and 3)."""
-    result = encoding.choice_domain()
-    count = len(encoding.spec.actions)
-    for first in range(count):
-        for second in range(first + 1, count):
-            apart = encoding.choice_of[first][0] != encoding.choice_of[second][0]
-            if apart and exclude_each_other(encoding.spec, first, second):
-                result = result & ~(encoding.executing(first) & encoding.executing(second))
+    manager, result = encoding.manager, encoding.choice_domain()
+    for contest in (*contested_resources(encoding.spec), *contested_values(encoding.spec)):
+        taken = manager.false
+        for side in contest:
+            chosen = encoding.executing_any(side)
+            both = taken & chosen
+            result = result if both == manager.false else result & ~both
+            taken = taken | chosen
     return result
 
 

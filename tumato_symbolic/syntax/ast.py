@@ -318,18 +318,43 @@ class Preconditions(Node):
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class NominalEffects(Node):
-    """`nominal effects: PREDICATE, …`, or `effects:` in older files; no change at all is written `none`."""
+class Change(Node):
+    """`VARIABLE is VARIABLE + NUMBER`, or `-`. Among copies, the number may be a name with parameters in it."""
 
-    predicates: tuple[Predicate, ...]
+    variable: Name
+    origin: Name
+    sign: Literal["+", "-"]
+    value: int | Name
+    span: Span = NOWHERE
+
+
+Effect: TypeAlias = Predicate | Change
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Clause(Node):
+    """`when PREDICATE: EFFECT, …` in a set of effects."""
+
+    condition: Predicate
+    effects: tuple[Effect, ...]
+    span: Span = NOWHERE
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class NominalEffects(Node):
+    """`nominal effects: EFFECT, …`, or `effects:` in older files, and clauses; no change at all is written `none`."""
+
+    effects: tuple[Effect, ...]
+    clauses: tuple[Clause | Copies, ...] = ()
     span: Span = NOWHERE
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class AlternativeEffects(Node):
-    """`alternative effects: PREDICATE, …`; no change at all is written `none`."""
+    """`alternative effects: EFFECT, …` and clauses; no change at all is written `none`."""
 
-    predicates: tuple[Predicate, ...]
+    effects: tuple[Effect, ...]
+    clauses: tuple[Clause | Copies, ...] = ()
     span: Span = NOWHERE
 
 
@@ -500,7 +525,7 @@ class Config(Node):
     span: Span = NOWHERE
 
 
-Entry: TypeAlias = Declaration | Field | Predicate | Severity | Goal | Setting | Copies
+Entry: TypeAlias = Declaration | Field | Clause | Predicate | Severity | Goal | Setting | Copies
 """What copies are made of."""
 
 Block: TypeAlias = (

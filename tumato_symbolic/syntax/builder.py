@@ -119,11 +119,29 @@ def preconditions(children: Children) -> ast.Preconditions:
 
 
 def nominal_effects(children: Children) -> ast.NominalEffects:
-    return ast.NominalEffects(_nodes(children), _span(children))
+    return ast.NominalEffects(*_effects_and_clauses(children), _span(children))
 
 
 def alternative_effects(children: Children) -> ast.AlternativeEffects:
-    return ast.AlternativeEffects(_nodes(children), _span(children))
+    return ast.AlternativeEffects(*_effects_and_clauses(children), _span(children))
+
+
+def _effects_and_clauses(children: Children) -> tuple[tuple[ast.Effect, ...], tuple[ast.Clause | ast.Copies, ...]]:
+    nodes = _nodes(children)
+    clauses = tuple(node for node in nodes if isinstance(node, ast.Clause | ast.Copies))
+    return nodes[: len(nodes) - len(clauses)], clauses
+
+
+def change(children: Children) -> ast.Change:
+    variable, _, origin, *amount = children
+    text = amount[-1].text if len(amount) > 1 else amount[0].text[1:]
+    value = ast.Name(text, amount[-1].span) if "{" in text else int(text)
+    return ast.Change(variable, origin, "+" if amount[0].text[0] == "+" else "-", value, _span(children))
+
+
+def clause(children: Children) -> ast.Clause:
+    condition, *effects = _nodes(children)
+    return ast.Clause(condition, tuple(effects), _span(children))
 
 
 def rule(children: Children) -> ast.Predicate:
@@ -269,7 +287,7 @@ def copies(children: Children) -> ast.Copies:
     return ast.Copies(found, tuple(entries), _span(children))
 
 
-copied_variables = copied_aliases = copied_resources = copied_actions = copied_fields = copies
+copied_variables = copied_aliases = copied_resources = copied_actions = copied_fields = copied_clauses = copies
 copied_rules = copied_assumptions = copied_starts = copied_goals = copied_settings = copies
 
 

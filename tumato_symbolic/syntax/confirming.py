@@ -12,6 +12,15 @@ NOT_PARAMETERS: Final = frozenset({"action", "define", "for", "in", "is", "not",
 AFTER_VALUES: Final = frozenset({"when", "then", "action", "define", "for", "end"})
 """Words that go on after `S is not`, so that `not` is the value there."""
 
+_BEFORE_COLONS: Final = frozenset(
+    {"duration", "cost", "preconditions", "effects", "rule", "severity", "assume", "goal", "start"}
+    | {"max_plan_length", "effect_ordering", "restoration"}
+)
+"""Words that go on likewise where a colon follows them."""
+
+_AFTER_NAMES: Final = HARD - {"NOT", "IF"} | {"is", "in", "not", "action", "for", "end", "when"}
+"""Words that follow the name of a variable or of an alias, or what such a name ends; none begins a predicate."""
+
 _TWO_WORDS: Final = frozenset({("controlled", "resources"), ("nominal", "effects"), ("alternative", "effects")})
 """Titles of fields that go on likewise."""
 
@@ -21,9 +30,20 @@ def denies(tokens: tuple[Token, ...], index: int) -> bool:
     value, after = _at(tokens, index + 1), _at(tokens, index + 2)
     if value.kind == "number":
         return True
-    if value.kind != "word" or value.text in HARD | AFTER_VALUES or after.text == ":":
-        return False
-    return (value.text, after.text) not in _TWO_WORDS
+    return value.kind == "word" and value.text not in HARD | AFTER_VALUES and not _begins_entry(value, after)
+
+
+def begins_clause(tokens: tuple[Token, ...], index: int) -> bool:
+    """Whether `when` begins a clause rather than being a name, where a list of effects may begin with either."""
+    following, after = _at(tokens, index + 1), _at(tokens, index + 2)
+    if following.kind != "word" or following.text in _AFTER_NAMES:
+        return following.text == "("
+    return not _begins_entry(following, after)
+
+
+def _begins_entry(word: Token, after: Token) -> bool:
+    """Whether a word and what follows it begin a field, a rule, a goal or a setting."""
+    return (word.text, after.text) in _TWO_WORDS or (word.text in _BEFORE_COLONS and after.text == ":")
 
 
 def begins_copies(tokens: tuple[Token, ...], index: int) -> bool:

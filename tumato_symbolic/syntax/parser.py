@@ -9,7 +9,14 @@ from typing import TYPE_CHECKING
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source, Span
 from tumato_symbolic.syntax import ast
-from tumato_symbolic.syntax.confirming import after_headers, begins_copies, denies, ends_copies, quantifies
+from tumato_symbolic.syntax.confirming import (
+    after_headers,
+    begins_clause,
+    begins_copies,
+    denies,
+    ends_copies,
+    quantifies,
+)
 from tumato_symbolic.syntax.grammar import Grammar, grammar
 from tumato_symbolic.syntax.nesting import MAX_NESTING, deepest
 from tumato_symbolic.syntax.parsed import Parsed
@@ -35,6 +42,7 @@ _FOLLOWED_BY = {
 
 _CONFIRMED = {
     "not": denies,
+    "when": begins_clause,
     "for": begins_copies,
     "end": ends_copies,
     "all": quantifies,
@@ -77,6 +85,7 @@ class _Run:
         self.open: list[Token] = []
         self.denials = 0
         self.blocks = 0
+        self.actions = False
         self.headers = (0, 0)
 
     def read(self) -> ast.Specification | None:
@@ -104,13 +113,14 @@ class _Run:
         return None
 
     def _too_deep(self, token: Token) -> bool:
-        """Keep the books of open parentheses, of `NOT` in a row and of open blocks; report what goes too deep."""
+        """Keep the books of open parentheses, of `NOT` in a row and of blocks; report what goes too deep."""
         if token.text == "(":
             self.open.append(token)
         elif token.text == ")" and self.open:
             self.open.pop()
         elif token.text in ("BEGIN", "END"):
             self.open.clear()
+            self.actions = self.tokens[self.index + 1].text == "ACTIONS"
             self.blocks = max(0, self.blocks + (1 if token.text == "BEGIN" else -1))
         self.denials = self.denials + 1 if token.text == "NOT" else 0
         if max(len(self.open), self.denials, self.blocks) <= MAX_NESTING:
@@ -134,7 +144,7 @@ class _Run:
         if token.kind == "word":
             if token.text not in self.grammar.keywords:
                 return "NAME" if "{" not in token.text or "NAME" in row else "NUMBER"
-            if token.text == "for" and "FOR_ACTIONS" in row:
+            if token.text == "for" and ("FOR_ACTIONS" in row or "FOR_CLAUSES" in row):
                 return self._for(index, row)
             if token.text in HARD:
                 return token.text
@@ -148,19 +158,22 @@ class _Run:
             if "OFFSET" in row and token.text[1] != "0":
                 return "OFFSET"
             return "NUMBER" if token.text[0] == "-" else "OTHER"
+        if token.text in ("+", "-") and token.text in row:
+            return token.text
         return {"number": "NUMBER", "end": "$END"}.get(token.kind, "OTHER")
 
     def _for(self, index: int, row: Row) -> str:
-        """What `for` begins where actions may be copied, and perhaps fields of the last one."""
+        """What `for` begins where actions or clauses may be copied, and perhaps fields of the last action."""
         if "NAME" in row and not self._confirmed(index, True):
             return "NAME"
-        if "for" not in row:
+        if "for" not in row and "FOR_CLAUSES" not in row:
             return "FOR_ACTIONS"
         start, end = self.headers
         if not start <= index < end:
             end = after_headers(self.tokens, index)
             self.headers = index, end
-        return "FOR_ACTIONS" if self.tokens[end].text == "action" else "for"
+        special = {"action": "FOR_ACTIONS", "when": "FOR_CLAUSES" if self.actions else "for"}
+        return special.get(self.tokens[end].text, "for")
 
     def _confirmed(self, index: int, possible: bool) -> bool:
         """Whether a word that may be a keyword or a name is the keyword; `possible`: it fits here as a keyword."""

@@ -122,16 +122,26 @@ def _entry(entry: ast.Entry, keyword: str) -> Iterator[str]:
                 yield from (f"  {line}" for line in _entry(field, keyword))
         case ast.SimpleGoal() | ast.ConditionalGoal() | ast.GoalList():
             yield from _goal(entry)
-        case ast.Duration() | ast.ControlledResources() | ast.Preconditions() | ast.NominalEffects():
+        case ast.Duration() | ast.ControlledResources() | ast.Preconditions():
             yield _field(entry)
-        case ast.AlternativeEffects():
-            yield _field(entry)
+        case ast.NominalEffects() | ast.AlternativeEffects() | ast.Clause():
+            yield from _effect_set(entry)
         case ast.Severity(value):
             yield f"severity: {_number(value)}"
         case ast.MaxPlanLength() | ast.EffectOrdering() | ast.Restoration() | ast.PreconditionsHold():
             yield _setting(entry)
         case _:
             yield f"{keyword}: {print_predicate(entry)}"
+
+
+def _effect_set(effects: ast.NominalEffects | ast.AlternativeEffects | ast.Clause) -> Iterator[str]:
+    if isinstance(effects, ast.Clause):
+        yield f"when {print_predicate(effects.condition)}: {_effects(effects.effects)}"
+        return
+    kind = "nominal" if isinstance(effects, ast.NominalEffects) else "alternative"
+    yield f"{kind} effects: {_effects(effects.effects)}"
+    for clause in effects.clauses:
+        yield from (f"  {line}" for line in _entry(clause, "when"))
 
 
 def _header(header: ast.Header) -> str:
@@ -164,7 +174,18 @@ def _predicates(predicates: tuple[ast.Predicate, ...]) -> str:
     return ", ".join(print_predicate(each) for each in predicates) or "none"
 
 
-def _field(field: ast.Field) -> str:
+def _effects(effects: tuple[ast.Effect, ...]) -> str:
+    return ", ".join(print_effect(each) for each in effects) or "none"
+
+
+def print_effect(effect: ast.Effect) -> str:
+    """A predicate, or a change of a value by a number."""
+    if not isinstance(effect, ast.Change):
+        return print_predicate(effect)
+    return f"{effect.variable.text} is {effect.origin.text} {effect.sign} {_number(effect.value)}"
+
+
+def _field(field: ast.Duration | ast.ControlledResources | ast.Preconditions) -> str:
     match field:
         case ast.Duration(value):
             return f"duration: {_number(value)}"
@@ -172,10 +193,6 @@ def _field(field: ast.Field) -> str:
             return f"controlled resources: {_names(names)}"
         case ast.Preconditions(predicates):
             return f"preconditions: {_predicates(predicates)}"
-        case ast.NominalEffects(predicates):
-            return f"nominal effects: {_predicates(predicates)}"
-        case ast.AlternativeEffects(predicates):
-            return f"alternative effects: {_predicates(predicates)}"
 
 
 def _goal(goal: ast.Goal | ast.Copies, indent: str = "") -> Iterator[str]:

@@ -56,7 +56,8 @@ class Stack:
     def accepted(self) -> frozenset[str]:
         """Every terminal that can come next."""
         found = frozenset(each for each in self.row() if self.fits(each))
-        return found - {"FOR_ACTIONS"} | {"for"} if "FOR_ACTIONS" in found else found
+        special = found & {"FOR_ACTIONS", "FOR_CLAUSES"}
+        return found - special | {"for"} if special else found
 
     def shifts(self, terminal: str, depth: int) -> bool:
         """Whether a terminal is taken at a depth without completing anything first."""

@@ -9,7 +9,7 @@ from tumato_symbolic.diagrams import Diagram, DiagramBuilder, Reference
 from tumato_symbolic.game import Layers, Problem, Restoration
 from tumato_symbolic.policy import Certificate, DecisionDiagram, Policy, RankedGoal, Restoring, Vocabulary
 from tumato_symbolic.policy.compact import minimized_decisions, minimized_ranks, minimized_restoring
-from tumato_symbolic.semantics import Effort, Residual, action_names
+from tumato_symbolic.semantics import Effort, Residual, action_names, actions_of
 from tumato_symbolic.spec import Spec, canonical_text, digest
 from tumato_symbolic.symbolic import Bdd, Extractor
 
@@ -32,8 +32,8 @@ def policy_diagram(
     builder: DiagramBuilder[bool] = DiagramBuilder(encoding.order, (False, True))
     extract = Extractor(encoding, builder, default=False)
     roots = [
-        extract.function([(True, steps.states_of(policy & encoding.executing(action)))])
-        for action in range(len(problem.spec.actions))
+        extract.function([(True, steps.states_of(policy & encoding.executing_any(cases)))])
+        for cases in problem.spec.cases
     ]
     defined = extract.function([(True, steps.valid)])
     ranked = extract.function([(True, steps.safe if restoration is None else steps.valid)])
@@ -67,7 +67,9 @@ def _with_restoring(
     builder: DiagramBuilder[Effort | None] = DiagramBuilder(problem.encoding.order, (None, *efforts))
     extract = Extractor(problem.encoding, builder, default=None)
     roots = [extract.function(sorted(found.items())) for found in (restoration.worst, restoration.nominal)]
-    restoring = Restoring(builder.finish(), roots[0], roots[1], restoration.deviations)
+    spec = problem.spec
+    deviations = (replace(each, better=actions_of(spec, each.better)) for each in restoration.deviations)
+    restoring = Restoring(builder.finish(), roots[0], roots[1], tuple(deviations))
     return replace(ranks, restoring=minimized_restoring(restoring, Vocabulary.of(problem.spec).sizes, states))
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from tumato_symbolic.diagnostics import Code, Diagnostic, Note
 from tumato_symbolic.game import Problem
 from tumato_symbolic.policy import Policy
-from tumato_symbolic.semantics import ActionSet, State, active_goals, named, reached, residual_goal, successor
+from tumato_symbolic.semantics import ActionSet, State, active_goals, cases_in, named, reached, residual_goal, successor
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.symbolic import Bdd
 
@@ -35,10 +35,10 @@ def leaving(problem: Problem, policy: Policy, states: Bdd) -> tuple[Diagnostic, 
 
 def _first_outside(spec: Spec, policy: Policy, start: State) -> State | None:
     """The first state of a nominal run where other goals are active than at its start, if it passes one."""
-    numbers = {action.name: number for number, action in enumerate(spec.actions)}
+    numbers = {name: number for number, name in enumerate(spec.action_names)}
 
     def decision(state: State) -> ActionSet:
-        return frozenset(numbers[name] for name in policy.decide(named(spec, state)))
+        return cases_in(spec, (numbers[name] for name in policy.decide(named(spec, state))), state)
 
     here, goal = start, residual_goal(spec, start, decision(start))
     while active_goals(spec, here) == goal.bodies:

@@ -68,6 +68,6 @@ def _idle_rules(problem: Problem) -> Iterator[Diagnostic]:
 
 
 def _idle_actions(problem: Problem) -> Iterator[Diagnostic]:
-    for number, action in enumerate(problem.spec.actions):
-        if (problem.steps.allowed & problem.encoding.executing(number)) == problem.false:
-            yield idle_action(action)
+    for cases in problem.spec.cases:
+        if (problem.steps.allowed & problem.encoding.executing_any(cases)) == problem.false:
+            yield idle_action(problem.spec.actions[cases[0]])

@@ -8,7 +8,7 @@ from itertools import permutations
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Note
 from tumato_symbolic.game import Problem
-from tumato_symbolic.semantics import State, apply, exclude_each_other, holds, named
+from tumato_symbolic.semantics import State, apply, holds, named
 from tumato_symbolic.spec import Assignment, Rule, Spec, variables_of
 from tumato_symbolic.symbolic import Bdd
 
@@ -39,16 +39,21 @@ def races(problem: Problem, policy: Bdd) -> tuple[Diagnostic, ...]:
 def _races(problem: Problem, policy: Bdd) -> Iterator[_Race]:
     """Only pairs that may run together, of which one writes what the other's preconditions speak of, are looked at."""
     spec, encoding = problem.spec, problem.encoding
-    speaks_of = [{v for rule in action.preconditions for v in variables_of(rule.formula)} for action in spec.actions]
-    written = [{v for effect in action.effects for v, _ in effect} for action in spec.actions]
-    for pending, writer in permutations(range(len(spec.actions)), 2):
-        if speaks_of[pending].isdisjoint(written[writer]) or exclude_each_other(spec, pending, writer):
+    actions = [spec.actions[cases[0]] for cases in spec.cases]
+    speaks_of = [{v for rule in action.preconditions for v in variables_of(rule.formula)} for action in actions]
+    written = [
+        {v for case in cases for effect in spec.actions[case].effects for v, _ in effect} for cases in spec.cases
+    ]
+    for pending, writer in permutations(range(len(actions)), 2):
+        if speaks_of[pending].isdisjoint(written[writer]):
             continue
-        both = policy & encoding.executing(pending) & encoding.executing(writer)
-        if both != problem.false:
-            holds_there = encoding.all_of(rule.formula for rule in spec.actions[pending].preconditions)
-            lost = both & ~encoding.after_every_effect(writer, holds_there)
-            yield _Race(pending, writer, problem.steps.states_of(lost))
+        holds_there = encoding.all_of(rule.formula for rule in actions[pending].preconditions)
+        waiting = policy & encoding.executing_any(spec.cases[pending])
+        for case in spec.cases[writer]:
+            both = waiting & encoding.executing(case)
+            if both != problem.false:
+                lost = both & ~encoding.after_every_effect(case, holds_there)
+                yield _Race(spec.cases[pending][0], case, problem.steps.states_of(lost))
 
 
 def _warning(spec: Spec, race: _Race, state: State, count: int) -> Diagnostic:

@@ -37,6 +37,7 @@ from tumato_symbolic.semantics import (
     settled_truth,
     successor,
     takes_effect,
+    without_cases,
 )
 from tumato_symbolic.spec import Ordering, Rule, Spec, canonical_text, digest
 from tumato_symbolic.symbolic import Bdd, Extractor
@@ -61,13 +62,14 @@ def certified(problem: Problem, reason: NoAllowedSet | NoRestoration | NoPlan | 
 
 def no_allowed_set(problem: Problem, state: State) -> NoAllowedSet:
     """Disjoint cubes over the actions, found by settling one action after another until a condition is violated."""
+    spec = without_cases(problem.spec, state)
     cubes: list[Cube] = []
     pending: list[tuple[ActionSet, ActionSet]] = [(frozenset(), frozenset())]
     while pending:
         problem.context.check()
         executed, idle = pending.pop()
         try:
-            violation = next(_violations(problem, state, executed, idle), None)
+            violation = next(_violations(problem, spec, state, executed, idle), None)
         except _TooManyOutcomesError:
             return NoAllowedSet(state, None)
         if violation is not None:
@@ -75,7 +77,7 @@ def no_allowed_set(problem: Problem, state: State) -> NoAllowedSet:
             if len(cubes) > MOST_CUBES:
                 return NoAllowedSet(state, None)
             continue
-        action = next(a for a in range(len(problem.spec.actions)) if a not in executed and a not in idle)
+        action = next(a for a in range(len(spec.actions)) if a not in executed and a not in idle)
         pending += [(executed, idle | {action}), (executed | {action}, idle)]
     return NoAllowedSet(state, tuple(cubes))
 
@@ -84,11 +86,13 @@ class _TooManyOutcomesError(Exception):
     """Whether a set is always safe is not found out by looking at each of its outcomes."""
 
 
-def _violations(problem: Problem, state: State, executed: ActionSet, idle: ActionSet) -> Iterator[Violation]:
+def _violations(
+    problem: Problem, spec: Spec, state: State, executed: ActionSet, idle: ActionSet
+) -> Iterator[Violation]:
     """The conditions of section 3 that no set of a cube meets."""
-    spec, ordering = problem.spec, problem.steps.ordering
+    ordering = problem.steps.ordering
     for number in sorted(executed):
-        if not all(holds(rule.formula, state) for rule in spec.actions[number].preconditions):
+        if not all(holds(rule.formula, state) for rule in spec.actions[number].conditions):
             yield Violation("precondition", (number,))
     for pair in combinations(sorted(executed), 2):
         if spec.actions[pair[0]].resources & spec.actions[pair[1]].resources:

@@ -48,7 +48,7 @@ class ClaimedRanks:
         spec = self._spec
         self.restoring = certificate.restoring if spec.restores_stepwise else None
         bodies = {canonical_text(spec, rule.formula): number for number, rule in enumerate(spec.bodies)}
-        actions = {action.name: number for number, action in enumerate(spec.actions)}
+        actions = {spec.actions[cases[0]].name: cases[0] for cases in spec.cases}
         unknown = [text for goal in certificate.goals for text in goal.bodies if text not in bodies]
         if unknown:
             self.reject(f"it ranks '{unknown[0]}', which is no goal of the specification")

@@ -35,6 +35,9 @@ LITTLE = 20_000_000
 FIRST_TURN = (SOON_REMEMBERED // 3, LITTLE // 50)
 """Where few states are decided, results of the walk, then outcomes, before the walk may remember so many."""
 
+MANY_CASES = 100
+"""With more cases than this, formulas and diagrams of all of them take longer than a look at each state."""
+
 MANY_RANK_NODES = 500
 """Ranks with more nodes than that tend to count, and then Z3 takes long."""
 
@@ -92,6 +95,7 @@ class _Pair:
 
     def __init__(self, spec: Spec, policy: Policy, ordering: Ordering, budget: Budget) -> None:
         self._policy = policy
+        self._cases = len(spec.actions) if spec.has_cases else 0
         self._walk = WalkProver(spec, policy, ordering, budget)
         self._make_z3 = partial(_z3, spec, policy, ordering, budget)
         self._make_explicit = partial(StateProver, spec, policy, ordering, budget.context)
@@ -166,7 +170,8 @@ class _Both(_Pair):
 class _Auto(_Pair):
     """Z3 where it answers soon, if there is one, the walk first where ranks are large; explicit-state checking last.
 
-    Where there is little to look at, explicit-state checking comes before the others have used up their time.
+    Where there is little to look at, explicit-state checking comes before the others have used up their time; it is
+    the first where actions have many cases, of which only one is met in a state.
     """
 
     def prove(self, name: PropertyName) -> PropertyResult:
@@ -188,6 +193,8 @@ class _Auto(_Pair):
 
     def _attempts(self, name: PropertyName) -> Iterator[Callable[[], PropertyResult]]:
         """Who is asked, one after the other."""
+        if self._cases > MANY_CASES and self._is_little:
+            yield lambda: self._explicit.prove(name, LITTLE)
         if self._is_large:
             if self._may_be_little:
                 remembered, outcomes = FIRST_TURN

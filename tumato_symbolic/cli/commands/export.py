@@ -117,8 +117,8 @@ def run(options: Options, context: Context) -> int:
 def _request(options: Options, spec: Spec) -> Request:
     """The policy for its specification, where it was made for no weaker meaning."""
     from tumato_symbolic.export.request import Request
-    from tumato_symbolic.policy import Policy, bind
-    from tumato_symbolic.policy.bind import made_for_less, restores_less
+    from tumato_symbolic.policy import Policy
+    from tumato_symbolic.policy.bind import fitted, made_for_less, restores_less
 
     policy = Policy.load(options.policy)
     if options.effect_ordering is None and made_for_less(policy, spec):
@@ -127,7 +127,7 @@ def _request(options: Options, spec: Spec) -> Request:
         raise _restores_less(options.policy, policy.restoration, spec.restoration)
     ordering = options.effect_ordering or spec.ordering
     name = Path(TARGETS[options.target].example if options.output == STANDARD_OUTPUT else options.output).stem
-    return Request(bind(policy, spec), spec, ordering, name, options.check)
+    return Request(fitted(policy, spec), spec, ordering, name, options.check)
 
 
 def _write(texts: tuple[str, ...], options: Options, ordering: Ordering) -> None:

@@ -56,6 +56,7 @@ def run(options: Options, context: Context) -> int:
     from tumato_symbolic.policy.part import judged_within
     from tumato_symbolic.report import decided
     from tumato_symbolic.report.objections import Place
+    from tumato_symbolic.semantics import cases_in
 
     context.tell("reading the specification")
     source, spec, _ = read_spec(options.specs[0], options.restoration)
@@ -69,7 +70,7 @@ def run(options: Options, context: Context) -> int:
     context.tell("explaining the decision")
     spec = judged_within(spec, policy)
     decisions = Decisions(spec, policy)
-    instead = None if options.instead is None else _actions(spec, options.instead)
+    instead = None if options.instead is None else cases_in(spec, _actions(spec, options.instead), state)
     try:
         decision = why(spec, decisions, state, ordering)
     except KeyError:
@@ -85,11 +86,11 @@ _NOT_NEEDED = "; with START, a policy decides the starts and all that can follow
 
 
 def _actions(spec: Spec, text: str) -> ActionSet:
-    """The set that a list of names stands for; the empty text is the empty set."""
+    """The set of actions that a list of names stands for; the empty text is the empty set."""
     from tumato_symbolic.diagnostics.wording import nearest, quoted
 
     names = [name.strip() for name in text.split(",") if name.strip()]
-    known = [action.name for action in spec.actions]
+    known = spec.action_names
     for name in names:
         if name not in known:
             similar = nearest(name, known)

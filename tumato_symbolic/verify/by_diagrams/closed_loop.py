@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from functools import cached_property
 
 from tumato_symbolic.policy import DecisionDiagram
-from tumato_symbolic.semantics import disagreeing_pairs
+from tumato_symbolic.semantics import contested_values
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.by_diagrams.functions import FALSE, Function
 from tumato_symbolic.verify.by_diagrams.steps import Steps
@@ -35,7 +35,7 @@ class ClosedLoop(Steps):
     @cached_property
     def acting(self) -> Function:
         """`s` is decided, and the nominal effects of `π(s)` agree."""
-        return self.walk.without(self.decided, self.together(disagreeing_pairs(self.spec), self.policy))
+        return self.walk.without(self.decided, self.together(contested_values(self.spec), self.policy))
 
     def leads_into(self, target: Function) -> Function:
         """`Next(s, π(s)) ⊆ target`, where the policy acts without conflicts."""
@@ -88,10 +88,10 @@ class ClosedLoop(Steps):
         """What makes a decision allowed: claims, each with the decided states that violate it."""
         spec, walk, policy = self.spec, self.walk, self.policy
         for number, action in enumerate(spec.actions):
-            if action.preconditions:
-                executed = walk.all_of((self.decided, policy[number]))
-                yield f"the preconditions of {action.name} hold", walk.without(executed, self.preconditions(number))
-        conflict = walk.all_of((self.decided, self.together(self.exclusive, policy)))
+            if action.conditions:
+                executed, hold = walk.all_of((self.decided, policy[number])), self.all_hold(action.conditions)
+                yield f"the preconditions of {action.name} hold", walk.without(executed, hold)
+        conflict = walk.all_of((self.decided, self.conflict(policy)))
         yield "resources are controlled once, and nominal effects agree", conflict
         for rule in spec.reaction_rules:
             yield (

@@ -33,7 +33,7 @@ class WalkEfforts:
         self._plus = lambda one, other: min(one + other, self._never)
         walk = self._walk
         unsafe = walk.without(model.decided, model.safe)
-        if walk.all_of((unsafe, model.together(model.exclusive, model.policy))) != FALSE:
+        if walk.all_of((unsafe, model.conflict(model.policy))) != FALSE:
             raise BudgetError("some decisions in unsafe states execute actions that exclude each other")
         self.unsafe = walk.all_of((unsafe, model.acting))
         self._levels = list(zip(model.tiers, model.tiers[1:], strict=False))

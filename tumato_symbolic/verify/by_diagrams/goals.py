@@ -28,9 +28,11 @@ class WalkGoals:
         """`region` by the residual goal that its states have when `executed` is the first set."""
         found = []
         for bodies, part in self._split(region, self.active):
-            mentioned = frozenset[int]().union(*(executing_atoms(self._spec.bodies[body].formula) for body in bodies))
-            cases = self._split(part, {action: executed[action] for action in sorted(mentioned)})
-            found += [(Residual(bodies, those), case) for those, case in cases]
+            spec, walk = self._spec, self._walk
+            mentioned = frozenset[int]().union(*(executing_atoms(spec.bodies[body].formula) for body in bodies))
+            actions = sorted(spec.as_actions(mentioned))
+            runs = {first: walk.any_of(executed[case] for case in spec.cases_from(first)) for first in actions}
+            found += [(Residual(bodies, those), inside) for those, inside in self._split(part, runs)]
         return found
 
     def _split(self, region: Function, predicates: Mapping[int, Function]) -> list[tuple[frozenset[int], Function]]:

@@ -7,11 +7,18 @@ function; an effect and a successor are what is substituted for its variables.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import cached_property
 
-from tumato_symbolic.semantics import ActionSet, State, exclusive_groups, exclusive_pairs
-from tumato_symbolic.spec import Connectives, Executing, Formula, Is, Ordering, Spec, fold
+from tumato_symbolic.semantics import (
+    ActionSet,
+    Contest,
+    State,
+    contested_resources,
+    contested_values,
+    exclusive_groups,
+)
+from tumato_symbolic.spec import Connectives, Executing, Formula, Is, Ordering, Rule, Spec, fold
 from tumato_symbolic.verify.by_diagrams.functions import FALSE, TRUE, Function
 from tumato_symbolic.verify.by_diagrams.order import walk_order
 from tumato_symbolic.verify.by_diagrams.walk import Walk
@@ -79,37 +86,51 @@ class Steps:
 
     # Conditions 1 to 4
 
-    def preconditions(self, action: int) -> Function:
-        """Where an action may be executed, as far as it alone is concerned."""
-        return self.walk.all_of(self.formula(rule.formula) for rule in self.spec.actions[action].preconditions)
+    def all_hold(self, rules: Iterable[Rule]) -> Function:
+        """Where all of some rules hold."""
+        return self.walk.all_of(self.formula(rule.formula) for rule in rules)
 
     @cached_property
     def applicable(self) -> Function:
         """All actions of `A` may be executed, as far as each alone is concerned."""
-        each = enumerate(self.chosen)
-        return self.walk.all_of(self.walk.select(chosen, (TRUE, self.preconditions(action))) for action, chosen in each)
+        each = zip(self.chosen, self.spec.actions, strict=True)
+        guards = ((chosen, action.guard) for chosen, action in each if action.guard is not None)
+        met = (self.walk.select(chosen, (TRUE, self.formula(guard.formula))) for chosen, guard in guards)
+        return self.walk.all_of((self._preconditions_hold, *met))
+
+    @cached_property
+    def _preconditions_hold(self) -> Function:
+        """The preconditions of all actions of `A` hold."""
+        walk, parts = self.walk, list[Function]()
+        for cases in self.spec.cases:
+            chosen = walk.any_of(self.chosen[case] for case in cases)
+            parts.append(walk.select(chosen, (TRUE, self.all_hold(self.spec.actions[cases[0]].preconditions))))
+        return walk.all_of(parts)
 
     @cached_property
     def lasting(self) -> Function:
         """What has to hold in a state on the way, of the actions `A` that have not taken effect there."""
-        return self.applicable if self.spec.preconditions == "throughout" else TRUE
+        return self._preconditions_hold if self.spec.preconditions == "throughout" else TRUE
 
-    def together(self, pairs: Sequence[tuple[int, int]], executed: Sequence[Function]) -> Function:
-        """Two actions of one of these pairs are both executed."""
-        walk, others = self.walk, dict[int, list[Function]]()
-        for one, other in pairs:
-            others.setdefault(other, []).append(executed[one])
-        return walk.any_of(walk.all_of((executed[other], walk.any_of(ones))) for other, ones in others.items())
+    def together(self, contests: Iterable[Contest], executed: Sequence[Function]) -> Function:
+        """Actions of different sides are both executed."""
+        walk, found = self.walk, list[Function]()
+        for contest in contests:
+            taken = FALSE
+            for side in contest:
+                chosen = walk.any_of(executed[action] for action in side)
+                found.append(walk.all_of((taken, chosen)))
+                taken = walk.any_of((taken, chosen))
+        return walk.any_of(found)
 
-    @cached_property
-    def exclusive(self) -> list[tuple[int, int]]:
-        """The pairs of actions that exclude each other."""
-        return exclusive_pairs(self.spec)
+    def conflict(self, executed: Sequence[Function]) -> Function:
+        """Two executed actions exclude each other."""
+        return self.together((*contested_resources(self.spec), *contested_values(self.spec)), executed)
 
     @cached_property
     def compatible(self) -> Function:
         """No two actions of `A` exclude each other."""
-        return self.walk.negation(self.together(self.exclusive, self.chosen))
+        return self.walk.negation(self.conflict(self.chosen))
 
     # Conditions 5 and 6
 

@@ -36,7 +36,7 @@ class Runs:
             goal = residual_goal(self._spec, self._packing.unpack(key), everything)
             self._active[key] = goal.bodies, goal.executed
         bodies, mentioned = self._active[key]
-        return Residual(bodies, chosen & mentioned)
+        return Residual(bodies, self._spec.as_actions(chosen) & mentioned)
 
     def serves(self, code: Code, chosen: ActionSet) -> bool:
         """Whether the run that begins with a set and goes on with the policy reaches its residual goal in 1 to `L`."""

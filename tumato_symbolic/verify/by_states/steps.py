@@ -46,7 +46,8 @@ class Steps:
         self._writes: dict[ActionSet, list[tuple[int, int]]] = {}
         self._pending: dict[ActionSet, list[tuple[int, int, ActionSet]]] = {}
         self._nominal: dict[ActionSet, tuple[int, int] | None] = {}
-        self._applicable = [all_hold(packing, action.preconditions) for action in spec.actions]
+        self._applicable = [all_hold(packing, action.conditions) for action in spec.actions]
+        self._lasting = [all_hold(packing, spec.actions[cases[0]].preconditions) for cases in spec.cases for _ in cases]
         self._rules: dict[ActionSet, Callable[[Code], bool]] = {}
         self._apart: dict[ActionSet, bool] = {}
 
@@ -168,7 +169,7 @@ class Steps:
             ways = pending(self._spec, open_state, chosen, self._ordering)
             found = self._pending[chosen] = [(*self._packing.writes(_written(here)), rest) for here, rest in ways]
         self._spend(len(found))
-        return all(self._applicable[action](code & keep | put) for keep, put, rest in found for action in rest)
+        return all(self._lasting[action](code & keep | put) for keep, put, rest in found for action in rest)
 
     def cheaper_sets(self, code: Code, limit: int) -> Iterator[ActionSet]:
         """The allowed sets of a smaller duration than `limit` in an unsafe state.

@@ -43,10 +43,13 @@ class Choice:
         """
         spec, here, executed = self._spec, self._here, self.executed
         required: list[Term] = []
-        for number, action in enumerate(spec.actions):
-            holds = conjunction(formula_term(rule.formula, here) for rule in action.preconditions)
-            safe = conjunction(self._tiers.kept(here.after(effect)) for effect in action.effects)
-            required.append(implies(executed[number], conjunction((holds, safe))))
+        for cases in spec.cases:
+            holds = conjunction(formula_term(rule.formula, here) for rule in spec.actions[cases[0]].preconditions)
+            for number in cases:
+                action = spec.actions[number]
+                meant = True if action.guard is None else formula_term(action.guard.formula, here)
+                safe = conjunction(self._tiers.kept(here.after(effect)) for effect in action.effects)
+                required.append(implies(executed[number], conjunction((holds, meant, safe))))
         for resource in range(len(spec.resources)):
             users = [executed[number] for number, action in enumerate(spec.actions) if resource in action.resources]
             required.append(at_most_one(users))

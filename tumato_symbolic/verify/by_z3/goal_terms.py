@@ -24,10 +24,10 @@ class GoalTerms:
         return cls(spec, active_bodies(spec.goals, lambda condition: formula_term(condition, place), TERMS))
 
     def mentioned_actions(self) -> dict[int, Term]:
-        """For every action that goal bodies mention: one of these bodies is active."""
+        """For every action that goal bodies mention, by its first case: one of these bodies is active."""
         mentioning: dict[int, list[Term]] = {}
         for body, term in self.active.items():
-            for action in executing_atoms(self.spec.bodies[body].formula):
+            for action in self.spec.as_actions(executing_atoms(self.spec.bodies[body].formula)):
                 mentioning.setdefault(action, []).append(term)
         return {action: disjunction(terms) for action, terms in sorted(mentioning.items())}
 
@@ -36,12 +36,17 @@ class GoalTerms:
         if not goal.bodies <= self.active.keys():
             return False
         mentioned = frozenset[int]().union(*(executing_atoms(self.spec.bodies[body].formula) for body in goal.bodies))
+        runs = {first: self.executing(first, executed) for first in sorted(self.spec.as_actions(mentioned))}
         return conjunction(
             [
                 *(term if body in goal.bodies else negation(term) for body, term in self.active.items()),
-                *(executed[a] if a in goal.executed else negation(executed[a]) for a in sorted(mentioned)),
+                *(term if first in goal.executed else negation(term) for first, term in runs.items()),
             ]
         )
+
+    def executing(self, first: int, executed: Sequence[Term]) -> Term:
+        """An action, of which this is the first case, is executed."""
+        return disjunction(executed[case] for case in self.spec.cases_from(first))
 
 
 def reached_term(spec: Spec, goal: Residual, place: Place) -> Term:

@@ -26,7 +26,7 @@ def prove_goals(problem: PolicyProblem, source: RankSource) -> PropertyResult:
 def _residuals(problem: PolicyProblem) -> list[Residual]:
     """The residual goals of all acting states, in an order that does not depend on which Z3 finds first."""
     executed = {
-        action: problem.name(conjunction((problem.executed[action], mentioned)), "x")
+        action: problem.name(conjunction((problem.goals.executing(action, problem.executed), mentioned)), "x")
         for action, mentioned in problem.goals.mentioned_actions().items()
     }
     found: list[Residual] = []

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from itertools import combinations, islice
+from itertools import islice
 from typing import Any
 
 import z3
@@ -16,6 +16,7 @@ from tumato_symbolic.semantics import (
     Objection,
     State,
     apply,
+    excluded,
     fault_after,
     objections,
 )
@@ -89,15 +90,20 @@ class AnyOutcome:
         return [*sharing, *agreement_terms(self._spec, used)]
 
     def _rank_numbers(self) -> dict[int, Number]:
-        """A place in the order for every action that must have one."""
-        actions = self._spec.actions
+        """A place in the order for every action, by its first case, that must have one."""
+        spec = self._spec
+        apart = [0] * len(spec.actions) if self._conflicting else excluded(spec)
+        writers = [0] * len(spec.variables)
+        for number in self._taken:
+            for variable in written(spec.actions[number]):
+                writers[variable] |= 1 << number
+        own = {cases[0]: sum(1 << case for case in cases) for cases in spec.cases}
         ordered = sorted(
             {
-                number
-                for pair in combinations(self._taken, 2)
-                if (self._conflicting or compatible(actions[pair[0]], actions[pair[1]]))
-                and written(actions[pair[0]]) & written(actions[pair[1]])
-                for number in pair
+                spec.first_case[number]
+                for number in self._taken
+                for variable in written(spec.actions[number])
+                if writers[variable] & ~apart[number] & ~own[spec.first_case[number]]
             }
         )
         width = max(1, (len(ordered) - 1).bit_length())
@@ -105,11 +111,15 @@ class AnyOutcome:
 
     def _code(self, variable: int, code: Sequence[Term]) -> list[Term]:
         """The bits of a variable after the outcome."""
+        first = self._spec.first_case
         writing = {number: self._writing(number, variable) for number in self._taken}
         writers = [number for number, terms in writing.items() if terms]
-        uses = {number: disjunction(term for term, _ in writing[number]) for number in writers}
-        ranked = [number for number in writers if number in self._ranks]
-        wins: dict[int, Term] = dict.fromkeys(writers, True)
+        using: dict[int, list[Term]] = {}
+        for number in writers:
+            using.setdefault(first[number], []).extend(term for term, _ in writing[number])
+        uses = {number: disjunction(terms) for number, terms in using.items()}
+        ranked = [number for number in uses if number in self._ranks]
+        wins: dict[int, Term] = dict.fromkeys(uses, True)
         if len(ranked) > 1:
             wins.update({number: z3.Bool(f"w.{number}.{variable}", self._context) for number in ranked})
             self.constraints.extend(self._winner(ranked, wins, uses))
@@ -119,7 +129,7 @@ class AnyOutcome:
                 [
                     conjunction((untouched, bit)),
                     *(
-                        conjunction((wins[number], term))
+                        conjunction((wins[first[number]], term))
                         for number in writers
                         for term, value in writing[number]
                         if value >> digit & 1
@@ -154,7 +164,7 @@ class AnyOutcome:
     def steps(self, model: Any) -> list[tuple[int, Assignment]]:  # noqa: ANN401 - z3 has no types
         """The effects that happen in a model, in their order."""
         used = [
-            (model.eval(self._ranks[number], model_completion=True).as_long() if number in self._ranks else 0, number)
+            (self._rank_in(model, self._spec.first_case[number]), number)
             for number, term in self._used.items()
             if is_true(model, term)
         ]
@@ -164,6 +174,11 @@ class AnyOutcome:
             for effect, term in enumerate(self._taken[number])
             if is_true(model, term)
         ]
+
+    def _rank_in(self, model: Any, first: int) -> int:  # noqa: ANN401 - z3 has no types
+        """The place of an action in the order; 0 where it does not matter."""
+        found = self._ranks.get(first)
+        return 0 if found is None else int(model.eval(found, model_completion=True).as_long())
 
 
 class UnsafeOutcome(AnyOutcome):
@@ -236,11 +251,3 @@ def replay(state: State, steps: Sequence[tuple[int, tuple[tuple[int, int], ...]]
 def written(action: Action) -> frozenset[int]:
     """The variables that an action may write."""
     return frozenset(variable for effect in action.effects for variable, _ in effect)
-
-
-def compatible(one: Action, other: Action) -> bool:
-    """Whether two actions may ever run together: no common resource, nominal effects that agree."""
-    if one.resources & other.resources:
-        return False
-    written = dict(one.nominal)
-    return all(written.get(variable, value) == value for variable, value in other.nominal)

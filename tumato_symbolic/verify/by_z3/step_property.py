@@ -79,10 +79,12 @@ def _conditions(problem: PolicyProblem) -> Iterator[Obligation]:
     nominal effects one after the other are an outcome.
     """
     spec, executed = problem.spec, problem.executed
-    for number, action in enumerate(spec.actions):
-        if action.preconditions and executed[number] is not False:
+    for cases in spec.cases:
+        action, runs = spec.actions[cases[0]], disjunction(executed[case] for case in cases)
+        if (action.conditions or len(cases) > 1) and runs is not False:
             holds = conjunction(formula_term(rule.formula, problem.state) for rule in action.preconditions)
-            violation = conjunction((executed[number], negation(holds)))
+            missed = [conjunction((executed[case], negation(_meant(problem, case)))) for case in cases]
+            violation = disjunction((conjunction((runs, negation(holds))), *missed))
             yield Obligation(f"the preconditions of {action.name} hold wherever it is executed", violation)
     for number, resource in enumerate(spec.resources):
         users = [executed[place] for place, action in enumerate(spec.actions) if number in action.resources]
@@ -97,6 +99,12 @@ def _conditions(problem: PolicyProblem) -> Iterator[Obligation]:
     if spec.restoration == "one_step":
         idle = negation(disjunction(executed[number] for number, action in enumerate(spec.actions) if action.effects))
         yield Obligation("where no action takes effect, the state is safe", conjunction((idle, negation(problem.safe))))
+
+
+def _meant(problem: PolicyProblem, case: int) -> Term:
+    """The state is one in which this case of its action is meant."""
+    guard = problem.spec.actions[case].guard
+    return True if guard is None else formula_term(guard.formula, problem.state)
 
 
 def _outcomes(problem: PolicyProblem, ordering: Ordering) -> Obligation:

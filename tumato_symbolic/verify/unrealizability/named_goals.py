@@ -12,7 +12,7 @@ from tumato_symbolic.verify.unrealizability.false_claim import FalseClaimError
 def named_goal(spec: Spec, bodies: Sequence[str], executed: Sequence[str]) -> Residual:
     """The residual goal with these names. Raises `FalseClaimError` where the specification has none."""
     numbers = {canonical_text(spec, rule.formula): number for number, rule in enumerate(spec.bodies)}
-    actions = {action.name: number for number, action in enumerate(spec.actions)}
+    actions = {spec.actions[cases[0]].name: cases[0] for cases in spec.cases}
     unknown = next((text for text in bodies if text not in numbers), None)
     if unknown is not None:
         raise FalseClaimError(f"it mentions the goal '{unknown}', which the specification does not have")

@@ -18,6 +18,7 @@ from tumato_symbolic.semantics import (
     nominal_agrees,
     settled_truth,
     successor,
+    without_cases,
 )
 from tumato_symbolic.spec import Ordering, Spec, canonical_text
 from tumato_symbolic.verify.by_z3.encoding import Place, formula_term
@@ -72,7 +73,8 @@ def _check_cubes(step: AllowedStep, state: State, cubes: Sequence[Cube], orderin
 
     Raises `FalseClaimError` and `UndecidedError`.
     """
-    count, covered, deadline = len(step.spec.actions), 0, step.deadline()
+    spec = without_cases(step.spec, state)
+    count, covered, deadline = len(spec.actions), 0, step.deadline()
     earlier: list[tuple[int, int]] = []
     for number, cube in enumerate(cubes):
         if time.monotonic() > deadline:
@@ -85,7 +87,7 @@ def _check_cubes(step: AllowedStep, state: State, cubes: Sequence[Cube], orderin
                 raise FalseClaimError(f"cubes {other} and {number} have sets in common")
         earlier.append((executed, idle))
         covered += 1 << (count - len(cube.executed) - len(cube.idle))
-        wrong = _unproved(step, state, cube, ordering)
+        wrong = _unproved(step, spec, state, cube, ordering)
         if wrong is not None:
             raise FalseClaimError(f"the violation of cube {number} ({cube.violation.kind}) does not hold: {wrong}")
     if covered != 1 << count:
@@ -93,9 +95,12 @@ def _check_cubes(step: AllowedStep, state: State, cubes: Sequence[Cube], orderin
         raise FalseClaimError(f"the cubes hold {held} sets of actions")
 
 
-def _unproved(step: AllowedStep, state: State, cube: Cube, ordering: Ordering) -> str | None:
-    """Why the condition that a cube names is not violated by all its sets; None where it is."""
-    spec, violation = step.spec, cube.violation
+def _unproved(step: AllowedStep, spec: Spec, state: State, cube: Cube, ordering: Ordering) -> str | None:
+    """Why the condition that a cube names is not violated by all its sets; None where it is.
+
+    `spec` is what the specification says of this state.
+    """
+    violation = cube.violation
     settled = len(cube.executed) + len(cube.idle) == len(spec.actions)
     match violation.kind:
         case "precondition":
@@ -103,7 +108,7 @@ def _unproved(step: AllowedStep, state: State, cube: Cube, ordering: Ordering) -
         case "resource" | "nominal-conflict":
             return _exclusion(spec, cube)
         case "reaction-rule":
-            return _reaction_rule(step, state, cube)
+            return _reaction_rule(step, spec, state, cube)
         case "unsafe":
             return _unsafe(spec, state, cube, ordering)
         case "falsified":
@@ -125,7 +130,7 @@ def _precondition(spec: Spec, state: State, cube: Cube) -> str | None:
     if wrong is not None:
         return wrong
     action = spec.actions[cube.violation.actions[0]]
-    return "all preconditions hold" if all(holds(rule.formula, state) for rule in action.preconditions) else None
+    return "all preconditions hold" if all(holds(rule.formula, state) for rule in action.conditions) else None
 
 
 def _precondition_of(cube: Cube) -> str | None:
@@ -144,9 +149,8 @@ def _exclusion(spec: Spec, cube: Cube) -> str | None:
     return None if first & second else "the two actions have no resource in common"
 
 
-def _reaction_rule(step: AllowedStep, state: State, cube: Cube) -> str | None:
+def _reaction_rule(step: AllowedStep, spec: Spec, state: State, cube: Cube) -> str | None:
     """By the explicit meaning where the settled actions decide the rule, otherwise by Z3 for all others."""
-    spec = step.spec
     rules = {canonical_text(spec, rule.formula): rule.formula for rule in spec.reaction_rules}
     formula = rules.get(cube.violation.rule or "")
     if formula is None:
