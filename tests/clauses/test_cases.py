@@ -215,3 +215,19 @@ def test_the_condition_of_a_clause_is_no_precondition(tmp_path: Path) -> None:
     assert ask(tmp_path, dumps(policy), text).code == 0
     with pytest.raises(UserError, match="throughout"):
         export(policy, spec, "any")
+
+
+@pytest.mark.parametrize(
+    ("effects", "help_"),
+    [
+        ("none when P is a then Q is x", "write `when CONDITION: EFFECT`"),
+        ("N is N - 1 AND P is a", "write a comma"),
+        ("NOT N is N + 1", "stands alone"),
+        ("N is 3 - 1", "stands alone"),
+    ],
+)
+def test_what_does_not_fit_in_a_clause_is_told(effects: str, help_: str) -> None:
+    """With the form that was probably meant."""
+    found = loaded(f"effects: {effects}")
+    assert found.spec is None
+    assert help_ in (found.diagnostics[0].help or "")

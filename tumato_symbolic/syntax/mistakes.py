@@ -253,6 +253,24 @@ def _comma(here: Situation) -> Diagnostic | None:
     )
 
 
+def _clause(here: Situation) -> Diagnostic | None:
+    """What does not fit in a clause of effects, or in a relative effect."""
+    if here.title != ("ACTIONS",):
+        return None
+    text, before = here.token.text, here.previous
+    latest = here.last("when", "action", "preconditions", "nominal", "effects", "alternative")
+    help_ = None
+    if text == "then" and latest is not None and latest.text == "when":
+        help_ = "write `when CONDITION: EFFECT`"
+    elif text in ("+", "-") and here.tokens[here.index + 1].kind == "number":
+        help_ = "a relative effect stands alone among the effects, as in `S_Level is S_Level - 1, S_Place is dock`"
+    elif text in ("AND", "OR") and before is not None and before.kind == "number" and "," in here.expected:
+        help_ = "write a comma: a relative effect stands alone among the effects"
+    if help_ is None:
+        return None
+    return Diagnostic(Code.TUM105, f"unexpected {quoted(text)}", here.token.span, help=help_)
+
+
 def _unexpected(here: Situation) -> Diagnostic:
     opened = here.last("(") if ")" in here.expected else None
     needless = here.token.text == ")" and "AND" in here.expected
@@ -301,6 +319,7 @@ def _join(first: Span, last: Span) -> Span:
 
 
 _DETECTORS: tuple[Callable[[Situation], Diagnostic | None], ...] = (
+    _clause,
     _wrong_end,
     _unclosed_block,
     _block_title,
