@@ -14,7 +14,7 @@ import pytest
 from tests.export.c_compiler import compile_c, needs_cc
 from tests.export.cases import generated, stepwise
 from tests.export.compiler import Case
-from tests.export.policies import EXAMPLES, example, request, write
+from tests.export.policies import EXAMPLES, example, request, write, written
 from tests.profiles import ALL_PROFILES
 from tumato_symbolic import parse
 from tumato_symbolic.diagnostics import Code, UserError
@@ -94,6 +94,16 @@ def test_the_policy_of_every_example_is_accepted(name: str, tmp_path: Path) -> N
     if table is not None:
         judged = judge(made.spec, table.rows, made.ordering)
         assert f"longest run to a goal: {judged.longest_run}\n" in ran.stdout
+
+
+@needs_cc
+@pytest.mark.parametrize("actions", [[], ["wait"]])
+def test_nothing_to_do_is_checked_as_well(actions: list[str], tmp_path: Path) -> None:
+    """Without actions, and without effects, the program compiles as strictly, and accepts the policy."""
+    spec = written({"S": "only"}, actions)
+    made = replace(request(spec, {(0,): frozenset()}), check=True)
+    source, _, check = write(tmp_path, made, c99.files(made), (".c", ".h", "_check.c"))
+    assert subprocess.run([compile_c([source, check], tmp_path)], capture_output=True, check=False).returncode == 0
 
 
 @needs_cc

@@ -134,6 +134,7 @@ $goals    return 1;
 /* One effect. */
 static void take(world *w, int effect)
 {
+    (void)w;
     switch (effect) {
 $take    default: break;
     }
@@ -141,6 +142,7 @@ $take    default: break;
 
 static void take_nominal(world *w, int action)
 {
+    (void)w;
     switch (action) {
 $take_nominal    default: break;
     }
