@@ -92,6 +92,8 @@ def listing(tokens: tuple[Token, ...]) -> str:
 
 def _conditional_effect(here: Situation) -> Diagnostic | None:
     """A condition before or after an effect; after it there is one only where the predicate is over."""
+    if here.in_condition_of_effect and ":" in here.expected:
+        return unexpected(here.token.span, here.token.text, CONDITIONAL_EFFECT)
     if not here.in_effects:
         return None
     before, token = here.at(-1), here.token

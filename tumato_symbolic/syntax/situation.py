@@ -91,6 +91,12 @@ class Situation:
         return field is not None and field.text == "effects"
 
     @property
+    def in_condition_of_effect(self) -> bool:
+        """Whether the condition after `when` among effects is half read."""
+        latest = self.last("when", ":")
+        return self.title == ("ACTIONS",) and latest is not None and latest.text == "when"
+
+    @property
     def in_alternatives(self) -> bool:
         """Whether a list of alternative effects is half read."""
         field = self.last("alternative", "nominal", "preconditions", "resources")
