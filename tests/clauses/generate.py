@@ -59,7 +59,18 @@ def random_pair(seed: int) -> Pair:
         spec = replace(spec, state_rules=tuple(rules))
     chosen = [number for number in range(len(spec.actions)) if random.random() < 0.6] or [0]
     sets = {number: _sets(spec, number, random) for number in chosen}
-    return Pair(_text(spec, sets, random), *_written_out(spec, sets))
+    text, (written_out, action_of) = _text(spec, sets, random), _written_out(spec, sets)
+    starts = _starts(spec, random) if random.random() < 0.3 else ""
+    return Pair(text + starts, written_out and written_out + starts, action_of)
+
+
+def _starts(spec: Spec, random: Random) -> str:
+    """A block of starts, of which one valid state at least is one."""
+    state = random.choice([state for state in all_states(spec) if is_valid(spec, state)])
+    places = random.sample(range(len(state)), random.randint(1, len(state)))
+    names = [(variable.name, variable.values) for variable in spec.variables]
+    text = formula_text(And(tuple(Is(place, state[place]) for place in places)), names)
+    return _VALUE.sub(r"\1", f"\nBEGIN START\n  start: {text}\nEND START\n")
 
 
 def _sets(spec: Spec, number: int, random: Random) -> list[ClauseSet]:

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from tests.checker.standalone import ask, checker
+from tumato_symbolic import parse
 from tumato_symbolic.diagnostics import Source, UserError
 from tumato_symbolic.export.coq import export
 from tumato_symbolic.policy import Policy, bind, dumps, loads, policy_from_rows
@@ -197,6 +198,16 @@ def test_outside_there_is_only_the_action() -> None:
     assert len(bind(policy, spec).vocabulary.actions) == len(spec.actions) > 3
     for prover in ("explicit", "walk", "z3"):
         assert verify(policy, spec, prover=prover).verdict == "proved"
+
+
+def test_an_action_that_never_starts_keeps_its_clauses() -> None:
+    """They belong to the meaning that the digest covers, in both readers."""
+    fields = "preconditions: P is a, P is b effects: none when N > 1: P is"
+    block = f"BEGIN STATE VECTOR {VARIABLES} END STATE VECTOR BEGIN ACTIONS action go {fields}"
+    texts = [f"{block} {value} END ACTIONS" for value in ("a", "b")]
+    found = [digest(parse(text)) for text in texts]
+    assert len(set(found)) == 2
+    assert found == [checker.digest(checker.read_specification(text.encode())) for text in texts]
 
 
 def test_the_condition_of_a_clause_is_no_precondition(tmp_path: Path) -> None:

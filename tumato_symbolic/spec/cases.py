@@ -84,7 +84,8 @@ class Cases:
             way_out = f"at most {MAX_CASES:,} for all actions are possible; let conditions speak of fewer variables"
             self._findings.add(Code.TUM319, message, unfinished.action.span, way_out)
             return (unfinished.action,)
-        never = replace(unfinished.action, guard=_rule(FALSE, unfinished))
+        written = tuple(each.written() for each in unfinished.sets)
+        never = replace(unfinished.action, guard=_rule(FALSE, unfinished), written=written)
         return tuple(self._cases(unfinished, components)) or (never,)
 
     def _count(self, cases: int, unfinished: Unfinished) -> None:
