@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from random import Random
 from typing import TypeAlias
@@ -13,7 +13,16 @@ from tests.checker.agreement import failing
 from tests.checker.standalone import ask, checker
 from tests.clauses.generate import Pair, random_pair
 from tumato_symbolic.diagnostics import Source
-from tumato_symbolic.policy import Policy, Table, UndecidedState, Vocabulary, dumps, loads, unrealizable_file
+from tumato_symbolic.policy import (
+    Policy,
+    Table,
+    UndecidedState,
+    Vocabulary,
+    as_diagram,
+    dumps,
+    loads,
+    unrealizable_file,
+)
 from tumato_symbolic.semantics import (
     ActionSet,
     State,
@@ -73,7 +82,8 @@ def examine(seed: int, folder: Path, mutants: int = 2) -> Report:
     for number in range(1 + mutants):
         changed = both.changed(decisions, random) if number else decisions
         report.judged += 1
-        report.differences += [f"{seed}: {each}" for each in both.verdicts_differ(changed, folder)]
+        diagram = random.random() < 0.5
+        report.differences += [f"{seed}: {each}" for each in both.verdicts_differ(changed, folder, diagram=diagram)]
     return report
 
 
@@ -185,8 +195,8 @@ class _Both:
             del found[random.choice(sorted(found))]
         return found
 
-    def verdicts_differ(self, decisions: Mapping[State, Names], folder: Path) -> Iterator[str]:
-        """What the judges say of a policy, against the explicit judgement of the text that is written out."""
+    def verdicts_differ(self, decisions: Mapping[State, Names], folder: Path, *, diagram: bool) -> Iterator[str]:
+        """What the judges say of a policy, in either form, against the explicit judgement of the other text."""
         rows = {state: self.names(state, chosen) for state, chosen in decisions.items()}
         truth = failing(judge(self.plain, rows, self.ordering))
         numbers = {name: number for number, name in enumerate(self.spec.action_names)}
@@ -195,6 +205,7 @@ class _Both:
         if (mine := failing(judge(self.spec, by_case, self.ordering))) != truth:
             yield f"the explicit meaning: {mine}, not {truth}"
         policy = Policy(Vocabulary.of(self.spec), Table(by_action), self.ordering)
+        policy = replace(policy, decisions=as_diagram(policy)) if diagram else policy
         for prover in PROVERS:
             found = verify(policy, self.spec, ordering=self.ordering, prover=prover)
             refuted = {each.name for each in found.properties if each.verdict == "refuted"}

@@ -12,7 +12,8 @@ from tests.repo.documents import ROOT
 from tumato_symbolic import parse
 from tumato_symbolic.diagrams import DiagramBuilder, rebuild
 from tumato_symbolic.export.request import Request
-from tumato_symbolic.policy import DecisionDiagram, Policy, Table, UndecidedState, bind, policy_from_rows
+from tumato_symbolic.policy import DecisionDiagram, Policy, Table, UndecidedState, policy_from_rows
+from tumato_symbolic.policy.bind import fitted
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import Spec
 
@@ -22,7 +23,7 @@ EXAMPLES = tuple(path.name.removesuffix(".policy.json") for path in sorted((ROOT
 def example(name: str, *, diagram: bool = False) -> Request:
     """The committed policy of an example; as a diagram where that is asked for."""
     spec = parse((ROOT / "examples" / f"{name}.tum").read_text(encoding="utf-8"))
-    policy = bind(Policy.load(ROOT / "proofs" / f"{name}.policy.json"), spec)
+    policy = fitted(Policy.load(ROOT / "proofs" / f"{name}.policy.json"), spec)
     return Request(as_some_diagram(policy, Random(name)) if diagram else policy, spec, spec.ordering, "policy")
 
 

@@ -49,6 +49,10 @@ class Sets(UniqueTable):
         diagram = Diagram(self.order, tuple(leaves), tuple(moved))
         return rebuild(diagram, [root - 2 for root in roots])
 
+    def as_diagram(self, sets: Sequence[Reference]) -> tuple[Diagram[bool], tuple[Reference, ...]]:
+        """A canonical diagram of sets, which has the leaf True in their states."""
+        return rebuild(Diagram(self.order, (False, True), tuple(self.nodes_from(2))), sets)
+
     def is_leaf(self, function: Reference) -> bool:
         """Whether a function is the same in every state."""
         return self._levels[function] == self._depth

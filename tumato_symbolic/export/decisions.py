@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from tumato_symbolic.diagrams import EVERYTHING, LEAVES, Diagram, Sets, room_for
+from tumato_symbolic.diagrams import EVERYTHING, LEAVES, Sets, room_for
 from tumato_symbolic.policy import DecisionDiagram, Policy, Vocabulary, as_diagram
 from tumato_symbolic.policy.convert import Roots, together
 from tumato_symbolic.policy.rules import minimal_rules
@@ -145,6 +145,6 @@ def _with_undecided(policy: Policy) -> Policy:
         sets = Sets(decisions.diagram.order, vocabulary.sizes)
         *executed, defined = sets.take(decisions.diagram, (*decisions.roots, decisions.defined), LEAVES)
         roots = [*(sets.both(each, defined) for each in executed), sets.without(EVERYTHING, defined)]
-        diagram = Diagram(sets.order, (False, True), tuple(sets.nodes_from(2)))
-    total = DecisionDiagram(diagram, tuple(roots), EVERYTHING)
+        diagram, (*roots, every) = sets.as_diagram([*roots, EVERYTHING])
+    total = DecisionDiagram(diagram, tuple(roots), every)
     return Policy(Vocabulary(vocabulary.variables, (*vocabulary.actions, _UNDECIDED)), total)

@@ -60,7 +60,7 @@ class _Lifting:
         """All cases of all actions, in their order."""
         each = zip(self._actions, self._spec.cases, strict=True)
         roots = [root for action, cases in each for root in self._of(action, cases)]
-        diagram, found = self._sets.give([*roots, self._defined], (False, True))
+        diagram, found = self._sets.as_diagram([*roots, self._defined])
         return DecisionDiagram(diagram, found[:-1], found[-1])
 
     def _of(self, action: Reference, cases: range) -> Iterator[Reference]:
