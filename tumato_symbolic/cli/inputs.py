@@ -1,4 +1,4 @@
-"""Reading a specification for the commands that need a usable one."""
+"""Reading a specification, and a policy for it, for the commands that need usable ones."""
 
 from __future__ import annotations
 
@@ -6,12 +6,17 @@ import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from tumato_symbolic.cli.console import note, wants_colour
 from tumato_symbolic.cli.options import CommandOptions
 from tumato_symbolic.diagnostics import Diagnostic, Source, UserError, render
 from tumato_symbolic.spec import Restoration, Spec, load
 from tumato_symbolic.syntax import read_source
+
+if TYPE_CHECKING:
+    from tumato_symbolic.limits import Context
+    from tumato_symbolic.policy import Policy
 
 
 def read_spec(path: str, restoration: Restoration | None = None) -> tuple[Source, Spec, tuple[Diagnostic, ...]]:
@@ -25,6 +30,20 @@ def read_spec(path: str, restoration: Restoration | None = None) -> tuple[Source
         raise UserError(loaded.diagnostics, source)
     spec = loaded.spec if restoration is None else replace(loaded.spec, restoration=restoration)
     return source, spec, tuple(each for each in loaded.diagnostics if each.severity != "remark")
+
+
+def read_policy(
+    options: CommandOptions, restoration: Restoration | None, context: Context
+) -> tuple[Source, Spec, Policy]:
+    """The text, the specification, and the policy in its numbers. Raises `UserError` where they do not fit."""
+    from tumato_symbolic.policy import Policy, bind
+
+    context.tell("reading the specification")
+    source, spec, _ = read_spec(options.specs[0], restoration)
+    context.tell(f"reading {options.policy}")
+    policy = Policy.load(options.policy)
+    with errors_in(source):
+        return source, spec, bind(policy, spec)
 
 
 @contextmanager

@@ -84,11 +84,16 @@ class Model:
 
 @dataclass(frozen=True, slots=True)
 class Language:
-    """How a language writes formulas: connectives, what is between a variable and a value, which rules decide."""
+    """How a language writes formulas: connectives, what is between a variable and a value, which rules decide.
+
+    `and_below` joins conditions that stand below each other; `safe` names the safe states.
+    """
 
     by: Connectives[str]
     equals: str
     rule_is: Callable[[Sequence[int]], str]
+    and_below: str
+    safe: str
 
 
 class Claims:
@@ -115,6 +120,20 @@ class Claims:
         """Where a rule decides, if no earlier one does."""
         parts = self.model.condition(rule)
         return self.all(self.any(self._is(variable, value) for value in values) for variable, values in parts)
+
+    def placeholders(self) -> dict[str, str]:
+        """What every template has a place for: the claims by the names of these places."""
+        by, loop, model = self.language.by, self.model.loop, self.model
+        decided = by.negation(self.language.rule_is(model.undecided)) if model.undecided else by.constant(True)
+        listed = {
+            "allowed": self.allowed(),
+            "required": self.required(),
+            "possible": self.possible(),
+            "met": self.met(self.language.safe),
+        }
+        below = {name: self.language.and_below.join(parts) or by.constant(True) for name, parts in listed.items()}
+        states = {"valid": self.now(loop.valid), "safe": self.now(loop.safe)}
+        return {"decided": decided, "quiet": self.quiet(), **states, **below}
 
     def executed(self, entry: int) -> str:
         """Where an entry of the actions is executed."""

@@ -75,6 +75,8 @@ _LANGUAGE = Language(
     infix(true="TRUE", false="FALSE", negation="!", conjunction="&", disjunction="|", equivalence="<->"),
     "=",
     lambda rules: f"(rule in {{{', '.join(map(str, rules))}}})",
+    "\n    & ",
+    "safe",
 )
 
 
@@ -90,21 +92,14 @@ class _Printer:
         self._claims = Claims(model, _LANGUAGE)
 
     def text(self) -> str:
-        loop, model, claims = self._loop, self._model, self._claims
+        model, claims = self._model, self._claims
         return _MODEL.substitute(
             promise=self._promise,
             frozen="".join(f"  {name} : boolean;\n" for name in self._frozen()),
             variables="".join(self._variables()),
             rules="".join(self._rules()),
-            decided=_LANGUAGE.by.negation(_LANGUAGE.rule_is(model.undecided)) if model.undecided else "TRUE",
             executed="".join(f"  executed_{name} := {claims.executed(n)};\n" for n, name in enumerate(model.actions)),
-            quiet=claims.quiet(),
-            valid=claims.now(loop.valid),
-            safe=claims.now(loop.safe),
-            allowed=_lines(claims.allowed()),
-            required=_lines(claims.required()),
-            possible=_lines(claims.possible()),
-            met=_lines(claims.met("safe")),
+            **claims.placeholders(),
             stays=self._all(f"next({name}) = {name}" for name in model.variables),
             remembers=self._all(f"(next(kept_{number}) <-> kept_{number})" for number in self._claims.kept),
             nothing_waits=self._all(f"!waiting_{name}" for name in model.actions),
@@ -198,7 +193,3 @@ class _Printer:
         if loop.several_steps:
             restored = "nominal -> AF safe" if loop.restoration == "fair" else "!nominal -> AF (!acting & safe)"
             yield f"safety_restored := {restored}"
-
-
-def _lines(parts: Sequence[str]) -> str:
-    return "\n    & ".join(parts) or "TRUE"

@@ -5,7 +5,7 @@ Which effect occurs is a choice of the environment, and no probability: there ar
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from string import Template
 from typing import Final
 
@@ -77,6 +77,8 @@ _LANGUAGE = Language(
     infix(true="true", false="false", negation="!", conjunction="&", disjunction="|", equivalence="="),
     "=",
     lambda rules: f"({' | '.join(f'rule = {number}' for number in rules)})",
+    "\n    & ",
+    "safe",
 )
 
 
@@ -97,22 +99,15 @@ class _Printer:
 
     def model(self) -> str:
         """The closed loop."""
-        loop, model, claims = self._loop, self._model, self._claims
+        model, claims = self._model, self._claims
         executed = (f"formula executed_{name} = {claims.executed(n)};" for n, name in enumerate(model.actions))
         return _MODEL.substitute(
             name=self._name,
             promise=self._promise,
             constants="".join(self._constants()),
             rule=self._rule(),
-            decided=_LANGUAGE.by.negation(_LANGUAGE.rule_is(model.undecided)) if model.undecided else "true",
             executed="\n".join(executed),
-            quiet=claims.quiet(),
-            valid=claims.now(loop.valid),
-            safe=claims.now(loop.safe),
-            allowed=_lines(claims.allowed()),
-            required=_lines(claims.required()),
-            possible=_lines(claims.possible()),
-            met=_lines(claims.met("safe")),
+            **claims.placeholders(),
             variables="".join(self._variables()),
             step="".join(self._nominal("executed")),
             decide="".join(self._decide()),
@@ -197,7 +192,3 @@ class _Printer:
         if loop.several_steps:
             restored = "!nominal | safe" if loop.restoration == "fair" else "nominal | (!acting & safe)"
             yield f'"safety_restored": P>=1 [ F ({restored}) ]'
-
-
-def _lines(parts: Sequence[str]) -> str:
-    return "\n    & ".join(parts) or "true"

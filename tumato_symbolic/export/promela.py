@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from string import Template
 from typing import Final
 
@@ -148,6 +148,8 @@ _LANGUAGE = Language(
     infix(true="true", false="false", negation="!", conjunction="&&", disjunction="||", equivalence="=="),
     "==",
     lambda rules: f"({' || '.join(f'rule == {number}' for number in rules)})",
+    " \\\n    && ",
+    "SAFE",
 )
 
 
@@ -182,15 +184,8 @@ class _Printer:
             promise=self._promise,
             constants="".join(self._constants()),
             variables="".join(self._variables()),
-            decided=_LANGUAGE.by.negation(_LANGUAGE.rule_is(model.undecided)) if model.undecided else "true",
             executed="".join(f"#define executed_{name} {claims.executed(n)}\n" for n, name in enumerate(model.actions)),
-            quiet=claims.quiet(),
-            valid=claims.now(loop.valid),
-            safe=claims.now(loop.safe),
-            allowed=_lines(claims.allowed()),
-            required=_lines(claims.required()),
-            possible=_lines(claims.possible()),
-            met=_lines(claims.met("SAFE")),
+            **claims.placeholders(),
             rules="".join(self._rules()),
             forget="".join(f"    {name} = false;\n" for name in self._passing()) or "    skip;\n",
             wait="".join(f"    waiting_{name} = executed_{name};\n" for name in model.actions),
@@ -262,7 +257,3 @@ class _Printer:
             yield "       :: atomic { !acted ->\n"
             yield from self._nominal("              ")
             yield "              acted = true; assert(AS_REQUIRED) }\n"
-
-
-def _lines(parts: Sequence[str]) -> str:
-    return " \\\n    && ".join(parts) or "true"

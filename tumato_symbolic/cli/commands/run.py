@@ -136,18 +136,13 @@ def run(options: Options, context: Context) -> int:
 
 
 def _load(options: Options, context: Context) -> _Loaded:
-    from tumato_symbolic.cli.inputs import errors_in, read_spec
+    from tumato_symbolic.cli.inputs import read_policy
     from tumato_symbolic.explain.decision import Decisions
-    from tumato_symbolic.policy import Policy, bind, parse_assignments
+    from tumato_symbolic.policy import parse_assignments
     from tumato_symbolic.report.objections import Place
     from tumato_symbolic.simulation import Starts
 
-    context.tell("reading the specification")
-    source, spec, _ = read_spec(options.specs[0], options.restoration)
-    context.tell(f"reading {options.policy}")
-    policy = Policy.load(options.policy)
-    with errors_in(source):
-        policy = bind(policy, spec)
+    source, spec, policy = read_policy(options, options.restoration, context)
     asked = parse_assignments(policy.vocabulary, options.assignments, whole=False)
     given = {
         number: variable.values.index(asked[variable.name])

@@ -50,20 +50,15 @@ class Options(CommandOptions):
 
 def run(options: Options, context: Context) -> int:
     """Exit with 1 where the policy says nothing about the state."""
-    from tumato_symbolic.cli.inputs import errors_in, read_spec
+    from tumato_symbolic.cli.inputs import read_policy
     from tumato_symbolic.explain.decision import Decisions, alternative, why
-    from tumato_symbolic.policy import Policy, UndecidedState, bind, parse_assignments
+    from tumato_symbolic.policy import UndecidedState, parse_assignments
     from tumato_symbolic.policy.part import judged_within
     from tumato_symbolic.report import decided
     from tumato_symbolic.report.objections import Place
     from tumato_symbolic.semantics import cases_in
 
-    context.tell("reading the specification")
-    source, spec, _ = read_spec(options.specs[0], options.restoration)
-    context.tell(f"reading {options.policy}")
-    policy = Policy.load(options.policy)
-    with errors_in(source):
-        policy = bind(policy, spec)
+    source, spec, policy = read_policy(options, options.restoration, context)
     ordering = options.effect_ordering or spec.ordering
     asked = parse_assignments(policy.vocabulary, options.assignments)
     state = tuple(variable.values.index(asked[variable.name]) for variable in spec.variables)
