@@ -12,7 +12,7 @@ from tests.oracle import OracleVerdict, Together, World, decide_world
 from tests.profiles import ALL_PROFILES
 from tests.reference_policy import reference_policy
 from tumato_symbolic.diagnostics import UserError
-from tumato_symbolic.policy import Policy, Table, as_table, dumps, loads, policy_from_rows, unrealizable_file
+from tumato_symbolic.policy import Policy, Table, as_table, dumps, loads, policy_from_rows, unrealizability
 from tumato_symbolic.semantics import ActionSet, Judgement, State, better_sets, count_states, duration, judge
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.synthesis import Realizable, SynthesisResult, Undecided, Unrealizable, synthesize
@@ -119,7 +119,7 @@ def _compare_failures(world: World, verdict: OracleVerdict, outcome: Unrealizabl
 def _verify_certificate(world: World, outcome: Unrealizable) -> Iterator[str]:
     """Complaints about the verification of unrealizability, through its file."""
     assert outcome.certificate is not None
-    certificate = unrealizable_file.loads(unrealizable_file.dumps(outcome.certificate))
+    certificate = unrealizability.loads(unrealizability.dumps(outcome.certificate))
     answer = verify_unrealizable(certificate, world.spec, ordering=world.ordering)
     if (answer.verdict, answer.stale) != ("proved", False):
         yield f"the certificate that there is no policy is not proved: {answer}"

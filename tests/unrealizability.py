@@ -12,7 +12,7 @@ from tests.generate import ALL_PROFILES, random_spec
 from tests.oracle import Together, World
 from tumato_symbolic.diagrams import rebuild
 from tumato_symbolic.policy import Vocabulary
-from tumato_symbolic.policy.unrealizable import (
+from tumato_symbolic.policy.unrealizability import (
     Choice,
     Conflict,
     Cube,

@@ -13,8 +13,7 @@ from tests.profiles import RESTORING
 from tests.verify.policies import any_set, certified, changed, exact_ranks
 from tumato_symbolic import parse
 from tumato_symbolic.diagrams import DiagramBuilder
-from tumato_symbolic.policy import Policy
-from tumato_symbolic.policy.records import Deviation, Restoring
+from tumato_symbolic.policy import Deviation, Policy, Restoring
 from tumato_symbolic.semantics import (
     ActionSet,
     Effort,

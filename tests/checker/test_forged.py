@@ -21,8 +21,8 @@ from tests.verify.test_forged_steps import SPECS, compatible, forbidding, writer
 from tests.verify.test_forged_unrealizable import CONFLICTS, knotted
 from tests.verify.test_unrealizable_by_hand import line, stuck
 from tumato_symbolic.policy import dumps, policy_from_rows
-from tumato_symbolic.policy.unrealizable_file import bind
-from tumato_symbolic.policy.unrealizable_file import dumps as dumps_no
+from tumato_symbolic.policy.unrealizability import bind
+from tumato_symbolic.policy.unrealizability import dumps as dumps_no
 from tumato_symbolic.semantics import Residual
 from tumato_symbolic.spec import Is, Ordering, Spec
 

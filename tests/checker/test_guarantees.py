@@ -21,8 +21,8 @@ from tests.verify.policies import near_policies
 from tumato_symbolic import Realizable
 from tumato_symbolic.diagrams import DiagramBuilder
 from tumato_symbolic.policy import Policy, as_table, dumps, policy_from_rows
-from tumato_symbolic.policy.guarantees_file import GuaranteesCertificate
-from tumato_symbolic.policy.guarantees_file import dumps as written
+from tumato_symbolic.policy.guarantees import GuaranteesCertificate
+from tumato_symbolic.policy.guarantees import dumps as written
 from tumato_symbolic.semantics import State, all_states, is_valid, judge
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.guarantees.analyse import guarantees

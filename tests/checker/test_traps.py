@@ -15,8 +15,7 @@ from tests.printing import print_spec
 from tests.semantics.test_restoration import VALVES, restoring
 from tests.verify.test_no_restoration import certified, holds_fast
 from tumato_symbolic.diagrams import DiagramBuilder
-from tumato_symbolic.policy.unrealizable import NoRestoration
-from tumato_symbolic.policy.unrealizable_file import dumps
+from tumato_symbolic.policy.unrealizability import NoRestoration, dumps
 from tumato_symbolic.semantics import all_states
 from tumato_symbolic.spec import Ordering, Restoration
 from tumato_symbolic.verify import verify_unrealizable

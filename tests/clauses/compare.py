@@ -21,7 +21,7 @@ from tumato_symbolic.policy import (
     as_diagram,
     dumps,
     loads,
-    unrealizable_file,
+    unrealizability,
 )
 from tumato_symbolic.semantics import (
     ActionSet,
@@ -169,8 +169,8 @@ class _Both:
         if (one.certificate is None) != (other.certificate is None):
             yield "only one has a certificate"
         elif one.certificate is not None:
-            text = unrealizable_file.dumps(one.certificate)
-            found = verify_unrealizable(unrealizable_file.loads(text), self.spec, ordering=self.ordering)
+            text = unrealizability.dumps(one.certificate)
+            found = verify_unrealizable(unrealizability.loads(text), self.spec, ordering=self.ordering)
             if found.verdict != "proved":
                 yield f"the certificate: {found}"
             answer = ask(folder, text, self.pair.text, "--effect-ordering", self.ordering)

@@ -9,9 +9,8 @@ from typing import Any
 from tests.checker.standalone import checker
 from tests.conformance.roles import Rows
 from tests.conformance.world import REMEMBERED, World
-from tumato_symbolic.policy import guarantees_file, policy_from_rows
-from tumato_symbolic.policy.unrealizable import Unrealizability
-from tumato_symbolic.policy.unrealizable_file import dumps
+from tumato_symbolic.policy import guarantees, policy_from_rows
+from tumato_symbolic.policy.unrealizability import Unrealizability, dumps
 from tumato_symbolic.semantics import ActionSet, Effort, Guarantee, State
 from tumato_symbolic.spec import Ordering
 from tumato_symbolic.verify.guarantees.analyse import guarantees as analysed
@@ -83,7 +82,7 @@ class Checker:
         assert certificate is not None
         decisions = {_values(world, state): _names(world, chosen) for state, chosen in rows.items()}
         judge = checker.Judge(_own(world.text, world.ordering), decisions.get)
-        claims = checker.Guarantees(judge, loads(guarantees_file.dumps(certificate)))
+        claims = checker.Guarantees(judge, loads(guarantees.dumps(certificate)))
         try:
             claims.check_ranks()
         except checker.Refuted as refuted:

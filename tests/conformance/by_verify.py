@@ -16,7 +16,7 @@ from tumato_symbolic import parse
 from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.limits import Budget
 from tumato_symbolic.policy import as_diagram, policy_from_rows
-from tumato_symbolic.policy.unrealizable import Unrealizability
+from tumato_symbolic.policy.unrealizability import Unrealizability
 from tumato_symbolic.semantics import ActionSet, Effort, Guarantee, State, all_states, takes_effect
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify import ProverName, verify, verify_unrealizable

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
 from tests.conformance.world import World
-from tumato_symbolic.policy.unrealizable import Unrealizability
+from tumato_symbolic.policy.unrealizability import Unrealizability
 from tumato_symbolic.semantics import ActionSet, Effort, Guarantee, State
 
 Rows = Mapping[State, ActionSet]

@@ -12,8 +12,7 @@ from tests.repo.documents import ROOT
 from tumato_symbolic import parse
 from tumato_symbolic.diagrams import DiagramBuilder, rebuild
 from tumato_symbolic.export.request import Request
-from tumato_symbolic.policy import DecisionDiagram, Policy, Table, UndecidedState, policy_from_rows
-from tumato_symbolic.policy.bind import fitted
+from tumato_symbolic.policy import DecisionDiagram, Policy, Table, UndecidedState, fitted, policy_from_rows
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import Spec
 

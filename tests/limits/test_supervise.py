@@ -18,7 +18,7 @@ from tumato_symbolic.cli import console, supervise
 from tumato_symbolic.cli.supervise import ChildCrashedError, EndedError, TerminatedError, supervised
 from tumato_symbolic.limits import Context, Limits
 from tumato_symbolic.limits.processes import can_fork, end_with
-from tumato_symbolic.policy.saving import save_text
+from tumato_symbolic.policy import save_text
 from tumato_symbolic.verify.workers import in_workers
 
 pytestmark = pytest.mark.skipif(not can_fork(), reason="there are no children here")

@@ -18,8 +18,7 @@ from tests.verify.several_steps import Efforts, Rows, certified, exact
 from tests.verify.test_planted_restoring import DROPS, EDGE_ROWS, LANDS, RISKY, SWAP, VALVES_ROWS
 from tests.verify.test_restoring_claims import LISTED, ROWS, T, X
 from tumato_symbolic import parse
-from tumato_symbolic.policy import Policy, dumps
-from tumato_symbolic.policy.records import Deviation
+from tumato_symbolic.policy import Deviation, Policy, dumps
 from tumato_symbolic.spec import Restoration, Spec
 from tumato_symbolic.verify import ProverName, verify
 from tumato_symbolic.verify.by_diagrams import stepwise

@@ -6,8 +6,7 @@ one, carries the digest of the specification and claims nothing false (`docs/cer
 
 from __future__ import annotations
 
-from tumato_symbolic.policy import Certificate, Deviation, Policy, as_table, bind
-from tumato_symbolic.policy.bind import restores_less
+from tumato_symbolic.policy import Certificate, Deviation, Policy, as_table, bind, restores_less
 from tumato_symbolic.semantics import (
     AT_ONCE,
     ActionSet,

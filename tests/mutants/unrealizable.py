@@ -29,8 +29,7 @@ from tests.unrealizability import CONFLICTS
 from tests.verify.test_no_restoration import holds_fast
 from tumato_symbolic import Unrealizable, parse, synthesize
 from tumato_symbolic.diagnostics import Code, UserError
-from tumato_symbolic.policy.unrealizable import NoRestoration
-from tumato_symbolic.policy.unrealizable_file import bind, dumps, loads
+from tumato_symbolic.policy.unrealizability import NoRestoration, bind, dumps, loads
 from tumato_symbolic.semantics import all_states, count_states, is_valid
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify import verify_unrealizable

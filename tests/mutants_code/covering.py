@@ -128,7 +128,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "tumato_symbolic/semantics/shortcomings.py": ("tests/semantics/test_guarantees.py",),
     "tumato_symbolic/semantics": SEMANTICS,
     "tumato_symbolic/symbolic/steps.py": STEPS,
-    "tumato_symbolic/policy/bind.py": BINDING,
+    "tumato_symbolic/policy/decisions/binding.py": BINDING,
     "tumato_symbolic/diagrams/diagram.py": NUMBERS,
     "tumato_symbolic/verify/by_states": BY_STATES,
     "tumato_symbolic/verify/by_diagrams/parallel.py": PROCESSES,

@@ -72,7 +72,7 @@ def test_every_module_of_the_trusted_base_has_its_share() -> None:
     modules = covered(ROOT)
     names = {each.module for each in modules}
     assert {"tumato_symbolic.semantics.step", "tumato_symbolic.verify.by_z3.outcomes", "proofs.checker"} <= names
-    assert {"tumato_symbolic.symbolic.steps", "tumato_symbolic.policy.bind"} <= names
+    assert {"tumato_symbolic.symbolic.steps", "tumato_symbolic.policy.decisions.binding"} <= names
     assert {"tumato_symbolic.verify.by_states.steps", "tumato_symbolic.verify.by_diagrams.walk"} <= names
     everything = {each.module: sites(ROOT / each.path, each.module) for each in modules[:4]}
     assert {module for module, _ in drawn(everything, 40, 1)} == set(everything)

@@ -11,14 +11,15 @@ from tumato_symbolic.diagrams import DiagramBuilder, rebuild
 from tumato_symbolic.policy import (
     Certificate,
     DecisionDiagram,
+    Deviation,
     Policy,
     RankedGoal,
+    Restoring,
     Table,
     Vocabulary,
     as_diagram,
     as_table,
 )
-from tumato_symbolic.policy.records import Deviation, Restoring
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import Action, Spec, Variable
 

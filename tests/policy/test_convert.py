@@ -120,18 +120,18 @@ def test_rows_become_a_policy() -> None:
 
 def test_a_table_takes_each_combination_of_nodes_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """A diagram that reads the same below many paths is looked at once there: here 2 nodes a variable, 2^12 states."""
-    from tumato_symbolic.policy import convert
+    from tumato_symbolic.policy.decisions import convert
 
     size, looked_at = 12, list[tuple[object, ...]]()
     rows = {state: frozenset({sum(state) % 2}) for state in product(range(2), repeat=size)}
     vocabulary = Vocabulary(tuple((f"v{number}", ("a", "b")) for number in range(size)), ("even", "odd"))
-    together = convert.together
+    decided_at = convert.decided_at
 
     def counted(*arguments: Any) -> Any:
         looked_at.append(arguments)
-        return together(*arguments)
+        return decided_at(*arguments)
 
-    monkeypatch.setattr(convert, "together", counted)
+    monkeypatch.setattr(convert, "decided_at", counted)
     diagram = Policy(vocabulary, as_diagram(Policy(vocabulary, Table(rows))))
     assert rows_of(diagram, 2**size) == rows
     assert len(looked_at) == 2 * size + 1

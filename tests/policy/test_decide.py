@@ -28,7 +28,7 @@ def test_what_is_forgotten_is_found_again(policy: Policy) -> None:
     """Answers are the same when almost nothing is remembered, in whatever order states are asked."""
     variables, actions = policy.vocabulary.variables, policy.vocabulary.actions
     rows = list(rows_of(policy).items())
-    with patch("tumato_symbolic.policy.lookup._MOST_REMEMBERED", 2):
+    with patch("tumato_symbolic.policy.lookup.deciders._MOST_REMEMBERED", 2):
         for state, chosen in rows + rows[::-1]:
             named = {name: values[value] for (name, values), value in zip(variables, state, strict=True)}
             assert policy.decide(named) == tuple(name for number, name in enumerate(actions) if number in chosen)

@@ -9,7 +9,8 @@ from pathlib import Path
 import pytest
 
 from tumato_symbolic.diagnostics import Code
-from tumato_symbolic.policy import Policy, as_diagram, as_table, dumps, json_shape, loads
+from tumato_symbolic.policy import Policy, as_diagram, as_table, dumps, loads
+from tumato_symbolic.policy.text import MAX_BYTES
 
 DOCUMENT = Path(__file__).parents[2] / "docs" / "policy.md"
 TABLE, DIAGRAM = re.findall(r"```json\n(.*?)```", DOCUMENT.read_text(encoding="utf-8"), re.DOTALL)
@@ -37,7 +38,7 @@ def test_the_codes_and_the_limit_are_named() -> None:
     text = DOCUMENT.read_text(encoding="utf-8")
     errors = [code.name for code in Code if code.name.startswith("TUM5") and code.severity == "error"]
     assert all(name in text for name in errors)
-    assert f"more than {json_shape.MAX_BYTES // 1024**2} MiB" in text
+    assert f"more than {MAX_BYTES // 1024**2} MiB" in text
 
 
 def test_asking_a_policy_loads_no_engine() -> None:

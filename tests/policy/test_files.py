@@ -12,7 +12,8 @@ import pytest
 
 from tests.policy.strategies import amr_like
 from tumato_symbolic.diagnostics import UserError
-from tumato_symbolic.policy import dumps, json_shape, load, loads, save
+from tumato_symbolic.policy import dumps, load, loads, save
+from tumato_symbolic.policy.text import strict_json
 
 
 def names(folder: Path) -> list[str]:
@@ -57,7 +58,7 @@ def test_a_process_that_is_ended_leaves_nothing(tmp_path: Path, number: str) -> 
     path = tmp_path / "policy.json"
     path.write_text("old")
     code = (
-        "import os, signal, sys, time\nfrom pathlib import Path\nfrom tumato_symbolic.policy.saving import save_text\n"
+        "import os, signal, sys, time\nfrom pathlib import Path\nfrom tumato_symbolic.policy import save_text\n"
         "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
         "os.fsync = lambda _: (print('writing', flush=True), time.sleep(100))\n"
         "save_text('new', Path(sys.argv[1]), 'policy')"
@@ -134,9 +135,9 @@ def test_what_cannot_be_read_is_said(tmp_path: Path) -> None:
 
 def test_an_endless_file_is_too_large(monkeypatch: pytest.MonkeyPatch) -> None:
     """Reading stops at the limit, and texts beyond it are neither read nor written."""
-    monkeypatch.setattr(json_shape, "MAX_BYTES", 100)
-    monkeypatch.setattr("tumato_symbolic.policy.text_input.MAX_BYTES", 100)
-    monkeypatch.setattr("tumato_symbolic.policy.write.MAX_BYTES", 100)
+    monkeypatch.setattr(strict_json, "MAX_BYTES", 100)
+    monkeypatch.setattr("tumato_symbolic.policy.text.reading.MAX_BYTES", 100)
+    monkeypatch.setattr("tumato_symbolic.policy.formats.write.MAX_BYTES", 100)
     with pytest.raises(UserError, match="TUM508"):
         load("/dev/zero")
     with pytest.raises(UserError, match="TUM508"):

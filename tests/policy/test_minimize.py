@@ -7,9 +7,16 @@ from hypothesis import strategies as st
 
 from tests.policy.strategies import QUICK, diagram_of, policies
 from tumato_symbolic.diagrams import DiagramBuilder
-from tumato_symbolic.policy import Certificate, DecisionDiagram, Policy, RankedGoal, as_table
-from tumato_symbolic.policy.compact import minimized_decisions, minimized_layers, minimized_ranks
-from tumato_symbolic.policy.unrealizable import Layers, NoPlan
+from tumato_symbolic.policy import (
+    Certificate,
+    DecisionDiagram,
+    Policy,
+    RankedGoal,
+    as_table,
+    minimized_decisions,
+    minimized_ranks,
+)
+from tumato_symbolic.policy.unrealizability import Layers, NoPlan, minimized_layers
 
 
 @QUICK

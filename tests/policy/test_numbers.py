@@ -12,7 +12,7 @@ from tests.policy.strategies import spec_of
 from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.diagrams import Diagram, DiagramBuilder, count_true, rebuild
 from tumato_symbolic.policy import Certificate, Policy, RankedGoal, Table, Vocabulary, as_diagram, bind
-from tumato_symbolic.policy.bind import Renumbering
+from tumato_symbolic.policy.decisions import Renumbering
 from tumato_symbolic.semantics import State
 
 THERE = Vocabulary((("x", ("a", "b", "c")), ("y", ("p", "q")), ("z", ("u", "v", "w", "t"))), ("go", "eat", "nap"))

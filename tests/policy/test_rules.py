@@ -13,8 +13,17 @@ from hypothesis import given
 from tests.policy.strategies import QUICK, policies, rows_of
 from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.diagrams import Coverer, DiagramBuilder
-from tumato_symbolic.policy import DecisionDiagram, Policy, Table, Vocabulary, count_defined, dumps, loads
-from tumato_symbolic.policy.rules import Rule, minimal_rules
+from tumato_symbolic.policy import (
+    DecisionDiagram,
+    Policy,
+    Rule,
+    Table,
+    Vocabulary,
+    count_defined,
+    dumps,
+    loads,
+    minimal_rules,
+)
 
 PROOFS = Path(__file__).parents[2] / "proofs"
 

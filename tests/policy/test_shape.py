@@ -8,8 +8,7 @@ import pytest
 from tests.policy.strategies import amr_like
 from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.policy import dumps, loads
-from tumato_symbolic.policy.json_shape import parse_json
-from tumato_symbolic.policy.objects import Row
+from tumato_symbolic.policy.text import Row, parse_json
 
 
 def numbered(*firsts: int, diagram: bool = False) -> str:

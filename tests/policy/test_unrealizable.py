@@ -18,10 +18,9 @@ from tests.policy.strategies import NAMES, QUICK, action_sets, spec_of, states, 
 from tests.policy.test_bind import shuffled
 from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.diagrams import DiagramBuilder, rebuild
-from tumato_symbolic.policy import Policy, RankedGoal, Vocabulary
-from tumato_symbolic.policy.claim import load_claim
-from tumato_symbolic.policy.files import load as load_policy
-from tumato_symbolic.policy.unrealizable import (
+from tumato_symbolic.policy import Policy, RankedGoal, Vocabulary, load_claim
+from tumato_symbolic.policy import load as load_policy
+from tumato_symbolic.policy.unrealizability import (
     Choice,
     Conflict,
     Cube,
@@ -34,8 +33,12 @@ from tumato_symbolic.policy.unrealizable import (
     Unrealizability,
     Violation,
     ViolationKind,
+    bind,
+    dumps,
+    load,
+    loads,
+    save,
 )
-from tumato_symbolic.policy.unrealizable_file import bind, dumps, load, loads, save
 from tumato_symbolic.spec import Restoration, Spec
 
 SCHEMA = json.loads(Path(__file__).parents[2].joinpath("tumato_symbolic/policy/unrealizable.schema.json").read_text())

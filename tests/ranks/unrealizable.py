@@ -15,7 +15,7 @@ from tests.ranks.unrealizable_truth import first_layers, is_proof
 from tests.unrealizability import claim_is_true
 from tumato_symbolic import Unrealizable, parse, synthesize
 from tumato_symbolic.diagrams import DiagramBuilder
-from tumato_symbolic.policy.unrealizable import Conflict, Layers, NoPlan, Unrealizability
+from tumato_symbolic.policy.unrealizability import Conflict, Layers, NoPlan, Unrealizability
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.verify import verify_unrealizable

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from tests.oracle import World
-from tumato_symbolic.policy.unrealizable import Conflict, Cut, Layers, NoPlan
+from tumato_symbolic.policy.unrealizability import Conflict, Cut, Layers, NoPlan
 from tumato_symbolic.semantics import Residual, State, reached
 from tumato_symbolic.spec import Spec, canonical_text
 

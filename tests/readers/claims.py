@@ -11,8 +11,7 @@ from typing import Any
 from tests.checker.standalone import checker
 from tests.readers.meaning import REFUSED, Meaning, deep
 from tumato_symbolic.diagnostics import UserError
-from tumato_symbolic.policy import Policy, as_table, bind
-from tumato_symbolic.policy.claim import load_claim
+from tumato_symbolic.policy import Policy, as_table, bind, load_claim
 from tumato_symbolic.semantics import all_states, is_safe
 from tumato_symbolic.spec import Spec, canonical_text
 from tumato_symbolic.verify import verify_unrealizable

@@ -17,7 +17,7 @@ from tests.generate import random_spec, random_text
 from tests.profiles import PROFILES
 from tumato_symbolic import Realizable, synthesize
 from tumato_symbolic.policy import dumps
-from tumato_symbolic.policy.unrealizable_file import dumps as certificate_text
+from tumato_symbolic.policy.unrealizability import dumps as certificate_text
 from tumato_symbolic.semantics import count_states
 from tumato_symbolic.synthesis import Unrealizable
 

@@ -9,7 +9,7 @@ from random import Random
 from tests.repeats.specs import crossroads
 from tumato_symbolic import parse
 from tumato_symbolic.limits import Context
-from tumato_symbolic.policy import Policy, Table, dumps, unrealizable_file
+from tumato_symbolic.policy import Policy, Table, dumps, unrealizability
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.symbolic import Backend
 from tumato_symbolic.synthesis import Realizable, Unrealizable, synthesize
@@ -39,7 +39,7 @@ def answer(seed: int, backend: Backend) -> str:
                 text += _witnesses(spec, outcome.policy, Random(seed))
         case Unrealizable():
             assert outcome.certificate is not None
-            text = unrealizable_file.dumps(outcome.certificate)
+            text = unrealizability.dumps(outcome.certificate)
         case _:
             text = "undecided"
     return hashlib.sha256(text.encode()).hexdigest()

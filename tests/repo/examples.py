@@ -8,7 +8,7 @@ from pathlib import Path
 
 from tests.repo.documents import ROOT
 from tumato_symbolic import Realizable, Unrealizable, parse, synthesize
-from tumato_symbolic.policy import dumps, unrealizable_file
+from tumato_symbolic.policy import dumps, unrealizability
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.synthesis.result import SynthesisResult
 
@@ -48,7 +48,7 @@ def certificate_text(example: Path) -> str | None:
     if not isinstance(outcome, Unrealizable):
         return None
     assert outcome.certificate is not None
-    return unrealizable_file.dumps(outcome.certificate)
+    return unrealizability.dumps(outcome.certificate)
 
 
 def table() -> str:

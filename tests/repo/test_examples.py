@@ -17,7 +17,7 @@ from tests.repo.examples import (
 )
 from tumato_symbolic import Policy, Realizable, verify
 from tumato_symbolic.diagnostics import Source
-from tumato_symbolic.policy.unrealizable_file import load as load_certificate
+from tumato_symbolic.policy.unrealizability import load as load_certificate
 from tumato_symbolic.spec import load
 from tumato_symbolic.verify import verify_unrealizable
 

@@ -17,7 +17,7 @@ with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
     from tumato_symbolic.cli.main import main
     code = main(sys.argv[1:])
 asked = ["lark", "z3", "dd", "multiprocessing"]
-asked += ["tumato_symbolic.policy.unrealizable", "tumato_symbolic.syntax.mistakes"]
+asked += ["tumato_symbolic.policy.unrealizability", "tumato_symbolic.syntax.mistakes"]
 print(json.dumps([code, [name for name in asked if name in sys.modules]]))
 """
 """Runs a command; shows its exit code, and what it loaded of the heavy packages and of what other answers need."""

@@ -1,8 +1,7 @@
 """Rules as text and as JSON."""
 
 from tumato_symbolic.diagnostics import Source
-from tumato_symbolic.policy import Vocabulary
-from tumato_symbolic.policy.rules import Rule, RuleList
+from tumato_symbolic.policy import Rule, RuleList, Vocabulary
 from tumato_symbolic.report.rules import as_json, as_text, condition
 from tumato_symbolic.semantics import all_states, holds
 from tumato_symbolic.spec import load

@@ -16,8 +16,8 @@ from tests.profiles import INTERACTING, MIXED, Profile
 from tests.restoration.truth import World
 from tests.starts.truth import greatest, parts, starts
 from tumato_symbolic import Realizable, Undecided, Unrealizable, synthesize
-from tumato_symbolic.policy import Policy, as_diagram, as_table, dumps, loads, policy_from_rows, unrealizable_file
-from tumato_symbolic.policy.unrealizable import Conflict, Unrealizability
+from tumato_symbolic.policy import Policy, as_diagram, as_table, dumps, loads, policy_from_rows, unrealizability
+from tumato_symbolic.policy.unrealizability import Conflict, Unrealizability
 from tumato_symbolic.semantics import (
     ActionSet,
     Judgement,
@@ -162,7 +162,7 @@ def _wrong_certificate(certificate: Unrealizability, asked: Asked, tally: Tally)
             yield f"of the certificate, verify says {found}"
         text = print_spec(meant, Random(0))
         options = ("--effect-ordering", asked.ordering, "--restoration", spec.restoration)
-        answer = ask(asked.folder, unrealizable_file.dumps(certificate), text, *options)
+        answer = ask(asked.folder, unrealizability.dumps(certificate), text, *options)
         if answer.code != (0 if wanted else 1):
             yield f"of the certificate, the checker says {answer}"
 

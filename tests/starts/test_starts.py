@@ -18,7 +18,8 @@ from tumato_symbolic.explain.explanation import Explanation, NothingToExplain
 from tumato_symbolic.export.closed_loop import ClosedLoop
 from tumato_symbolic.export.coq import export
 from tumato_symbolic.export.request import Request
-from tumato_symbolic.policy import as_table, dumps, guarantees_file, policy_from_rows
+from tumato_symbolic.policy import as_table, dumps, policy_from_rows
+from tumato_symbolic.policy.guarantees import dumps as guarantees_text
 from tumato_symbolic.semantics import guarantees as explicit_guarantees
 from tumato_symbolic.semantics import holds
 from tumato_symbolic.semantics.judge import one_of
@@ -163,7 +164,7 @@ def test_what_is_guaranteed_is_guaranteed_of_decided_states(tmp_path: Path) -> N
                 counts[level.guarantee.kind] += level.states
             assert counts == Counter(each.kind for each in truth.elements() if each is not None)
             assert found.certificate is not None
-            (tmp_path / "guarantees.json").write_text(guarantees_file.dumps(found.certificate))
+            (tmp_path / "guarantees.json").write_text(guarantees_text(found.certificate))
             options = ("--effect-ordering", "any", "--guarantees", str(tmp_path / "guarantees.json"))
             answer = ask(tmp_path, dumps(outcome.policy), print_spec(spec, Random(0)), *options)
             assert answer.code == 0, answer.out

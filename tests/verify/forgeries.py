@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import TypeVar
 
-from tumato_symbolic.policy.unrealizable import (
+from tumato_symbolic.policy.unrealizability import (
     Choice,
     Conflict,
     Cut,

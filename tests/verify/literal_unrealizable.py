@@ -10,7 +10,7 @@ from itertools import product
 from math import inf
 
 from tests.semantics import literal
-from tumato_symbolic.policy.unrealizable import (
+from tumato_symbolic.policy.unrealizability import (
     Conflict,
     Cube,
     Cut,

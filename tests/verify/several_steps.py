@@ -12,8 +12,7 @@ from tests.profiles import RESTORING
 from tests.semantics.build import Build, priority, when
 from tests.verify.policies import any_set
 from tumato_symbolic.diagrams import DiagramBuilder
-from tumato_symbolic.policy import Certificate, Policy, RankedGoal, policy_from_rows
-from tumato_symbolic.policy.records import Deviation, Restoring
+from tumato_symbolic.policy import Certificate, Deviation, Policy, RankedGoal, Restoring, policy_from_rows
 from tumato_symbolic.semantics import (
     ActionSet,
     Effort,

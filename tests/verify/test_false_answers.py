@@ -12,7 +12,7 @@ from tests.unrealizability import certified as certificate_of
 from tests.verify.test_forged_ranks import along, restoring
 from tests.verify.test_unrealizable_by_hand import conflicting, line
 from tumato_symbolic.policy import policy_from_rows
-from tumato_symbolic.policy.unrealizable import Unrealizability
+from tumato_symbolic.policy.unrealizability import Unrealizability
 from tumato_symbolic.semantics import ActionSet, Run, State
 from tumato_symbolic.spec import Not, Spec
 from tumato_symbolic.verify import PropertyName, verify, verify_unrealizable

@@ -16,8 +16,7 @@ from tests.verify.literal_unrealizable import Meaning, distance, is_proof, viola
 from tests.verify.literal_unrealizable import clause as literal_clause
 from tests.verify.test_unrealizable_by_hand import conflicting, line, self_conflicting, stuck
 from tumato_symbolic.limits import Budget
-from tumato_symbolic.policy.unrealizable import Conflict, Cut, NoAllowedSet, NoPlan, Unrealizability
-from tumato_symbolic.policy.unrealizable_file import bind
+from tumato_symbolic.policy.unrealizability import Conflict, Cut, NoAllowedSet, NoPlan, Unrealizability, bind
 from tumato_symbolic.spec import And, Executing, Formula, Iff, Not, Or, Ordering, Spec, canonical_text
 from tumato_symbolic.verify import verify_unrealizable
 from tumato_symbolic.verify.unrealizability import no_plan

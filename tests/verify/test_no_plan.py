@@ -12,8 +12,7 @@ from tests.semantics.build import Build, constraint, priority
 from tests.unrealizability import assert_never_wrong, certified, changed, unrealizable, unrealizable_specs
 from tumato_symbolic.diagrams import DiagramBuilder
 from tumato_symbolic.policy import Vocabulary
-from tumato_symbolic.policy.unrealizable import Layers, NoPlan, Unrealizability
-from tumato_symbolic.policy.unrealizable_file import dumps, loads
+from tumato_symbolic.policy.unrealizability import Layers, NoPlan, Unrealizability, dumps, loads
 from tumato_symbolic.semantics import Residual, State
 from tumato_symbolic.spec import And, Or, Ordering, Spec
 from tumato_symbolic.synthesis import unrealizability

@@ -11,8 +11,7 @@ from tests.semantics.test_restoration import EDGE, RETRY, VALVES, restoring
 from tumato_symbolic import Unrealizable, parse, synthesize
 from tumato_symbolic.diagrams import DiagramBuilder
 from tumato_symbolic.policy import Vocabulary
-from tumato_symbolic.policy.unrealizable import NoRestoration, Unrealizability
-from tumato_symbolic.policy.unrealizable_file import dumps, loads
+from tumato_symbolic.policy.unrealizability import NoRestoration, Unrealizability, dumps, loads
 from tumato_symbolic.semantics import (
     State,
     all_states,

@@ -10,8 +10,7 @@ from tests.semantics.test_restoration import OVERRIDE
 from tests.verify.several_steps import RESTORATIONS, Efforts, Said, certified, detours, exact, near, stepwise_spec
 from tests.verify.test_several_steps import PROVERS, judged_by
 from tumato_symbolic import parse
-from tumato_symbolic.policy import Policy
-from tumato_symbolic.policy.records import Deviation
+from tumato_symbolic.policy import Deviation, Policy
 from tumato_symbolic.semantics import ActionSet, State, all_states, allowed_sets, judge
 from tumato_symbolic.spec import Restoration, Spec
 from tumato_symbolic.verify import ProverName, verify

@@ -17,8 +17,7 @@ from tests.unrealizability import (
     unrealizable,
     unrealizable_specs,
 )
-from tumato_symbolic.policy.unrealizable import Conflict, NoAllowedSet, NoPlan
-from tumato_symbolic.policy.unrealizable_file import dumps, loads
+from tumato_symbolic.policy.unrealizability import Conflict, NoAllowedSet, NoPlan, dumps, loads
 from tumato_symbolic.spec import FALSE, Ordering
 from tumato_symbolic.verify import verify_unrealizable
 

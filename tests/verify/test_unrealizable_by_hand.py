@@ -17,8 +17,17 @@ from tests.unrealizability import (
     unrealizable,
 )
 from tumato_symbolic.diagnostics import UserError
-from tumato_symbolic.policy.unrealizable import Conflict, Cube, Cut, NoAllowedSet, NoPlan, Violation
-from tumato_symbolic.policy.unrealizable_file import bind, dumps, loads
+from tumato_symbolic.policy.unrealizability import (
+    Conflict,
+    Cube,
+    Cut,
+    NoAllowedSet,
+    NoPlan,
+    Violation,
+    bind,
+    dumps,
+    loads,
+)
 from tumato_symbolic.semantics import allowed
 from tumato_symbolic.spec import And, Formula, Not, Or, Spec
 from tumato_symbolic.verify import verify_unrealizable

@@ -11,7 +11,7 @@ from tests.unrealizability import certified, unrealizable
 from tests.verify.test_unrealizable_by_hand import conflicting, line, self_conflicting, stuck
 from tumato_symbolic.diagrams import DiagramBuilder
 from tumato_symbolic.limits import Context
-from tumato_symbolic.policy.unrealizable import (
+from tumato_symbolic.policy.unrealizability import (
     Conflict,
     Cube,
     NoAllowedSet,

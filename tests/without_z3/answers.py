@@ -10,7 +10,7 @@ from tests.generate import random_spec
 from tests.profiles import ALL_PROFILES
 from tests.repo.examples import EXAMPLES
 from tumato_symbolic import parse
-from tumato_symbolic.policy import dumps, unrealizable_file
+from tumato_symbolic.policy import dumps, unrealizability
 from tumato_symbolic.spec import Restoration, Spec
 from tumato_symbolic.synthesis import Realizable, Undecided, Unrealizable, synthesize
 
@@ -36,7 +36,7 @@ def _answer(name: str, spec: Spec) -> Answer:
         case Realizable():
             text = dumps(outcome.policy)
         case Unrealizable(certificate=certificate):
-            text = "" if certificate is None else unrealizable_file.dumps(certificate)
+            text = "" if certificate is None else unrealizability.dumps(certificate)
             text += repr(outcome.failures)
         case Undecided(limit=limit):
             return name, "Undecided", limit

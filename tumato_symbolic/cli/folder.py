@@ -15,7 +15,7 @@ from tumato_symbolic.cli.verifying import Criteria, exit_code, verify_claim
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.limits import NO_LIMITS, Context, LimitReachedError
 from tumato_symbolic.limits.processes import can_fork
-from tumato_symbolic.policy.claim import load_claim
+from tumato_symbolic.policy import load_claim
 from tumato_symbolic.report.folder import Entry, Folder
 from tumato_symbolic.verify.workers import Lost, in_workers
 

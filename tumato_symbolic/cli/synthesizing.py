@@ -12,13 +12,12 @@ from tumato_symbolic.cli.options import STANDARD_OUTPUT
 from tumato_symbolic.cli.targets import certificate_path
 from tumato_symbolic.diagnostics import Code, UserError, not_allowed
 from tumato_symbolic.limits import Context
-from tumato_symbolic.policy import dumps
-from tumato_symbolic.policy.saving import save_text
+from tumato_symbolic.policy import dumps, save_text
 from tumato_symbolic.report.synthesized import Synthesized
 from tumato_symbolic.synthesis import Realizable, SynthesisResult, Undecided, Unrealizable, synthesize
 
 if TYPE_CHECKING:
-    from tumato_symbolic.policy.unrealizable import Unrealizability
+    from tumato_symbolic.policy.unrealizability import Unrealizability
     from tumato_symbolic.spec import Ordering
     from tumato_symbolic.verify import ProverName, Verification
 
@@ -120,7 +119,7 @@ def write_answer(so_far: Synthesized, context: Context) -> Synthesized:
 
 def _write_certificate(certificate: Unrealizability, output: str) -> str | None:
     """Where the certificate was written; None where there is no place for it, or it is too large."""
-    from tumato_symbolic.policy.unrealizable_file import save as save_certificate
+    from tumato_symbolic.policy.unrealizability import save as save_certificate
 
     path = certificate_path(output)
     if path is None:

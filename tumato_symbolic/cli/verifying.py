@@ -20,8 +20,8 @@ from tumato_symbolic.verify.result import stopped
 from tumato_symbolic.verify.workers import cores
 
 if TYPE_CHECKING:
-    from tumato_symbolic.policy.guarantees_file import GuaranteesCertificate
-    from tumato_symbolic.policy.unrealizable import Unrealizability
+    from tumato_symbolic.policy.guarantees import GuaranteesCertificate
+    from tumato_symbolic.policy.unrealizability import Unrealizability
     from tumato_symbolic.report.unrealizable import VerifiedUnrealizable
     from tumato_symbolic.spec import Ordering, Restoration
     from tumato_symbolic.verify import ProverName, UnrealizabilityVerdict, Verification
@@ -104,7 +104,7 @@ def verify_claim(
 
 def write_certificate(certificate: GuaranteesCertificate, target: str) -> None:
     """Write it to a file; `-` is the standard output."""
-    from tumato_symbolic.policy.guarantees_file import dumps, save
+    from tumato_symbolic.policy.guarantees import dumps, save
 
     if target == STANDARD_OUTPUT:
         write(dumps(certificate).rstrip("\n"))

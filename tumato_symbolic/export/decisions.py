@@ -6,9 +6,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from tumato_symbolic.diagrams import EVERYTHING, LEAVES, Sets, room_for
-from tumato_symbolic.policy import DecisionDiagram, Policy, Vocabulary, as_diagram
-from tumato_symbolic.policy.convert import Roots, together
-from tumato_symbolic.policy.rules import minimal_rules
+from tumato_symbolic.policy import DecisionDiagram, Policy, Roots, Vocabulary, as_diagram, decided_at, minimal_rules
 from tumato_symbolic.semantics import ActionSet
 
 MOST_QUESTIONS = 20_000
@@ -75,7 +73,7 @@ class _Builder:
         """The tree of what some roots say together."""
         found = self._known.get(roots)
         if found is None:
-            said = together(self._diagram, self._levels, self._sizes, roots)
+            said = decided_at(self._diagram, self._levels, self._sizes, roots)
             if isinstance(said, tuple):
                 variable, branches = said
                 found = self._question(variable, tuple([self.at(each) for each in branches]))

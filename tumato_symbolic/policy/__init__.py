@@ -1,16 +1,32 @@
 """Policies as data: tables, diagrams, their files."""
 
-from tumato_symbolic.policy.bind import bind
-from tumato_symbolic.policy.convert import (
+from tumato_symbolic.policy.claim import load_claim
+from tumato_symbolic.policy.decisions import (
+    Roots,
+    Rule,
+    RuleList,
     as_diagram,
     as_table,
+    bind,
     count_defined,
+    decided_at,
+    find_rules,
+    fitted,
+    formula_of,
+    judged_within,
+    made_for_less,
+    minimal_rules,
+    minimized_decisions,
+    minimized_ranks,
+    minimized_restoring,
     never_executed,
     policy_from_rows,
+    restores_less,
     some_decided,
 )
-from tumato_symbolic.policy.files import load, loads, save
-from tumato_symbolic.policy.lookup import UndecidedState
+from tumato_symbolic.policy.files import dumps, load, loads, save
+from tumato_symbolic.policy.formats import fits_table
+from tumato_symbolic.policy.lookup import UndecidedState, parse_assignments, parse_state
 from tumato_symbolic.policy.policy import Policy
 from tumato_symbolic.policy.records import (
     Certificate,
@@ -21,8 +37,7 @@ from tumato_symbolic.policy.records import (
     Table,
     Vocabulary,
 )
-from tumato_symbolic.policy.states import parse_assignments, parse_state
-from tumato_symbolic.policy.write import dumps, fits_table
+from tumato_symbolic.policy.text import open_file, save_text
 
 __all__ = [
     "Certificate",
@@ -31,6 +46,9 @@ __all__ = [
     "Policy",
     "RankedGoal",
     "Restoring",
+    "Roots",
+    "Rule",
+    "RuleList",
     "Table",
     "UndecidedState",
     "Vocabulary",
@@ -38,14 +56,28 @@ __all__ = [
     "as_table",
     "bind",
     "count_defined",
+    "decided_at",
     "dumps",
+    "find_rules",
     "fits_table",
+    "fitted",
+    "formula_of",
+    "judged_within",
     "load",
+    "load_claim",
     "loads",
+    "made_for_less",
+    "minimal_rules",
+    "minimized_decisions",
+    "minimized_ranks",
+    "minimized_restoring",
     "never_executed",
+    "open_file",
     "parse_assignments",
     "parse_state",
     "policy_from_rows",
+    "restores_less",
     "save",
+    "save_text",
     "some_decided",
 ]

@@ -5,13 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from tumato_symbolic.diagnostics import Source, UserError
-from tumato_symbolic.policy.json_shape import as_object, parse_json
+from tumato_symbolic.policy.formats import UNREALIZABLE, fields_of
 from tumato_symbolic.policy.policy import Policy
-from tumato_symbolic.policy.read import UNREALIZABLE, fields_of
-from tumato_symbolic.policy.text_input import read_text
+from tumato_symbolic.policy.text import as_object, parse_json, read_text
 
 if TYPE_CHECKING:
-    from tumato_symbolic.policy.unrealizable import Unrealizability
+    from tumato_symbolic.policy.unrealizability import Unrealizability
 
 
 def load_claim(path: str) -> Policy | Unrealizability:
@@ -24,7 +23,7 @@ def load_claim(path: str) -> Policy | Unrealizability:
         document = as_object(parse_json(text, name), "the file")
         if document.get("Type") != UNREALIZABLE:
             return Policy(*fields_of(document))
-        from tumato_symbolic.policy.unrealizable_read import unrealizability_of
+        from tumato_symbolic.policy.unrealizability import unrealizability_of
 
         return unrealizability_of(document)
     except UserError as error:

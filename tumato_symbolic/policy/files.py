@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from tumato_symbolic.policy.decisions import as_diagram
+from tumato_symbolic.policy.formats import fits_table, policy_fields, policy_text
 from tumato_symbolic.policy.policy import Policy
-from tumato_symbolic.policy.read import policy_fields
-from tumato_symbolic.policy.saving import save_text
-from tumato_symbolic.policy.write import dumps
+from tumato_symbolic.policy.text import save_text
 
 
 def load(path: str) -> Policy:
@@ -22,6 +22,16 @@ def loads(text: str, name: str = "policy") -> Policy:
     and `Policy.certificate_problem` tells why.
     """
     return Policy(*policy_fields(text, name))
+
+
+def dumps(policy: Policy) -> str:
+    """The policy as JSON text in ASCII, always the same for equal policies.
+
+    A table is written as a table and a diagram as a diagram; only a table that the format cannot hold (`fits_table`)
+    is written as a diagram. Raises `UserError` (TUM508) where the text would be larger than `loads` accepts.
+    """
+    fields = policy.fields
+    return policy_text(fields if fits_table(policy.vocabulary) else fields._replace(decisions=as_diagram(policy)))
 
 
 def save(policy: Policy, path: Path) -> None:

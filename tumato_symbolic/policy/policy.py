@@ -6,10 +6,10 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from tumato_symbolic.policy.formats import policy_fields
 from tumato_symbolic.policy.lookup import Decider, make_decider
-from tumato_symbolic.policy.read import policy_fields
-from tumato_symbolic.policy.records import Certificate, DecisionDiagram, Table, Vocabulary
-from tumato_symbolic.policy.text_input import read_text
+from tumato_symbolic.policy.records import Certificate, DecisionDiagram, PolicyFields, Table, Vocabulary
+from tumato_symbolic.policy.text import read_text
 from tumato_symbolic.spec import Ordering, Restoration
 
 
@@ -36,6 +36,11 @@ class Policy:
     def load(cls, path: str | os.PathLike[str]) -> Policy:
         """Read a policy file (`-` is standard input). Raises `UserError` where it cannot be used."""
         return cls(*policy_fields(*read_text(os.fspath(path))))
+
+    @property
+    def fields(self) -> PolicyFields:
+        """What its file holds."""
+        return PolicyFields(*(getattr(self, name) for name in PolicyFields._fields))
 
     def decide(self, state: Mapping[str, str]) -> tuple[str, ...]:
         """The actions to execute in `state` (value by variable), in the order of declaration; `()` is: none.

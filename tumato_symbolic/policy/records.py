@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from tumato_symbolic.diagrams import Diagram, Reference
 from tumato_symbolic.semantics import ActionSet, Effort, State
-from tumato_symbolic.spec import Spec
+from tumato_symbolic.spec import Ordering, Restoration, Spec
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,3 +100,15 @@ class Certificate:
     ranks: Diagram[int | None]
     goals: tuple[RankedGoal, ...]
     restoring: Restoring | None = None
+
+
+class PolicyFields(NamedTuple):
+    """The fields of a `Policy`, as its file holds them."""
+
+    vocabulary: Vocabulary
+    decisions: Table | DecisionDiagram
+    ordering: Ordering | None
+    digest: str | None
+    certificate: Certificate | None
+    certificate_problem: str | None
+    restoration: Restoration

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from tumato_symbolic.diagnostics.wording import quoted
-from tumato_symbolic.policy import Vocabulary
-from tumato_symbolic.policy.rules import Rule, RuleList
+from tumato_symbolic.policy import Rule, RuleList, Vocabulary
 from tumato_symbolic.report.layout import count
 
 OTHERWISE = "otherwise"

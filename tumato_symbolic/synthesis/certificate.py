@@ -7,8 +7,17 @@ from dataclasses import replace
 
 from tumato_symbolic.diagrams import Diagram, DiagramBuilder, Reference
 from tumato_symbolic.game import Layers, Problem, Restoration
-from tumato_symbolic.policy import Certificate, DecisionDiagram, Policy, RankedGoal, Restoring, Vocabulary
-from tumato_symbolic.policy.compact import minimized_decisions, minimized_ranks, minimized_restoring
+from tumato_symbolic.policy import (
+    Certificate,
+    DecisionDiagram,
+    Policy,
+    RankedGoal,
+    Restoring,
+    Vocabulary,
+    minimized_decisions,
+    minimized_ranks,
+    minimized_restoring,
+)
 from tumato_symbolic.semantics import Effort, Residual, action_names, actions_of
 from tumato_symbolic.spec import Spec, canonical_text, digest
 from tumato_symbolic.symbolic import Bdd, Extractor

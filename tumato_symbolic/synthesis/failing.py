@@ -10,7 +10,7 @@ from tumato_symbolic.symbolic import Bdd
 from tumato_symbolic.synthesis.result import STATES_LISTED, Failure, FailureKind
 
 if TYPE_CHECKING:
-    from tumato_symbolic.policy.unrealizable import NoAllowedSet, NoPlan, NoRestoration
+    from tumato_symbolic.policy.unrealizability import NoAllowedSet, NoPlan, NoRestoration
 
 
 @dataclass(frozen=True)

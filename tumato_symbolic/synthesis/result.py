@@ -11,7 +11,7 @@ from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Formula, Ordering
 
 if TYPE_CHECKING:
-    from tumato_symbolic.policy.unrealizable import Unrealizability
+    from tumato_symbolic.policy.unrealizability import Unrealizability
     from tumato_symbolic.synthesis.diagnosis import Restorability
 
 FailureKind: TypeAlias = Literal["no-allowed-set", "no-restoration", "no-plan", "conflict"]

@@ -15,7 +15,7 @@ from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.diagnostics.wording import count, listed
 from tumato_symbolic.diagrams import DiagramBuilder
 from tumato_symbolic.game import Problem
-from tumato_symbolic.policy.part import formula_of
+from tumato_symbolic.policy import formula_of
 from tumato_symbolic.semantics import State, named
 from tumato_symbolic.semantics.lint import no_start
 from tumato_symbolic.spec import Formula

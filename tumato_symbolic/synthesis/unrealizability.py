@@ -10,8 +10,7 @@ from tumato_symbolic.diagrams import DiagramBuilder
 from tumato_symbolic.game import Layers as Ranks
 from tumato_symbolic.game import Problem
 from tumato_symbolic.policy import RankedGoal, Vocabulary
-from tumato_symbolic.policy.compact import minimized_layers, minimized_trap
-from tumato_symbolic.policy.unrealizable import (
+from tumato_symbolic.policy.unrealizability import (
     ActionEffect,
     Choice,
     Conflict,
@@ -23,6 +22,8 @@ from tumato_symbolic.policy.unrealizable import (
     NoRestoration,
     Unrealizability,
     Violation,
+    minimized_layers,
+    minimized_trap,
 )
 from tumato_symbolic.semantics import (
     ActionSet,

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from tumato_symbolic.diagrams import Reference
-from tumato_symbolic.policy import Certificate, Policy
-from tumato_symbolic.policy.records import Deviation, Restoring
+from tumato_symbolic.policy import Certificate, Deviation, Policy, Restoring
 from tumato_symbolic.semantics import ActionSet, Residual, State, action_names, named
 from tumato_symbolic.spec import Spec, canonical_text, digest, executing_atoms
 from tumato_symbolic.verify.result import CertificateUse

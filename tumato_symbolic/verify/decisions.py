@@ -7,8 +7,7 @@ from functools import cached_property
 from operator import itemgetter
 
 from tumato_symbolic.diagrams import Diagram, DiagramBuilder, Reference
-from tumato_symbolic.policy import Policy, Table
-from tumato_symbolic.policy.convert import as_table
+from tumato_symbolic.policy import Policy, Table, as_table
 from tumato_symbolic.semantics import (
     NOTHING,
     ActionSet,

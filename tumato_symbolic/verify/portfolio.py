@@ -8,8 +8,7 @@ from math import inf
 from typing import TYPE_CHECKING, Protocol
 
 from tumato_symbolic.limits import Budget, has_z3, need_z3
-from tumato_symbolic.policy import Policy, Table
-from tumato_symbolic.policy.convert import count_defined
+from tumato_symbolic.policy import Policy, Table, count_defined
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.by_diagrams.prover import WalkProver
 from tumato_symbolic.verify.by_states.prover import StateProver

@@ -9,9 +9,7 @@ from dataclasses import replace
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.limits import Budget, Context, LimitReachedError
 from tumato_symbolic.limits.processes import can_fork
-from tumato_symbolic.policy import Policy
-from tumato_symbolic.policy.bind import bind, made_for_less, restores_less
-from tumato_symbolic.policy.part import judged_within
+from tumato_symbolic.policy import Policy, bind, judged_within, made_for_less, restores_less
 from tumato_symbolic.semantics import all_states, count_states, is_valid
 from tumato_symbolic.spec import Ordering, Restoration, Spec
 from tumato_symbolic.verify.closure import with_departure

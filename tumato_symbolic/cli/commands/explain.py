@@ -177,7 +177,7 @@ def _code(known: _Known) -> int:
 def _write(path: str, source: Source, assumption: str) -> None:
     """Write the specification with the assumption of its realizable part."""
     from tumato_symbolic.explain.writing import with_assumption
-    from tumato_symbolic.policy.saving import save_text
+    from tumato_symbolic.policy import save_text
 
     text = with_assumption(source, assumption)
     if path == STANDARD_OUTPUT:

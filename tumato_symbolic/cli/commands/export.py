@@ -117,8 +117,7 @@ def run(options: Options, context: Context) -> int:
 def _request(options: Options, spec: Spec) -> Request:
     """The policy for its specification, where it was made for no weaker meaning."""
     from tumato_symbolic.export.request import Request
-    from tumato_symbolic.policy import Policy
-    from tumato_symbolic.policy.bind import fitted, made_for_less, restores_less
+    from tumato_symbolic.policy import Policy, fitted, made_for_less, restores_less
 
     policy = Policy.load(options.policy)
     if options.effect_ordering is None and made_for_less(policy, spec):
@@ -132,7 +131,7 @@ def _request(options: Options, spec: Spec) -> Request:
 
 def _write(texts: tuple[str, ...], options: Options, ordering: Ordering) -> None:
     from tumato_symbolic.diagnostics.wording import listed
-    from tumato_symbolic.policy.saving import save_text
+    from tumato_symbolic.policy import save_text
 
     if options.output == STANDARD_OUTPUT:
         write(texts[0])

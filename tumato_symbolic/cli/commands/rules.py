@@ -39,8 +39,7 @@ class Options(CommandOptions):
 
 def run(options: Options, context: Context) -> int:
     """Print rules that are known to say what the policy says; exit with 3 where they leave out states."""
-    from tumato_symbolic.policy import Policy, count_defined
-    from tumato_symbolic.policy.rules import find_rules
+    from tumato_symbolic.policy import Policy, count_defined, find_rules
     from tumato_symbolic.report import rules
 
     context.tell(f"reading {options.policy}")

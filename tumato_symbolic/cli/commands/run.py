@@ -218,7 +218,7 @@ def _write_itf(place: Place, trace: Trace, options: Options) -> None:
         return
     from pathlib import Path
 
-    from tumato_symbolic.policy.saving import save_text
+    from tumato_symbolic.policy import save_text
     from tumato_symbolic.report.layout import dump
     from tumato_symbolic.report.traces import trace_itf
 

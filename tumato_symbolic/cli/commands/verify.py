@@ -133,7 +133,7 @@ def run(options: Options, context: Context) -> int:
     """Exit with 0 only when everything that was asked is proved, and the certificate passes `--strict`."""
     from tumato_symbolic.cli.output import show_profile
     from tumato_symbolic.cli.verifying import Criteria, verify_claim, wanted_jobs
-    from tumato_symbolic.policy.claim import load_claim
+    from tumato_symbolic.policy import load_claim
 
     criteria = Criteria(
         options.effect_ordering,

@@ -52,8 +52,7 @@ def run(options: Options, context: Context) -> int:
     """Exit with 1 where the policy says nothing about the state."""
     from tumato_symbolic.cli.inputs import read_policy
     from tumato_symbolic.explain.decision import Decisions, alternative, why
-    from tumato_symbolic.policy import UndecidedState, parse_assignments
-    from tumato_symbolic.policy.part import judged_within
+    from tumato_symbolic.policy import UndecidedState, judged_within, parse_assignments
     from tumato_symbolic.report import decided
     from tumato_symbolic.report.objections import Place
     from tumato_symbolic.semantics import cases_in

@@ -9,8 +9,7 @@ from functools import cached_property, partial
 from math import prod
 
 from tumato_symbolic.limits import Budget
-from tumato_symbolic.policy import Policy
-from tumato_symbolic.policy.convert import as_diagram
+from tumato_symbolic.policy import Policy, as_diagram
 from tumato_symbolic.semantics import Residual
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.by_diagrams.closed_loop import ClosedLoop

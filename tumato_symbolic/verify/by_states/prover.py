@@ -7,8 +7,7 @@ from functools import cached_property, partial
 from itertools import islice
 
 from tumato_symbolic.limits import Context
-from tumato_symbolic.policy import Policy, Table
-from tumato_symbolic.policy.convert import as_table
+from tumato_symbolic.policy import Policy, Table, as_table
 from tumato_symbolic.semantics import ActionSet, State, duration, follow, is_valid, objections
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.by_states.claims import Claims

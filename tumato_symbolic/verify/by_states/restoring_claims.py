@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from tumato_symbolic.policy.records import Deviation, Restoring
+from tumato_symbolic.policy import Deviation, Restoring
 from tumato_symbolic.semantics import AT_ONCE, ActionSet, Effort
 from tumato_symbolic.verify.by_states.packed import Code, Packing
 from tumato_symbolic.verify.by_states.several_steps import SeveralSteps

@@ -7,7 +7,7 @@ from itertools import islice
 
 import z3
 
-from tumato_symbolic.policy.records import Deviation
+from tumato_symbolic.policy import Deviation
 from tumato_symbolic.semantics import (
     ActionSet,
     EffectSequence,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 
 from tumato_symbolic.diagrams import DiagramBuilder
-from tumato_symbolic.policy.records import Restoring
+from tumato_symbolic.policy import Restoring
 from tumato_symbolic.semantics import AT_ONCE, Effort, Restorations, State, duration, is_safe, longer, restored
 from tumato_symbolic.spec import Ordering
 from tumato_symbolic.verify.by_z3.efforts import Efforts

@@ -9,8 +9,7 @@ from functools import cached_property
 
 from tumato_symbolic.diagrams import count_true
 from tumato_symbolic.limits import Budget
-from tumato_symbolic.policy import Policy, Table
-from tumato_symbolic.policy.convert import as_diagram
+from tumato_symbolic.policy import Policy, Table, as_diagram
 from tumato_symbolic.semantics import is_valid
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.by_z3.best_property import prove_best

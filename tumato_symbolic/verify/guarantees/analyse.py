@@ -6,11 +6,8 @@ from collections.abc import Iterator
 
 from tumato_symbolic.diagrams import Reference
 from tumato_symbolic.limits import Budget, Context, LimitReachedError
-from tumato_symbolic.policy import Policy
-from tumato_symbolic.policy.bind import bind
-from tumato_symbolic.policy.convert import as_diagram
-from tumato_symbolic.policy.guarantees_file import GuaranteesCertificate
-from tumato_symbolic.policy.part import judged_within
+from tumato_symbolic.policy import Policy, as_diagram, bind, judged_within
+from tumato_symbolic.policy.guarantees import GuaranteesCertificate
 from tumato_symbolic.semantics import Guarantee, Residual, Shortcoming, Shortcomings, State, residual_goal, shows
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.by_diagrams.closed_loop import ClosedLoop

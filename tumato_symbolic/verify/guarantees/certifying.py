@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from tumato_symbolic.diagrams import DiagramBuilder, Reference
-from tumato_symbolic.policy.guarantees_file import CertifiedGoal, CertifiedLevel, GuaranteesCertificate
-from tumato_symbolic.policy.records import Vocabulary
+from tumato_symbolic.policy import Vocabulary
+from tumato_symbolic.policy.guarantees import CertifiedGoal, CertifiedLevel, GuaranteesCertificate
 from tumato_symbolic.semantics import Residual, action_names
 from tumato_symbolic.spec import Ordering, Spec, canonical_text, digest
 from tumato_symbolic.verify.by_diagrams.functions import Function

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from tumato_symbolic.policy.guarantees_file import GuaranteesCertificate
+from tumato_symbolic.policy.guarantees import GuaranteesCertificate
 from tumato_symbolic.semantics import Guarantee, Shortcoming
 
 StateCube: TypeAlias = tuple[tuple[int, ...], ...]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from tumato_symbolic.limits import Budget
-from tumato_symbolic.policy.unrealizable import Conflict, NoAllowedSet, NoPlan
+from tumato_symbolic.policy.unrealizability import Conflict, NoAllowedSet, NoPlan
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.unrealizability.allowed_step import AllowedStep
 from tumato_symbolic.verify.unrealizability.conflict import check_conflict

@@ -10,7 +10,7 @@ from typing import TypeAlias
 
 import z3
 
-from tumato_symbolic.policy.unrealizable import Conflict, Cut
+from tumato_symbolic.policy.unrealizability import Conflict, Cut
 from tumato_symbolic.semantics import Residual, is_valid, reached, residual_goal
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.verify.by_z3.goal_terms import reached_term

@@ -8,7 +8,7 @@ from typing import Final
 
 import z3
 
-from tumato_symbolic.policy.unrealizable import Cube, NoAllowedSet
+from tumato_symbolic.policy.unrealizability import Cube, NoAllowedSet
 from tumato_symbolic.semantics import (
     ActionSet,
     State,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tumato_symbolic.diagrams import Diagram
-from tumato_symbolic.policy.unrealizable import Layers, NoPlan
+from tumato_symbolic.policy.unrealizability import Layers, NoPlan
 from tumato_symbolic.semantics import Residual, State, is_valid, residual_goal
 from tumato_symbolic.verify.by_diagrams.functions import BudgetError
 from tumato_symbolic.verify.by_z3.encoding import diagram_terms

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Final
 
-from tumato_symbolic.policy.unrealizable import NoRestoration
+from tumato_symbolic.policy.unrealizability import NoRestoration
 from tumato_symbolic.semantics import is_safe, is_valid, level
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.by_diagrams.functions import FALSE, BudgetError, given_up

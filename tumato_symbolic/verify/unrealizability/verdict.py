@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from tumato_symbolic.limits import Budget, Context, LimitReachedError, need_z3
-from tumato_symbolic.policy.unrealizable import Conflict, NoAllowedSet, NoPlan, NoRestoration, Unrealizability
-from tumato_symbolic.policy.unrealizable_file import bind
+from tumato_symbolic.policy.unrealizability import Conflict, NoAllowedSet, NoPlan, NoRestoration, Unrealizability, bind
 from tumato_symbolic.semantics import State, is_safe, is_start, is_valid
 from tumato_symbolic.spec import Ordering, Spec, digest
 from tumato_symbolic.spec.support import require_no_starts, require_one_step

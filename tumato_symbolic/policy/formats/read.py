@@ -2,17 +2,29 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 from tumato_symbolic.diagnostics import Code, Source, UserError
 from tumato_symbolic.diagnostics.wording import listed
 from tumato_symbolic.diagrams import Diagram, Reference, rebuild
-from tumato_symbolic.policy.json_shape import as_list, as_names, as_object, as_text, as_whole, member, parse_json, wrong
-from tumato_symbolic.policy.messages import described, fault, show, way_out
-from tumato_symbolic.policy.objects import Row
-from tumato_symbolic.policy.read_diagrams import read_diagram
-from tumato_symbolic.policy.records import Certificate, DecisionDiagram, RankedGoal, Table, Vocabulary
-from tumato_symbolic.policy.restoring_file import read_restoring
+from tumato_symbolic.policy.formats.read_diagrams import read_diagram
+from tumato_symbolic.policy.formats.restoring import read_restoring
+from tumato_symbolic.policy.records import Certificate, DecisionDiagram, PolicyFields, RankedGoal, Table, Vocabulary
+from tumato_symbolic.policy.text import (
+    Row,
+    as_list,
+    as_names,
+    as_object,
+    as_text,
+    as_whole,
+    described,
+    fault,
+    member,
+    parse_json,
+    show,
+    way_out,
+    wrong,
+)
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import Ordering, Restoration
 
@@ -21,18 +33,6 @@ FORMAT_VERSION = 1
 
 UNREALIZABLE = "unrealizable"
 """The `Type` of certificates of unrealizability."""
-
-
-class PolicyFields(NamedTuple):
-    """The fields of a `Policy`."""
-
-    vocabulary: Vocabulary
-    decisions: Table | DecisionDiagram
-    ordering: Ordering | None
-    digest: str | None
-    certificate: Certificate | None
-    certificate_problem: str | None
-    restoration: Restoration
 
 
 def policy_fields(text: str, name: str) -> PolicyFields:

@@ -4,13 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from tumato_symbolic.diagrams import Diagram, Reference, smallest
 from tumato_symbolic.policy.records import Certificate, DecisionDiagram, RankedGoal, Restoring
-
-if TYPE_CHECKING:
-    from tumato_symbolic.policy.unrealizable import NoPlan, NoRestoration
 
 
 def minimized_decisions(decisions: DecisionDiagram, sizes: Sequence[int]) -> DecisionDiagram:
@@ -37,15 +33,3 @@ def minimized_restoring(
     """The same efforts in all `states`, a diagram in the same order and a root of it; elsewhere they mean nothing."""
     efforts, (worst, nominal) = smallest(restoring.efforts, (restoring.worst, restoring.nominal), sizes, states)
     return replace(restoring, efforts=efforts, worst=worst, nominal=nominal)
-
-
-def minimized_trap(reason: NoRestoration, sizes: Sequence[int], states: Reference) -> NoRestoration:
-    """The same set in all `states`, a root of the same diagram; elsewhere it means nothing."""
-    diagram, (root,) = smallest(reason.diagram, [reason.root], sizes, (reason.diagram, states))
-    return replace(reason, diagram=diagram, root=root)
-
-
-def minimized_layers(reason: NoPlan, sizes: Sequence[int], states: Reference) -> NoPlan:
-    """The same layers in all `states`, a root of the same diagram; elsewhere they mean nothing."""
-    diagram = reason.diagram
-    return reason.drawn(*smallest(diagram, reason.roots, sizes, (diagram, states)))

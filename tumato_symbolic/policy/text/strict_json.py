@@ -6,8 +6,8 @@ import json
 from typing import Any
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source, Span, UserError
-from tumato_symbolic.policy.messages import fault, show
-from tumato_symbolic.policy.objects import Objects, RepeatedKeyError, Row
+from tumato_symbolic.policy.text.messages import fault, show
+from tumato_symbolic.policy.text.rows import Objects, RepeatedKeyError, Row
 
 MAX_BYTES = 256 * 1024 * 1024
 """The largest policy that is read or written: 256 MiB."""

@@ -7,9 +7,8 @@ from typing import Any
 from tumato_symbolic.diagnostics import Code
 from tumato_symbolic.diagnostics.wording import count
 from tumato_symbolic.diagrams import Node
-from tumato_symbolic.policy.json_shape import as_list, as_names, as_whole, member
-from tumato_symbolic.policy.messages import fault, show, way_out
 from tumato_symbolic.policy.records import Vocabulary
+from tumato_symbolic.policy.text import as_list, as_names, as_whole, fault, member, show, way_out
 
 
 def read_diagram(

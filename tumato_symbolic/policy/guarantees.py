@@ -8,11 +8,9 @@ from json import dumps as _json
 from pathlib import Path
 
 from tumato_symbolic.diagrams import Diagram, Reference, rebuild
-from tumato_symbolic.policy.read import FORMAT_VERSION
+from tumato_symbolic.policy.formats import FORMAT_VERSION, block, diagram_lines, variable_entries
 from tumato_symbolic.policy.records import Vocabulary
-from tumato_symbolic.policy.saving import save_text
-from tumato_symbolic.policy.write import variable_entries
-from tumato_symbolic.policy.write_diagrams import block, diagram_lines
+from tumato_symbolic.policy.text import save_text
 from tumato_symbolic.spec import Ordering, Restoration
 
 GUARANTEES = "guarantees"

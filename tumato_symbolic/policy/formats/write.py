@@ -1,4 +1,4 @@
-"""`Policy` to JSON text. The format is described in `docs/policy.md`."""
+"""A policy to JSON text. The format is described in `docs/policy.md`."""
 
 from __future__ import annotations
 
@@ -6,13 +6,11 @@ from collections.abc import Iterator
 from json import dumps as _json
 
 from tumato_symbolic.diagrams import rebuild
-from tumato_symbolic.policy.convert import as_diagram
-from tumato_symbolic.policy.json_shape import MAX_BYTES, too_large
-from tumato_symbolic.policy.policy import Policy
-from tumato_symbolic.policy.read import FORMAT_VERSION
-from tumato_symbolic.policy.records import Certificate, DecisionDiagram, Table, Vocabulary
-from tumato_symbolic.policy.restoring_file import restoring_lines
-from tumato_symbolic.policy.write_diagrams import block, diagram_lines
+from tumato_symbolic.policy.formats.read import FORMAT_VERSION
+from tumato_symbolic.policy.formats.restoring import restoring_lines
+from tumato_symbolic.policy.formats.write_diagrams import block, diagram_lines
+from tumato_symbolic.policy.records import Certificate, DecisionDiagram, PolicyFields, Table, Vocabulary
+from tumato_symbolic.policy.text import MAX_BYTES, too_large
 
 FRAMEWORK_VERSION = "0.0.0"
 """What policies of Tumato 2.0 carry as `PolicyFrameworkVersion`."""
@@ -23,11 +21,10 @@ def fits_table(vocabulary: Vocabulary) -> bool:
     return all(name != "Actions" for name, _ in vocabulary.variables)
 
 
-def dumps(policy: Policy) -> str:
-    """The policy as JSON text in ASCII, always the same for equal policies.
+def policy_text(policy: PolicyFields) -> str:
+    """A policy as JSON text in ASCII; a table has to be one that the format can hold (`fits_table`).
 
-    A table is written as a table and a diagram as a diagram; only a table that the format cannot hold (`fits_table`)
-    is written as a diagram. Raises `UserError` (TUM508) where the text would be larger than `loads` accepts.
+    Raises `UserError` (TUM508) where the text would be larger than what is read.
     """
     text = "\n".join(_lines(policy)) + "\n"
     if len(text) > MAX_BYTES:
@@ -35,12 +32,11 @@ def dumps(policy: Policy) -> str:
     return text
 
 
-def _lines(policy: Policy) -> Iterator[str]:
+def _lines(policy: PolicyFields) -> Iterator[str]:
     vocabulary = policy.vocabulary
-    table = policy.decisions if isinstance(policy.decisions, Table) and fits_table(vocabulary) else None
     yield "{"
     yield f'  "PolicyFrameworkVersion": {_json(FRAMEWORK_VERSION)},'
-    yield f'  "Type": "{"policy-diagram" if table is None else "policy"}",'
+    yield f'  "Type": "{"policy" if isinstance(policy.decisions, Table) else "policy-diagram"}",'
     yield f'  "FormatVersion": {FORMAT_VERSION},'
     if policy.digest is not None:
         yield f'  "SpecificationDigest": {_json(policy.digest)},'
@@ -51,10 +47,10 @@ def _lines(policy: Policy) -> Iterator[str]:
     yield from block('  "Actions": [', map(_json, vocabulary.actions), "  ],")
     yield from block('  "States": {', variable_entries(vocabulary), "  },")
     last = "" if policy.certificate is None else ","
-    if table is not None:
-        yield from block('  "Policy": [', _rows(table, vocabulary), f"  ]{last}")
+    if isinstance(policy.decisions, Table):
+        yield from block('  "Policy": [', _rows(policy.decisions, vocabulary), f"  ]{last}")
     else:
-        yield from _decisions(as_diagram(policy), vocabulary, last)
+        yield from _decisions(policy.decisions, vocabulary, last)
     if policy.certificate is not None:
         yield from _certificate(policy.certificate, vocabulary)
     yield "}"

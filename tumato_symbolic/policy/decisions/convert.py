@@ -89,7 +89,7 @@ def _executes(decisions: DecisionDiagram, sizes: tuple[int, ...], action: Refere
     pending: list[Roots] = [(decisions.defined, action)]
     seen: set[Roots] = set(pending)
     while pending:
-        found = together(diagram, levels, sizes, pending.pop())
+        found = decided_at(diagram, levels, sizes, pending.pop())
         if isinstance(found, frozenset):
             if found:
                 return True
@@ -123,7 +123,7 @@ def _cubes(decisions: DecisionDiagram, sizes: tuple[int, ...]) -> Iterator[tuple
     while pending:
         roots, fixed = pending.pop()
         if roots not in known:
-            known[roots] = together(diagram, levels, sizes, roots)
+            known[roots] = decided_at(diagram, levels, sizes, roots)
         found = known[roots]
         if isinstance(found, frozenset):
             yield fixed, found
@@ -132,7 +132,7 @@ def _cubes(decisions: DecisionDiagram, sizes: tuple[int, ...]) -> Iterator[tuple
             pending += [(below, {**fixed, variable: value}) for value, below in enumerate(branches)]
 
 
-def together(
+def decided_at(
     diagram: Diagram[bool], levels: Sequence[int], sizes: Sequence[int], roots: Roots
 ) -> ActionSet | Branches | None:
     """What roots say together: the first of where something is decided, each other one of where its action is executed.

@@ -8,19 +8,29 @@ from typing import Any, Literal, TypeVar
 from tumato_symbolic.diagnostics import Code
 from tumato_symbolic.diagnostics.wording import count
 from tumato_symbolic.diagrams import Diagram, Reference, rebuild
-from tumato_symbolic.policy.json_shape import as_list, as_names, as_object, as_text, as_whole, member, wrong
-from tumato_symbolic.policy.messages import fault, show, way_out
-from tumato_symbolic.policy.read import (
+from tumato_symbolic.policy.formats import (
     UNREALIZABLE,
     check_version,
+    read_diagram,
     read_digest,
     read_ordering,
     read_restoration,
     read_vocabulary,
 )
-from tumato_symbolic.policy.read_diagrams import read_diagram
 from tumato_symbolic.policy.records import RankedGoal, Vocabulary
-from tumato_symbolic.policy.unrealizable import (
+from tumato_symbolic.policy.text import (
+    as_list,
+    as_names,
+    as_object,
+    as_text,
+    as_whole,
+    fault,
+    member,
+    show,
+    way_out,
+    wrong,
+)
+from tumato_symbolic.policy.unrealizability.records import (
     ActionEffect,
     Choice,
     Conflict,

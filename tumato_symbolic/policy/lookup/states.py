@@ -8,9 +8,8 @@ from itertools import islice
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.diagnostics.wording import listed
-from tumato_symbolic.policy.json_shape import as_object, as_text, parse_json
-from tumato_symbolic.policy.messages import MOST, fault, show, way_out
 from tumato_symbolic.policy.records import Vocabulary
+from tumato_symbolic.policy.text import MOST, as_object, as_text, fault, parse_json, show, way_out
 
 
 def check_state(vocabulary: Vocabulary, state: Mapping[str, str]) -> None:

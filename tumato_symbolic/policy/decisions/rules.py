@@ -20,10 +20,10 @@ from tumato_symbolic.diagrams import (
     room_for,
 )
 from tumato_symbolic.limits import Context, LimitReachedError
-from tumato_symbolic.policy.convert import as_diagram
-from tumato_symbolic.policy.messages import fault
+from tumato_symbolic.policy.decisions.convert import as_diagram
 from tumato_symbolic.policy.policy import Policy
 from tumato_symbolic.policy.records import DecisionDiagram, Vocabulary
+from tumato_symbolic.policy.text import fault
 from tumato_symbolic.semantics import ActionSet
 
 _Region: TypeAlias = tuple[ActionSet, int]

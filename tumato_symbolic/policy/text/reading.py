@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import BinaryIO
 
 from tumato_symbolic.diagnostics import Code, Source
-from tumato_symbolic.policy.json_shape import MAX_BYTES, too_large
-from tumato_symbolic.policy.messages import fault
+from tumato_symbolic.policy.text.messages import fault
+from tumato_symbolic.policy.text.strict_json import MAX_BYTES, too_large
 from tumato_symbolic.syntax.reading import standard_input
 
 

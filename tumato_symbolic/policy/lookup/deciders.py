@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from tumato_symbolic.diagrams import Reference
-from tumato_symbolic.policy.messages import described
+from tumato_symbolic.policy.lookup.states import check_state
 from tumato_symbolic.policy.records import DecisionDiagram, Table, Vocabulary
-from tumato_symbolic.policy.states import check_state
+from tumato_symbolic.policy.text import described
 
 _MOST_REMEMBERED = 20_000
 """After so many different places in the diagrams of a policy, they are forgotten."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tumato_symbolic.diagrams import Diagram, Reference
-from tumato_symbolic.policy.convert import as_diagram
+from tumato_symbolic.policy.decisions.convert import as_diagram
 from tumato_symbolic.policy.policy import Policy
 from tumato_symbolic.spec import FALSE, TRUE, And, Formula, Is, Or, Spec
 

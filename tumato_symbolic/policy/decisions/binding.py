@@ -8,8 +8,7 @@ from itertools import islice
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.diagrams import Diagram, Leaf, Reference, rebuild
-from tumato_symbolic.policy.cases import by_case
-from tumato_symbolic.policy.messages import MOST, show, way_out
+from tumato_symbolic.policy.decisions.cases import by_case
 from tumato_symbolic.policy.policy import Policy
 from tumato_symbolic.policy.records import (
     Certificate,
@@ -20,6 +19,7 @@ from tumato_symbolic.policy.records import (
     Table,
     Vocabulary,
 )
+from tumato_symbolic.policy.text import MOST, show, way_out
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import Assignment, Spec
 

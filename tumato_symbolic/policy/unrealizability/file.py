@@ -1,37 +1,27 @@
-"""A certificate of unrealizability as a file, and in the numbers of a specification (`docs/certificate.md`)."""
+"""A certificate of unrealizability as a file (`docs/certificate.md`)."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import replace
 from json import dumps as _json
 from pathlib import Path
 from typing import Any
 
 from tumato_symbolic.diagnostics import Source, UserError
 from tumato_symbolic.diagrams import rebuild
-from tumato_symbolic.policy.bind import Renumbering
-from tumato_symbolic.policy.json_shape import MAX_BYTES, as_object, parse_json, too_large
-from tumato_symbolic.policy.read import FORMAT_VERSION, UNREALIZABLE
-from tumato_symbolic.policy.records import RankedGoal, Vocabulary
-from tumato_symbolic.policy.saving import save_text
-from tumato_symbolic.policy.text_input import read_text
-from tumato_symbolic.policy.unrealizable import (
-    Choice,
+from tumato_symbolic.policy.formats import FORMAT_VERSION, UNREALIZABLE, block, diagram_lines, variable_entries
+from tumato_symbolic.policy.records import Vocabulary
+from tumato_symbolic.policy.text import MAX_BYTES, as_object, parse_json, read_text, save_text, too_large
+from tumato_symbolic.policy.unrealizability.read import unrealizability_of
+from tumato_symbolic.policy.unrealizability.records import (
     Conflict,
-    Cube,
-    Cut,
     NoAllowedSet,
     NoPlan,
     NoRestoration,
     Unrealizability,
     Violation,
 )
-from tumato_symbolic.policy.unrealizable_read import unrealizability_of
-from tumato_symbolic.policy.write import variable_entries
-from tumato_symbolic.policy.write_diagrams import block, diagram_lines
 from tumato_symbolic.semantics import State
-from tumato_symbolic.spec import Spec
 
 
 def loads(text: str, name: str = "certificate") -> Unrealizability:
@@ -195,52 +185,3 @@ def _conflict(reason: Conflict, vocabulary: Vocabulary, names: _Names) -> Iterat
         for goal, root in zip(reason.goals, roots, strict=True)
     ]
     yield from block('    "Goals": [', map(_json, goals), "    ]")
-
-
-def bind(certificate: Unrealizability, spec: Spec) -> Unrealizability:
-    """The same certificate, renumbered so that its vocabulary is that of `spec`.
-
-    Raises `UserError` with (at most 20 of) the names that only one side has (TUM503, TUM504, TUM505).
-    """
-    target = Vocabulary.of(spec)
-    by = Renumbering.between(certificate.vocabulary, target, "certificate")
-    match certificate.reason:
-        case NoAllowedSet(state, cubes):
-            bound = None if cubes is None else tuple(_bound_cube(cube, by) for cube in cubes)
-            return replace(certificate, vocabulary=target, reason=NoAllowedSet(by.state(state), bound))
-        case NoRestoration(state, diagram, root):
-            diagram, (root,) = by.diagram(diagram, [root])
-            return replace(certificate, vocabulary=target, reason=NoRestoration(by.state(state), diagram, root))
-        case NoPlan() as no_plan:
-            return replace(certificate, vocabulary=target, reason=_bound_plan(no_plan, by))
-        case Conflict() as conflict:
-            return replace(certificate, vocabulary=target, reason=_bound_conflict(conflict, by))
-
-
-def _bound_cube(cube: Cube, by: Renumbering) -> Cube:
-    violation = cube.violation
-    effects = tuple((by.actions[action], by.assignment(effect)) for action, effect in violation.outcome)
-    actions = tuple(by.actions[action] for action in violation.actions)
-    return Cube(
-        by.action_set(cube.executed), by.action_set(cube.idle), replace(violation, actions=actions, outcome=effects)
-    )
-
-
-def _bound_plan(reason: NoPlan, by: Renumbering) -> NoPlan:
-    return replace(reason, state=by.state(reason.state)).drawn(*by.diagram(reason.diagram, reason.roots))
-
-
-def _bound_conflict(reason: Conflict, by: Renumbering) -> Conflict:
-    diagram, roots = by.diagram(reason.distances, [goal.root for goal in reason.goals])
-    return Conflict(
-        reason.starts,
-        tuple(
-            Choice(by.state(choice.state), tuple((by.state(after), goal) for after, goal in choice.options))
-            for choice in reason.choices
-        ),
-        tuple(
-            Cut(cut.kind, cut.goal, cut.states, None if cut.end is None else by.state(cut.end)) for cut in reason.cuts
-        ),
-        diagram,
-        tuple(RankedGoal(goal.bodies, goal.executed, root) for goal, root in zip(reason.goals, roots, strict=True)),
-    )

@@ -12,7 +12,7 @@ from pathlib import Path
 from types import FrameType
 
 from tumato_symbolic.diagnostics import Code, Source
-from tumato_symbolic.policy.messages import fault
+from tumato_symbolic.policy.text.messages import fault
 
 _MOST_LINKS = 40
 """Symbolic links that are followed one after the other."""

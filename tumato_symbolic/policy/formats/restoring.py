@@ -8,11 +8,10 @@ from typing import Any
 
 from tumato_symbolic.diagnostics import Code
 from tumato_symbolic.diagrams import Diagram, rebuild
-from tumato_symbolic.policy.json_shape import as_list, as_names, as_object, as_text, as_whole, member
-from tumato_symbolic.policy.messages import fault, show
-from tumato_symbolic.policy.read_diagrams import read_diagram
+from tumato_symbolic.policy.formats.read_diagrams import read_diagram
+from tumato_symbolic.policy.formats.write_diagrams import block, diagram_lines
 from tumato_symbolic.policy.records import Deviation, Restoring, Vocabulary
-from tumato_symbolic.policy.write_diagrams import block, diagram_lines
+from tumato_symbolic.policy.text import as_list, as_names, as_object, as_text, as_whole, fault, member, show
 from tumato_symbolic.semantics import ActionSet, Effort, State
 
 _TITLE = "Certificate.Restoring"

@@ -1,0 +1,41 @@
+"""What a policy decides: other forms of it, smaller ones, and in the numbers of a specification."""
+
+from tumato_symbolic.policy.decisions.binding import Renumbering, bind, fitted, made_for_less, restores_less
+from tumato_symbolic.policy.decisions.compact import minimized_decisions, minimized_ranks, minimized_restoring
+from tumato_symbolic.policy.decisions.convert import (
+    Roots,
+    as_diagram,
+    as_table,
+    count_defined,
+    decided_at,
+    never_executed,
+    policy_from_rows,
+    some_decided,
+)
+from tumato_symbolic.policy.decisions.part import formula_of, judged_within
+from tumato_symbolic.policy.decisions.rules import Rule, RuleList, find_rules, minimal_rules
+
+__all__ = [
+    "Renumbering",
+    "Roots",
+    "Rule",
+    "RuleList",
+    "as_diagram",
+    "as_table",
+    "bind",
+    "count_defined",
+    "decided_at",
+    "find_rules",
+    "fitted",
+    "formula_of",
+    "judged_within",
+    "made_for_less",
+    "minimal_rules",
+    "minimized_decisions",
+    "minimized_ranks",
+    "minimized_restoring",
+    "never_executed",
+    "policy_from_rows",
+    "restores_less",
+    "some_decided",
+]

@@ -1,0 +1,48 @@
+"""Certificates of unrealizability: records, file, and in the numbers of a specification (`docs/certificate.md`).
+
+Only who needs one loads this room: the face of `policy` does not.
+"""
+
+from tumato_symbolic.policy.unrealizability.binding import bind
+from tumato_symbolic.policy.unrealizability.compact import minimized_layers, minimized_trap
+from tumato_symbolic.policy.unrealizability.file import dumps, load, loads, save
+from tumato_symbolic.policy.unrealizability.read import unrealizability_of
+from tumato_symbolic.policy.unrealizability.records import (
+    ActionEffect,
+    Choice,
+    Conflict,
+    Cube,
+    Cut,
+    Layers,
+    NoAllowedSet,
+    NoPlan,
+    NoRestoration,
+    Reason,
+    Unrealizability,
+    Violation,
+    ViolationKind,
+)
+
+__all__ = [
+    "ActionEffect",
+    "Choice",
+    "Conflict",
+    "Cube",
+    "Cut",
+    "Layers",
+    "NoAllowedSet",
+    "NoPlan",
+    "NoRestoration",
+    "Reason",
+    "Unrealizability",
+    "Violation",
+    "ViolationKind",
+    "bind",
+    "dumps",
+    "load",
+    "loads",
+    "minimized_layers",
+    "minimized_trap",
+    "save",
+    "unrealizability_of",
+]
