@@ -98,6 +98,15 @@ def decisions(made: Request) -> Iterator[tuple[State, tuple[str, ...] | None]]:
             yield state, None
 
 
+def expected_lines(made: Request) -> list[str]:
+    """What a driver has to print of every state: `undecided`, or `decided` and the numbers of the actions."""
+    numbers = {name: number for number, name in enumerate(made.policy.vocabulary.actions)}
+    return [
+        "undecided" if actions is None else " ".join(["decided", *(str(numbers[each]) for each in actions)])
+        for _, actions in decisions(made)
+    ]
+
+
 def write(folder: Path, made: Request, texts: tuple[str, ...], endings: tuple[str, ...]) -> list[Path]:
     """The files of an export."""
     paths = [folder / f"{made.name}{ending}" for ending in endings]

@@ -10,8 +10,17 @@ from pathlib import Path
 import pytest
 
 from tests.export.c_compiler import compile_c, needs_cc
-from tests.export.policies import EXAMPLES, decisions, example, random_request, request, write, written
-from tumato_symbolic.export import c99
+from tests.export.policies import (
+    EXAMPLES,
+    decisions,
+    example,
+    expected_lines,
+    random_request,
+    request,
+    write,
+    written,
+)
+from tumato_symbolic.export import c99, c_decisions
 from tumato_symbolic.export.c99_names import Names
 from tumato_symbolic.export.request import Request
 
@@ -57,13 +66,7 @@ def answers(made: Request, states: Sequence[Sequence[int]], folder: Path) -> lis
 
 
 def _compare(made: Request, folder: Path) -> None:
-    said = list(decisions(made))
-    numbers = {name: number for number, name in enumerate(made.policy.vocabulary.actions)}
-    expected = [
-        "undecided" if actions is None else " ".join(["decided", *(str(numbers[each]) for each in actions)])
-        for _, actions in said
-    ]
-    assert answers(made, [state for state, _ in said], folder) == expected
+    assert answers(made, [state for state, _ in decisions(made)], folder) == expected_lines(made)
 
 
 @needs_cc
@@ -71,7 +74,7 @@ def _compare(made: Request, folder: Path) -> None:
 def test_every_example_decides_as_decide_does(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """In every state, as nested `switch` and as Boolean functions; from a table and from a diagram."""
     _compare(example(name), tmp_path)
-    monkeypatch.setattr(c99, "MOST_ANSWERS", 0)
+    monkeypatch.setattr(c_decisions, "MOST_ANSWERS", 0)
     _compare(example(name, diagram=True), tmp_path)
 
 
@@ -81,7 +84,7 @@ def test_random_policies_with_nasty_names(seed: int, tmp_path: Path, monkeypatch
     """Keywords, names of ours, names that are alike once joined; undecided states; more actions than bits in a word."""
     made = random_request(seed)
     if seed % 3 == 0:
-        monkeypatch.setattr(c99, "MOST_ANSWERS", 0)
+        monkeypatch.setattr(c_decisions, "MOST_ANSWERS", 0)
     _compare(replace(made, name=("int", "a-b", "9 lives", "UPPER", "_")[seed % 5]), tmp_path)
 
 

@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from string import Template
 from textwrap import indent
 
-from tumato_symbolic.diagrams import Reference
 from tumato_symbolic.export.c99_check import check
 from tumato_symbolic.export.c99_names import Names
-from tumato_symbolic.export.decisions import MOST_QUESTIONS, Answer, Question, Tree, size_written_out, tree_of
+from tumato_symbolic.export.c_decisions import statements
 from tumato_symbolic.export.request import Request, commented
-from tumato_symbolic.policy import Policy, as_diagram
-
-MOST_ANSWERS = 1_000
-"""Trees with more answers are not written as nested `switch`: each action is a Boolean function instead."""
 
 _HEADER = Template("""\
 /* What to do in a state: the decisions of a policy. Written by `tumato-sym export c99`.
@@ -103,7 +99,7 @@ def files(request: Request) -> tuple[str, ...]:
         u=names.upper,
         clear=indent("\n".join(f"actions->words[{word}] = 0u;" for word in range(names.words)), "    "),
         invalid="\n        || ".join(_range_checks(names)) or "state == (void *)0",
-        decide="".join(_decide(request.policy, names)),
+        decide="".join(f"    {line}\n" for line in statements(request.policy, _C(names))),
     )
     return (source, header, check(request)) if request.check else (source, header)
 
@@ -126,75 +122,46 @@ def _range_checks(names: Names) -> Iterator[str]:
         yield f"(unsigned)state->{field} >= {len(values)}u"
 
 
-def _decide(policy: Policy, names: Names) -> Iterator[str]:
-    tree = tree_of(policy, MOST_QUESTIONS)
-    if tree is None or size_written_out(tree) > MOST_ANSWERS:
-        return _by_functions(policy, names)
-    return _by_switch(tree, names, "    ")
+@dataclass(frozen=True, slots=True)
+class _C:
+    """The style of C: see `Style`."""
 
+    names: Names
 
-def _by_switch(tree: Tree, names: Names, margin: str) -> Iterator[str]:
-    """Statements that end by returning the status."""
-    if isinstance(tree, Answer):
-        yield from _answer(tree, names, margin)
-        return
-    yield f"{margin}switch (state->{names.fields[tree.variable]}) {{\n"
-    groups = _largest_last(tree)
-    for place, (values, below) in enumerate(groups, 1):
-        yield from (f"{margin}case {names.values[tree.variable][value]}:\n" for value in values)
-        if place == len(groups):
-            yield f"{margin}default:\n"
-        yield from _by_switch(below, names, f"{margin}    ")
-    yield f"{margin}}}\n"
+    def field(self, variable: int) -> str:
+        """A field of the state."""
+        return f"state->{self.names.fields[variable]}"
 
+    def label(self, variable: int, value: int) -> str:
+        """An enumeration constant."""
+        return self.names.values[variable][value]
 
-def _largest_last(question: Question) -> list[tuple[tuple[int, ...], Tree]]:
-    groups = question.groups()
-    largest = max(reversed(groups), key=lambda group: len(group[0]))
-    return [*(group for group in groups if group is not largest), largest]
+    def number(self, variable: int) -> str:
+        """A cast."""
+        return f"(unsigned){self.field(variable)}"
 
+    def answer(self, actions: tuple[int, ...] | None) -> Iterator[str]:
+        """The words of the set, where they are not 0, and the status."""
+        if actions is None:
+            yield f"return {self.names.upper}_UNDECIDED;"
+            return
+        words: dict[int, list[int]] = {}
+        for action in actions:
+            words.setdefault(action // 32, []).append(action)
+        for word, inside in words.items():
+            mask = sum(1 << (action % 32) for action in inside)
+            shown = ", ".join(self.names.actions[action] for action in inside)
+            yield f"actions->words[{word}] = UINT32_C({mask:#x}); /* {shown} */"
+        yield f"return {self.names.upper}_DECIDED;"
 
-def _answer(answer: Answer, names: Names, margin: str) -> Iterator[str]:
-    if answer.actions is None:
-        yield f"{margin}return {names.upper}_UNDECIDED;\n"
-        return
-    words: dict[int, list[int]] = {}
-    for action in answer.actions:
-        words.setdefault(action // 32, []).append(action)
-    for word, actions in words.items():
-        mask = sum(1 << (action % 32) for action in actions)
-        shown = ", ".join(names.actions[action] for action in actions)
-        yield f"{margin}actions->words[{word}] = UINT32_C({mask:#x}); /* {shown} */\n"
-    yield f"{margin}return {names.upper}_DECIDED;\n"
-
-
-def _by_functions(policy: Policy, names: Names) -> Iterator[str]:
-    """A Boolean for every node of the diagrams, those below before those above, without a branch or a loop."""
-    decisions = as_diagram(policy)
-    diagram, base = decisions.diagram, len(decisions.diagram.leaves)
-
-    def shown(reference: Reference) -> str:
-        return ("true" if diagram.leaves[reference] else "false") if reference < base else f"n{reference - base}"
-
-    for variable in sorted({diagram.order[level] for level, _ in diagram.nodes}):
-        yield f"    const unsigned v{variable} = (unsigned)state->{names.fields[variable]};\n"
-    for number, (level, below) in enumerate(diagram.nodes):
-        yield f"    const bool n{number} = {_choice(f'v{diagram.order[level]}', [shown(each) for each in below])};\n"
-    yield f"    if (!{shown(decisions.defined)}) {{\n        return {names.upper}_UNDECIDED;\n    }}\n"
-    for word in range(names.words):
-        roots = list(enumerate(decisions.roots))[32 * word : 32 * word + 32]
-        bits = [f"((uint32_t){shown(root)} << {action % 32})" for action, root in roots if shown(root) != "false"]
-        if bits:
-            yield f"    actions->words[{word}] = " + "\n        | ".join(bits) + ";\n"
-    yield f"    return {names.upper}_DECIDED;\n"
-
-
-def _choice(value: str, below: Sequence[str]) -> str:
-    """What follows from each value; the most frequent is for all that are not named."""
-    rest = max(dict.fromkeys(below), key=below.count)
-    text = rest
-    for each in dict.fromkeys(below):
-        if each != rest:
-            tests = " || ".join(f"{value} == {number}u" for number, found in enumerate(below) if found == each)
-            text = f"({tests}) ? {each} : {text}"
-    return text
+    def answer_by(self, executed: Sequence[str]) -> Iterator[str]:
+        """The words of the set, a bit of each expression, and the status."""
+        for word in range(self.names.words):
+            roots = list(enumerate(executed))[32 * word : 32 * word + 32]
+            bits = [f"((uint32_t){root} << {action % 32})" for action, root in roots if root != "false"]
+            if bits:
+                first, *others = bits
+                yield f"actions->words[{word}] = {first}" + ("" if others else ";")
+                yield from (f"    | {bit}" for bit in others[:-1])
+                yield from (f"    | {bit};" for bit in others[-1:])
+        yield f"return {self.names.upper}_DECIDED;"

@@ -31,6 +31,7 @@ class Target:
 TARGETS: Final = {
     "python": Target("a module for Python 3.8 or later", "amr.py"),
     "c99": Target("a source and its header in C99", "amr.c", beside=(".h",), check="_check.c"),
+    "cpp": Target("a header in C++17, which needs no other file", "amr.hpp"),
     "btcpp": Target("a tree for BehaviorTree.CPP 4", "amr.xml"),
     "nusmv": Target("a model for NuSMV, with its claims", "amr.smv"),
     "promela": Target("a model for SPIN, with its claims", "amr.pml"),
