@@ -6,9 +6,10 @@ import re
 from collections.abc import Callable
 from typing import Final
 
-from tumato_symbolic.diagnostics import Code, Diagnostic, Note
+from tumato_symbolic.diagnostics import Code, Diagnostic
 from tumato_symbolic.diagnostics.wording import listed, quoted
 from tumato_symbolic.syntax.habits import joined, told, touch, unexpected
+from tumato_symbolic.syntax.list_habits import LISTS
 from tumato_symbolic.syntax.situation import Situation
 from tumato_symbolic.syntax.tokens import BLOCKS, HARD, TITLES
 
@@ -64,7 +65,6 @@ _HOMES: Final = {
 }
 """The blocks of entries."""
 
-_SEQUENCE: Final = frozenset({"sequence", "sequential", "ordered", "order", "steps", "seq", "list", "mission"})
 _COPIED: Final = {
     "state": "for N in {0} state NAME_{{N}} can be VALUE, VALUE end for",
     "resource": "for N in {0} resource NAME_{{N}} end for",
@@ -88,6 +88,9 @@ def _character(here: Situation) -> Diagnostic | None:
         return unexpected(token.span, text, "leave the quotes out: names and values have none", character)
     if text in ("[", "]") and (here.wants_predicate or ")" in here.expected):
         return unexpected(token.span, text, f"write `{'(' if text == '[' else ')'}`", character)
+    if text in ("[", "]", "(", ")") and {"NUMBER", "NAME"} & here.expected and before.text in ("be", ":"):
+        one = "write one number" if "NAME" not in here.expected else "leave it out: nothing stands around a list"
+        return unexpected(token.span, text, one, Code.TUM104 if token.kind == "other" else Code.TUM105)
     if text == "." and touch(before, token) and not touch(token, after):
         return unexpected(token.span, text, "leave it out: nothing ends a line", character)
     if text in (".", "-") and before.kind == "word" and touch(before, token) and touch(token, after):
@@ -129,17 +132,6 @@ def _names(here: Situation) -> Diagnostic | None:
     form = _COPIED.get(place, "NAME in {{{0}}}").format(numbers)
     message = f"{quoted(f'{here.at(first).text}..{last.text}')} is not a name"
     return told(joined(here.at(first), last), f"write `{form}`", message, Code.TUM113)
-
-
-def _goal_type(here: Situation) -> Diagnostic | None:
-    if here.expected != {"priority", "constraint"} or here.token.kind != "word" or here.in_another_case:
-        return None
-    way_out = "`priority`: the first goal whose condition holds; `constraint`: all goals whose conditions hold at once"
-    if here.token.text.lower() in _SEQUENCE:
-        way_out = "write `goal type: priority`, with `when NOT p then goal: p` before `when NOT q then goal: q`"
-    elif here.misspelled:
-        return None
-    return told(here.token.span, way_out, f"there is no goal type {quoted(here.token.text)}")
 
 
 def _field(here: Situation) -> Diagnostic | None:
@@ -185,6 +177,8 @@ def _entry(here: Situation) -> Diagnostic | None:
     if here.misspelled and after.text not in ("is", "in") and token.text != "goals":
         return None
     way_out = _ENTRIES[word]
+    if here.declares(token.text) and {"AND", "is"} & here.expected == {"AND"} and word in ("rule", "assume", "start"):
+        return unexpected(token.span, token.text, f"write `AND` before it, or `{word}:` where it is one more")
     begins = token.text in ("NOT", "IF", "(", "executing", "true", "false") or token.kind == "word"
     if not begins or token.text in HARD - {"NOT", "IF"} or here.in_another_case or "AND" in here.expected:
         return None
@@ -202,6 +196,8 @@ def _list(here: Situation) -> Diagnostic | None:
         return unexpected(token.span, "{", "leave the braces out: `can be VALUE, VALUE`")
     if not here.lacks_comma:
         return None
+    if here.says_initial_value:
+        return unexpected(token.span, token.text, "leave it out: with which values runs begin is said in `BEGIN START`")
     way_out = "write `,` before it" if here.begins_value else "write `,`"
     return unexpected(token.span, token.text, way_out, Code.TUM104 if token.kind == "other" else Code.TUM105)
 
@@ -231,24 +227,6 @@ def _outside(here: Situation) -> Diagnostic | None:
     return unexpected(token.span, "END", "leave it out: no block is open here") if token.text == "END" else None
 
 
-def _conditional_goal(here: Situation) -> Diagnostic | None:
-    """`when p: goal: q`, `when p goal: q`, `when p then q` and `goal: when p then q`."""
-    token = here.token
-    form = "write `when PREDICATE then goal: PREDICATE`"
-    if "then" in here.expected and token.text in (":", "goal", "do", "reach", ","):
-        return told(token.span, form, f"unexpected {quoted(token.text)} where `then` is expected")
-    if (
-        here.expected == {"BEGIN", "goal"}
-        and token.kind == "word"
-        and token.text not in HARD
-        and not here.in_another_case
-    ):
-        return None if token.text == "when" else unexpected(token.span, token.text, "write `goal:` after `then`")
-    if token.text == "when" and here.wants_predicate and here.at(-1).text == ":" and here.at(-2).text == "goal":
-        return unexpected(token.span, "when", form)
-    return None
-
-
 def _declaration(here: Situation) -> Diagnostic | None:
     """A colon after a name, a title or a header; braces around an action; a number for a name."""
     token, before = here.token, here.at(-1)
@@ -272,39 +250,14 @@ def _declaration(here: Situation) -> Diagnostic | None:
     return None
 
 
-def _copies(here: Situation) -> Diagnostic | None:
-    """Headers of copies as in other languages, and copies that are not closed."""
-    token, before = here.token, here.at(-1)
-    start = here.last("for")
-    if start is None:
-        return None
-    if token.text == ":" and "where" in here.expected:
-        return unexpected(token.span, ":", "leave it out")
-    if token.text in ("=", "from", "of", "∈") and here.expected == {"in"}:
-        return unexpected(token.span, token.text, "write `in`")
-    if before.text in ("each", "all", "every") and here.expected == {"in"}:
-        return unexpected(before.span, before.text, f"leave it out: `for {token.text} in VALUE, VALUE`")
-    if token.text in ("if", "IF", "when") and "where" in here.expected:
-        return unexpected(token.span, token.text, "write `where`")
-    if token.text == "END" and here.at(1).text.upper() == "FOR" and "end" in here.expected:
-        return unexpected(joined(token, here.at(1)), f"END {here.at(1).text}", "write `end for`", Code.TUM111)
-    if (token.text == "END" and "end" in here.expected) or (before.text == "end" and here.expected == {"for"}):
-        notes = (Note("they begin here", start.span),)
-        place = token.span if before.text != "end" else before.span
-        return Diagnostic(Code.TUM107, "these copies are not closed", place, "write `end for`", notes)
-    return None
-
-
 ENTRIES: tuple[Callable[[Situation], Diagnostic | None], ...] = (
     _case,
     _outside,
     _range,
     _character,
-    _copies,
-    _goal_type,
+    *LISTS,
     _field,
     _none,
-    _conditional_goal,
     _declaration,
     _list,
     _entry,

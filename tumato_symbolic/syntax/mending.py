@@ -23,6 +23,8 @@ def mending(here: Situation, found: Diagnostic) -> Mending | None:
 
 
 def _of_block(here: Situation) -> Mending | None:
+    if here.begins_block_of_action:
+        return Mending(2, ("action",))
     if here.end_words and here.title:
         return Mending(here.words_on_line(here.end_words[0].line), here.title[len(here.end_words) - 1 :])
     if here.block_is_unclosed and here.title:
@@ -40,6 +42,8 @@ def _of_character(here: Situation) -> Mending | None:
         return Mending(here.tokens_on_line)
     if token.text == ";":
         return Mending(1, (here.goes_on,) if here.goes_on else ())
+    if here.says_initial_value:
+        return Mending(2)
     if here.lacks_comma:
         return Mending(0 if here.begins_value else 1, (",",))
     needless = (token.text in ("{", "}") and "nominal" in here.expected) or (
@@ -68,6 +72,8 @@ def _of_copies(here: Situation) -> Mending | None:
 
 
 def _of_words(here: Situation, found: Diagnostic) -> Mending | None:
+    if here.or_values:
+        return Mending(2 * len(here.or_values))
     meant = here.in_another_case or here.misspelled
     if meant is not None and f"did you mean `{meant}`" in (found.help or ""):
         return Mending(1, (meant,))

@@ -5,12 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
-from tumato_symbolic.diagnostics import Code, Diagnostic, Note, Span
+from tumato_symbolic.diagnostics import Code, Diagnostic, Note
 from tumato_symbolic.diagnostics.wording import MAX_QUOTED, listed, quoted
+from tumato_symbolic.syntax.block_mistakes import BOUNDS
 from tumato_symbolic.syntax.entry_habits import ENTRIES
 from tumato_symbolic.syntax.habits import PREDICATES
+from tumato_symbolic.syntax.operator_habits import OPERATORS, function
 from tumato_symbolic.syntax.situation import Situation
-from tumato_symbolic.syntax.tokens import BLOCKS, COMPARING, HARD, MAX_DIGITS, Token
+from tumato_symbolic.syntax.tokens import COMPARING, HARD, MAX_DIGITS, Token
 
 _OPERATORS = ("AND", "OR", "IFONLYIF", "THEN")
 _FORMS = {
@@ -47,56 +49,6 @@ def explain(here: Situation) -> Diagnostic:
     """The mistake, told as precisely as the detectors below know it."""
     found = (detector(here) for detector in _DETECTORS)
     return next((each for each in found if each is not None), None) or _unexpected(here)
-
-
-def _wrong_end(here: Situation) -> Diagnostic | None:
-    if not here.end_words or not here.title or here.begin is None:
-        return None
-    rest = here.tokens[here.index : here.index + 2]
-    same_line = [each.text for each in rest if each.kind == "word" and each.line == here.end_words[0].line]
-    written = " ".join([*(each.text for each in here.end_words), *same_line])
-    title = " ".join(here.title)
-    return Diagnostic(
-        Code.TUM108,
-        f"{quoted(written)} does not close `BEGIN {title}`",
-        _join(here.end_words[0].span, (rest[len(same_line) - 1] if same_line else here.end_words[-1]).span),
-        help=f"write `END {title}`",
-        notes=(Note("the block begins here", here.open[here.begin].span),),
-    )
-
-
-def _unclosed_block(here: Situation) -> Diagnostic | None:
-    if not here.block_is_unclosed or here.begin is None:
-        return None
-    title = " ".join(here.title)
-    return Diagnostic(
-        Code.TUM107,
-        f"the block `BEGIN {title}` is not closed",
-        here.token.span,
-        help=f"write `END {title}` before this",
-        notes=(Note("the block begins here", here.open[here.begin].span),),
-    )
-
-
-def _block_title(here: Situation) -> Diagnostic | None:
-    start = here.title_start
-    if start is None:
-        return None
-    length = 2 if here.tokens[start].text in ("STATE", "REACTION") else 1
-    words = [each.text for each in here.tokens[start : start + length] if each.kind == "word" and each.text not in HARD]
-    titles = [" ".join(title) for title in BLOCKS]
-    return Diagnostic(
-        Code.TUM105,
-        f"there is no block named {quoted(' '.join(words))}" if words else "`BEGIN` needs the name of a block",
-        here.token.span,
-        help="did you mean `BEGIN STATE RULES` or `BEGIN REACTION RULES`?"
-        if words == ["RULES"]
-        else "did you mean `BEGIN START`?"
-        if words[:1] in (["INIT"], ["INITIAL"])
-        else f"did you mean `BEGIN {' '.join(here.meant_title)}`?"
-        if here.meant_title
-        else f"the blocks are {listed(titles)}",
-    )
 
 
 def _character(here: Situation) -> Diagnostic | None:
@@ -314,15 +266,10 @@ def _shown(token: Token) -> str:
     return "the text ends" if token.kind == "end" else f"unexpected {quoted(token.text)}"
 
 
-def _join(first: Span, last: Span) -> Span:
-    return Span(first.line, first.column, last.end_line, last.end_column)
-
-
 _DETECTORS: tuple[Callable[[Situation], Diagnostic | None], ...] = (
+    *OPERATORS,
     _clause,
-    _wrong_end,
-    _unclosed_block,
-    _block_title,
+    *BOUNDS,
     *ENTRIES,
     *PREDICATES,
     _character,
@@ -335,4 +282,5 @@ _DETECTORS: tuple[Callable[[Situation], Diagnostic | None], ...] = (
     _misspelled,
     _comma,
     _missing_is,
+    function,
 )

@@ -194,6 +194,8 @@ class _Run:
         if self._ends_lost_copies():
             self.index += 2
             return
+        if self._ends_block_of_action():
+            return
         situation = self._situation()
         found = explain(situation)
         self.found.append(found)
@@ -202,6 +204,18 @@ class _Run:
             self.index += meant.passed
         else:
             self._panic()
+
+    def _ends_block_of_action(self) -> bool:
+        """Go on after `END ACTION`, where `BEGIN ACTION` was read as `action` and is reported."""
+        begun = zip(self.tokens, self.tokens[1 : self.index], strict=False)
+        here = self.tokens[self.index - 1].text, self.tokens[self.index].text.upper()
+        if here != ("END", "ACTION") or ("BEGIN", "ACTION") not in {(one.text, two.text.upper()) for one, two in begun}:
+            return False
+        self.stack.cut(len(self.stack.values) - 1)
+        self.index += 1
+        self.actions = True
+        self.blocks += 1
+        return True
 
     def _ends_lost_copies(self) -> bool:
         """Whether `end for` stands here and its `for` was passed over after a mistake."""

@@ -72,6 +72,11 @@ class Situation:
         return self.unclosed or ("END" in self.expected and (self.token.kind == "end" or self.token.text == "BEGIN"))
 
     @property
+    def begins_block_of_action(self) -> bool:
+        """Whether a block begins here that would hold one action: `BEGIN ACTION go`."""
+        return self.title == ("ACTIONS",) and [self.token.text, self.at(1).text.upper()] == ["BEGIN", "ACTION"]
+
+    @property
     def lacks_goal_type(self) -> bool:
         """Whether a list of goals begins with a goal rather than with its type."""
         recent = [token.text for token in self.open[-3:]]
@@ -106,6 +111,12 @@ class Situation:
     def begins_comment(self) -> bool:
         """Whether the token begins a comment in another language, rather than a text that is no specification."""
         begins = self.token.kind == "other" and (self.token.text[0] in "#%" or self.token.text == "--")
+        before, touches = self.at(-1), self.token.column == self.at(-1).span.end_column
+        operator = (touches and self.token.text in ("%", "--")) or (
+            self.token.text == "%" and self.declares(before.text)
+        )
+        if operator and self.token.line == before.line:
+            return False
         return begins and (self.index > 0 or any(each.text == "BEGIN" for each in self.tokens))
 
     @property
@@ -129,6 +140,20 @@ class Situation:
             if first.text == "is":
                 return second.text, False, self.index - length
         return None
+
+    @property
+    def or_values(self) -> tuple[str, ...]:
+        """The values that stand alone after `or`, in `S is a or b or c` from the first `or` on; most often none."""
+        follows = self.at(-2).text == "is" or (self.at(-2).text == "not" and self.at(-3).text == "is")
+        values: list[str] = []
+        while follows and self.at(2 * len(values)).text in ("or", "Or"):
+            value, after = self.at(2 * len(values) + 1), self.at(2 * len(values) + 2)
+            if value.kind not in ("word", "number") or value.text in HARD or self.declares(value.text):
+                break
+            if after.text in ("is", "in", "not", *COMPARING):
+                break
+            values.append(value.text)
+        return tuple(values)
 
     def closing_brace(self) -> int:
         """The place after the brace that closes the set with which the token begins."""
@@ -169,6 +194,11 @@ class Situation:
         if "," not in self.expected or "state" not in self.expected or "AND" in self.expected:
             return False
         return self.token.text.lower() in ("or", "and", "|", "||", "/") or self.begins_value
+
+    @property
+    def says_initial_value(self) -> bool:
+        """Whether the token begins what a variable is at first, after the list of its values."""
+        return self.lacks_comma and self.token.text in ("default", "init", "initial", "initially")
 
     @property
     def begins_value(self) -> bool:
