@@ -25,7 +25,7 @@ def read_diagram(
     order, sizes = tuple(numbers[name] for name in names), vocabulary.sizes
     leaves = as_list(member(section, "Leaves", where), f"`{title}.Leaves`")
     if not leaves:
-        raise fault(Code.TUM502, f"{where} has no leaves")
+        raise fault(Code.TUM502, f"`{title}.Leaves` is empty")
     entries = as_list(member(section, "Nodes", where), f"`{title}.Nodes`")
     return order, leaves, _nodes(entries, where, [sizes[variable] for variable in order], len(leaves))
 

@@ -53,7 +53,7 @@ def _deviation(entry: object, number: int, vocabulary: Vocabulary) -> Deviation:
     better = as_names(member(section, "Better", here), f"`Better` of {here}")
     for name in better:
         if name not in vocabulary.actions:
-            raise fault(Code.TUM505, f"`Better` of {here} has the unknown action {show(name)}")
+            raise fault(Code.TUM505, f"`Better` of {here} mentions the unknown action {show(name)}")
     chosen: ActionSet = frozenset(map(vocabulary.actions.index, better))
     state, missed = (_state(section, name, here, vocabulary) for name in ("State", "Missed"))
     return Deviation(state, chosen, missed)
@@ -61,15 +61,16 @@ def _deviation(entry: object, number: int, vocabulary: Vocabulary) -> Deviation:
 
 def _state(section: dict[str, Any], name: str, here: str, vocabulary: Vocabulary) -> State:
     named = as_object(member(section, name, here), f"`{name}` of {here}")
-    if set(named) != {variable for variable, _ in vocabulary.variables}:
-        raise fault(Code.TUM503, f"`{name}` of {here} does not give every variable a value")
-    state = []
-    for variable, values in vocabulary.variables:
-        value = as_text(named[variable], f"{show(variable)} in `{name}` of {here}")
-        if value not in values:
+    known = dict(vocabulary.variables)
+    for variable, value in named.items():
+        if variable not in known:
+            raise fault(Code.TUM503, f"`{name}` of {here} has the unknown variable {show(variable)}")
+        if as_text(value, f"{show(variable)} in `{name}` of {here}") not in known[variable]:
             raise fault(Code.TUM504, f"`{name}` of {here} gives {show(variable)} the unknown value {show(value)}")
-        state.append(values.index(value))
-    return tuple(state)
+    for variable in known:
+        if variable not in named:
+            raise fault(Code.TUM503, f"`{name}` of {here} has no value for {show(variable)}")
+    return tuple(values.index(named[variable]) for variable, values in vocabulary.variables)
 
 
 def restoring_lines(restoring: Restoring, vocabulary: Vocabulary) -> Iterator[str]:

@@ -49,6 +49,10 @@ Entry = TypeVar("Entry")
 
 WHERE = "the certificate"
 
+_CONDITIONS = (
+    '"precondition", "resource", "nominal-conflict", "reaction-rule", "unsafe", "falsified", "idle" or "nominal-unsafe"'
+)
+
 
 def unrealizability_of(document: dict[str, Any]) -> Unrealizability:
     """The certificate that a JSON object describes. Raises `UserError` (TUM502 to TUM505) where it describes none."""
@@ -76,7 +80,7 @@ class _Reader:
 
     def reason(self, section: dict[str, Any]) -> NoAllowedSet | NoRestoration | NoPlan | Conflict:
         """What `Reason` holds."""
-        match as_text(member(section, "Kind", "`Reason`"), "`Reason.Kind`"):
+        match member(section, "Kind", "`Reason`"):
             case "no-allowed-set":
                 return self._no_allowed_set(section)
             case "no-restoration":
@@ -86,8 +90,7 @@ class _Reader:
             case "conflict":
                 return self._conflict(section)
             case kind:
-                expected = 'expected "no-allowed-set", "no-restoration", "no-plan" or "conflict"'
-                raise fault(Code.TUM502, f"`Reason.Kind` is {show(kind)}", expected)
+                raise wrong("`Reason.Kind`", '"no-allowed-set", "no-restoration", "no-plan" or "conflict"', kind)
 
     def _no_allowed_set(self, section: dict[str, Any]) -> NoAllowedSet:
         state = self._state(member(section, "State", "`Reason`"), "`Reason.State`")
@@ -103,22 +106,21 @@ class _Reader:
 
     def _violation(self, value: object, where: str) -> Violation:
         section = as_object(value, where)
-        kind = as_text(member(section, "Kind", where), f"`Kind` in {where}")
-        match kind:
-            case "precondition":
+        match member(section, "Kind", where):
+            case "precondition" as kind:
                 return Violation(kind, self._named(section, where, 1))
-            case "resource" | "nominal-conflict":
+            case "resource" | "nominal-conflict" as kind:
                 return Violation(kind, self._named(section, where, 2))
-            case "reaction-rule":
+            case "reaction-rule" as kind:
                 return Violation(kind, rule=as_text(member(section, "Rule", where), f"`Rule` in {where}"))
-            case "unsafe":
+            case "unsafe" as kind:
                 return Violation(kind, outcome=self._effects(section, where))
-            case "falsified":
+            case "falsified" as kind:
                 return Violation(kind, self._named(section, where, 1), outcome=self._effects(section, where))
-            case "idle" | "nominal-unsafe":
+            case "idle" | "nominal-unsafe" as kind:
                 return Violation(kind)
-            case _:
-                raise fault(Code.TUM502, f"`Kind` in {where} is {show(kind)}, which is not a condition")
+            case found:
+                raise wrong(f"`Kind` in {where}", _CONDITIONS, found)
 
     def _named(self, section: dict[str, Any], where: str, wanted: int) -> tuple[int, ...]:
         """`Actions` of a violation, which names so many."""
@@ -130,7 +132,7 @@ class _Reader:
 
     def _effects(self, section: dict[str, Any], where: str) -> tuple[ActionEffect, ...]:
         entries = as_list(member(section, "Outcome", where), f"`Outcome` in {where}")
-        return tuple(self._effect(entry, f"effect {n} of {where}") for n, entry in enumerate(entries, 1))
+        return tuple(self._effect(entry, f"effect {n} of {where}") for n, entry in enumerate(entries))
 
     def _effect(self, value: object, where: str) -> ActionEffect:
         section = as_object(value, where)
@@ -157,10 +159,10 @@ class _Reader:
 
         def goal(value: object, where: str) -> Layers:
             bodies, executed, entry = self._goal(value, where)
-            layers = as_list(member(entry, "Layers", where), f"`Layers` of {where}")
+            layers = _numbers(member(entry, "Layers", where), f"`Layers` of {where}", end)
             if not layers:
                 raise fault(Code.TUM502, f"`Layers` of {where} is empty")
-            return Layers(bodies, executed, tuple(as_whole(root, f"a layer of {where}", end) for root in layers))
+            return Layers(bodies, executed, layers)
 
         goals = _each(member(section, "Goals", "`Reason`"), "Goals", "goal", goal)
         read = NoPlan(state, found, goals)
@@ -202,10 +204,11 @@ class _Reader:
         section = as_object(value, where)
         state = self._state(member(section, "State", where), f"`State` of {where}")
         options = []
-        for entry in as_list(member(section, "Options", where), f"`Options` of {where}"):
-            option = as_object(entry, f"an option of {where}")
-            successor = self._state(member(option, "Successor", f"an option of {where}"), f"`Successor` in {where}")
-            goal = as_whole(member(option, "Goal", f"an option of {where}"), f"`Goal` of an option of {where}", goals)
+        for number, entry in enumerate(as_list(member(section, "Options", where), f"`Options` of {where}")):
+            here = f"option {number} of {where}"
+            option = as_object(entry, here)
+            successor = self._state(member(option, "Successor", here), f"`Successor` of {here}")
+            goal = as_whole(member(option, "Goal", here), f"`Goal` of {here}", goals)
             options.append((successor, goal))
         return Choice(state, tuple(options))
 
@@ -219,7 +222,7 @@ class _Reader:
             case "loop":
                 kind, end = "loop", None
                 if "End" in section:
-                    raise fault(Code.TUM502, f"{where} is a loop, but has an `End`")
+                    raise fault(Code.TUM502, f'{where} is of kind "loop", and must not have `End`')
             case found:
                 raise wrong(f"`Kind` of {where}", '"path" or "loop"', found)
         goal = as_whole(member(section, "Goal", where), f"`Goal` of {where}", goals)
