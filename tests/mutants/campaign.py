@@ -13,6 +13,7 @@ from random import Random
 from typing import Literal
 
 from tests.checker.standalone import ask
+from tests.clauses.generate import random_pair
 from tests.generate import random_text
 from tests.mutants import by_coq, policies, specs
 from tests.mutants.truth import is_right
@@ -20,9 +21,12 @@ from tests.profiles import ALL_PROFILES
 from tumato_symbolic import Realizable, parse, synthesize
 from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.policy import Policy, dumps, loads
-from tumato_symbolic.semantics import all_states, count_states, is_valid
+from tumato_symbolic.semantics import all_states, count_states, is_start
 from tumato_symbolic.spec import Spec, digest
 from tumato_symbolic.verify import ProverName, verify
+
+CLAUSES = "clauses"
+"""The profile of specifications with conditional and relative effects, and with starts."""
 
 LARGEST = 60
 """The most states of a specification that is taken."""
@@ -72,16 +76,24 @@ class Tally:
 
 def examine(profile: str, seed: int, count: int, folder: Path) -> Tally:
     """Up to `count` mutants of one specification, none where it is too large or not realizable."""
-    text, tally = random_text(seed, ALL_PROFILES[profile]), Tally()
+    text, tally = text_of(profile, seed), Tally()
     bases = bases_of(text)
     for mutant in _mutants(bases, text, Random(f"{profile} {seed}"), count) if bases else ():
         tally.complaints += [f"{profile} {seed} {mutant.kind}: {each}" for each in judge(mutant, text, tally, folder)]
     return tally
 
 
+def text_of(profile: str, seed: int) -> str:
+    """The specification of a seed."""
+    return random_pair(seed).text if profile == CLAUSES else random_text(seed, ALL_PROFILES[profile])
+
+
 def bases_of(text: str) -> list[policies.Document]:
-    """The policy of a specification in both forms; none where it is too large or not realizable."""
-    spec, bases = parse(text), list[policies.Document]()
+    """The policy of a specification in both forms; none where it is too large, not realizable or in error."""
+    try:
+        spec, bases = parse(text), list[policies.Document]()
+    except UserError:
+        return []
     forms: tuple[Literal["table", "diagram"], ...] = ("table", "diagram")
     for form in forms if count_states(spec) <= LARGEST else ():
         outcome = synthesize(spec, policy_format=form)
@@ -118,7 +130,7 @@ def renew_digest(document: policies.Document, lines: list[str]) -> None:
 def judge(
     mutant: Mutant, original: str, tally: Tally, folder: Path, for_coq: list[by_coq.Question] | None = None
 ) -> Iterator[str]:
-    """Complaints about one mutant. One whose specification is in error, or has no valid state, is no mutant.
+    """Complaints about one mutant. One whose specification is in error, or has no valid start, is no mutant.
 
     What Coq is to be asked is added to `for_coq`.
     """
@@ -126,7 +138,7 @@ def judge(
         spec = parse(mutant.spec)
     except UserError:
         return
-    if not any(is_valid(spec, state) for state in all_states(spec)):
+    if not any(is_start(spec, state) for state in all_states(spec)):
         return
     tally.mutants += 1
     tally.forms[mutant.document["Type"]] += 1

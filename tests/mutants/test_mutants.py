@@ -7,13 +7,13 @@ from pathlib import Path
 import pytest
 
 from tests.export.compiler import COQC
-from tests.mutants.campaign import Tally, examine
+from tests.mutants.campaign import CLAUSES, Tally, examine
 from tests.mutants.stepwise import examine_stepwise
 from tests.mutants.unrealizable import examine_conflict, examine_unrealizable
 from tests.profiles import ALL_PROFILES
 
 
-@pytest.mark.parametrize("profile", ALL_PROFILES)
+@pytest.mark.parametrize("profile", [*ALL_PROFILES, CLAUSES])
 def test_every_tier_tells_right_from_wrong(profile: str, tmp_path: Path) -> None:
     """Z3, the walk and the stand-alone checker accept every right mutant and reject every wrong one, strictly."""
     total = Tally()

@@ -28,6 +28,7 @@ from tumato_symbolic.semantics import (
     restored,
     successor,
 )
+from tumato_symbolic.semantics.judge import one_of
 from tumato_symbolic.spec import Ordering, Spec, canonical_text, digest, executing_atoms
 
 Rows = dict[State, ActionSet]
@@ -41,7 +42,7 @@ def is_right(policy: Policy, spec: Spec) -> bool:
     ordering: Ordering = spec.effect_ordering or "any"
     if (bound.ordering, ordering) == ("first", "any") or restores_less(bound, spec):
         return False
-    rows = decisions(bound, spec)
+    rows = decisions(policy, spec)
     return is_right_policy(spec, rows, ordering) and claims_hold(bound, spec, rows, ordering)
 
 
@@ -64,6 +65,8 @@ def claims_hold(policy: Policy, spec: Spec, rows: Rows, ordering: Ordering) -> b
         return True
     if policy.digest != digest(spec) or policy.certificate is None:
         return False
+    if spec.starts:
+        spec = spec.within(one_of({state for state in rows if is_valid(spec, state)}))
     ranks = _ranks(policy.certificate, spec)
     return (
         ranks is not None
@@ -76,7 +79,7 @@ def claims_hold(policy: Policy, spec: Spec, rows: Rows, ordering: Ordering) -> b
 def _ranks(certificate: Certificate, spec: Spec) -> dict[Residual, Numbers] | None:
     """The numbers of the states that ranks speak of; None where an entry is about no goal, or doubles another one."""
     bodies = {canonical_text(spec, body.formula): number for number, body in enumerate(spec.bodies)}
-    names = [action.name for action in spec.actions]
+    actions = {spec.actions[cases[0]].name: cases[0] for cases in spec.cases}
     everywhere = spec.restores_stepwise and certificate.restoring is not None
     valid = [state for state in all_states(spec) if is_valid(spec, state)]
     covered = [state for state in valid if everywhere or is_safe(spec, state)]
@@ -84,7 +87,8 @@ def _ranks(certificate: Certificate, spec: Spec) -> dict[Residual, Numbers] | No
     for entry in certificate.goals:
         if not set(entry.bodies) <= set(bodies):
             return None
-        goal = Residual(frozenset(bodies[text] for text in entry.bodies), frozenset(map(names.index, entry.executed)))
+        executed = frozenset(actions[name] for name in entry.executed)
+        goal = Residual(frozenset(bodies[text] for text in entry.bodies), executed)
         mentioned = {action for body in goal.bodies for action in executing_atoms(spec.bodies[body].formula)}
         if goal in found or not goal.executed <= mentioned:
             return None
