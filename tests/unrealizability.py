@@ -205,9 +205,9 @@ def _changed_layers(reason: NoPlan, vocabulary: Vocabulary, dice: Random) -> NoP
             nodes = (*reason.diagram.nodes[:node], turned, *reason.diagram.nodes[node + 1 :])
             return replace(reason, diagram=replace(reason.diagram, nodes=nodes))
         case 4:
-            place = dice.randrange(len(reason.roots))
-            roots = [*reason.roots[:place], dice.randrange(references), *reason.roots[place + 1 :]]
-            return reason.drawn(reason.diagram, roots)
+            diagram, roots = reason.drawing
+            place = dice.randrange(len(roots))
+            return reason.drawn(diagram, (*roots[:place], dice.randrange(references), *roots[place + 1 :]))
         case _:
             return replace(reason, state=_any_state(vocabulary, dice))
 

@@ -13,10 +13,10 @@ from tumato_symbolic.policy import (
     Policy,
     RankedGoal,
     as_table,
+    minimized,
     minimized_decisions,
-    minimized_ranks,
 )
-from tumato_symbolic.policy.unrealizability import Layers, NoPlan, minimized_layers
+from tumato_symbolic.policy.unrealizability import Layers, NoPlan
 
 
 @QUICK
@@ -39,7 +39,7 @@ def test_ranks_stay_where_they_matter(policy: Policy, data: st.DataObject) -> No
     goals = [RankedGoal((str(n),), (), builder.from_table(sizes, table, None)) for n, table in enumerate(tables)]
     given_ranks = Certificate(builder.finish(), tuple(goals))
     care = (decisions.diagram, decisions.defined)
-    found = minimized_ranks(given_ranks, sizes, care)
+    found = minimized(given_ranks, sizes, care)
     for before, after in zip(given_ranks.goals, found.goals, strict=True):
         for state in states:
             if care[0].evaluate(care[1], state):
@@ -55,9 +55,9 @@ def test_layers_stay_where_they_matter(sets: list[frozenset[tuple[int, ...]]]) -
     care, *roots = [builder.from_table(sizes, dict.fromkeys(sorted(each), True), False) for each in sets]
     goals = (Layers(("a",), (), tuple(roots[:2])), Layers(("b",), ("go",), tuple(roots[2:])))
     reason = NoPlan((0, 0, 0), builder.finish(), goals)
-    found = minimized_layers(reason, sizes, care)
+    found = minimized(reason, sizes, (reason.diagram, care))
     assert [(goal.bodies, len(goal.roots)) for goal in found.goals] == [(g.bodies, len(g.roots)) for g in goals]
-    for before, after in zip(reason.roots, found.roots, strict=True):
+    for before, after in zip(reason.drawing[1], found.drawing[1], strict=True):
         assert all(found.diagram.evaluate(after, s) == reason.diagram.evaluate(before, s) for s in sets[0])
     assert len(found.diagram.nodes) <= len(reason.diagram.nodes)
 

@@ -3,12 +3,34 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import NamedTuple
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple, Protocol, Self, TypeAlias, TypeVar
 
-from tumato_symbolic.diagrams import Diagram, Reference
+from tumato_symbolic.diagrams import Diagram, Reference, rebuild
 from tumato_symbolic.semantics import ActionSet, Effort, State
 from tumato_symbolic.spec import Ordering, Restoration, Spec
+
+Drawing: TypeAlias = tuple[Diagram[Any], tuple[Reference, ...]]
+"""A diagram with its roots."""
+
+
+class Drawn(Protocol):
+    """A record that holds a diagram and leads into it."""
+
+    @property
+    def drawing(self) -> Drawing:
+        """The diagram, and every reference to it."""
+
+    def drawn(self, diagram: Diagram[Any], roots: tuple[Reference, ...]) -> Self:
+        """The same record with another diagram, and the references to it in the same order."""
+
+
+SomeDrawn = TypeVar("SomeDrawn", bound=Drawn)
+
+
+def canonical(record: SomeDrawn) -> SomeDrawn:
+    """The same record with its diagram in canonical form, as files hold it."""
+    return record.drawn(*rebuild(*record.drawing))
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +72,15 @@ class DecisionDiagram:
     roots: tuple[Reference, ...]
     defined: Reference
 
+    @property
+    def drawing(self) -> Drawing:
+        """See `Drawn`."""
+        return self.diagram, (*self.roots, self.defined)
+
+    def drawn(self, diagram: Diagram[bool], roots: tuple[Reference, ...]) -> DecisionDiagram:
+        """See `Drawn`."""
+        return DecisionDiagram(diagram, roots[:-1], roots[-1])
+
 
 @dataclass(frozen=True, slots=True)
 class RankedGoal:
@@ -63,6 +94,11 @@ class RankedGoal:
     bodies: tuple[str, ...]
     executed: tuple[str, ...]
     root: Reference
+
+
+def rooted(goals: tuple[RankedGoal, ...], roots: tuple[Reference, ...]) -> tuple[RankedGoal, ...]:
+    """The same goals with other roots."""
+    return tuple(RankedGoal(goal.bodies, goal.executed, root) for goal, root in zip(goals, roots, strict=True))
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,6 +124,16 @@ class Restoring:
     nominal: Reference
     deviations: tuple[Deviation, ...] = ()
 
+    @property
+    def drawing(self) -> Drawing:
+        """See `Drawn`."""
+        return self.efforts, (self.worst, self.nominal)
+
+    def drawn(self, diagram: Diagram[Effort | None], roots: tuple[Reference, ...]) -> Restoring:
+        """See `Drawn`."""
+        worst, nominal = roots
+        return Restoring(diagram, worst, nominal, self.deviations)
+
 
 @dataclass(frozen=True, slots=True)
 class Certificate:
@@ -100,6 +146,15 @@ class Certificate:
     ranks: Diagram[int | None]
     goals: tuple[RankedGoal, ...]
     restoring: Restoring | None = None
+
+    @property
+    def drawing(self) -> Drawing:
+        """See `Drawn`."""
+        return self.ranks, tuple(goal.root for goal in self.goals)
+
+    def drawn(self, diagram: Diagram[int | None], roots: tuple[Reference, ...]) -> Certificate:
+        """See `Drawn`."""
+        return replace(self, ranks=diagram, goals=rooted(self.goals, roots))
 
 
 class PolicyFields(NamedTuple):

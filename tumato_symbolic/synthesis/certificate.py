@@ -14,9 +14,8 @@ from tumato_symbolic.policy import (
     RankedGoal,
     Restoring,
     Vocabulary,
+    minimized,
     minimized_decisions,
-    minimized_ranks,
-    minimized_restoring,
 )
 from tumato_symbolic.semantics import Effort, Residual, action_names, actions_of
 from tumato_symbolic.spec import Spec, canonical_text, digest
@@ -55,7 +54,7 @@ def policy_diagram(
         digest(problem.spec),
         _with_restoring(
             problem,
-            minimized_ranks(certificate(problem, policy, ranks), vocabulary.sizes, (found, ranked)),
+            minimized(certificate(problem, policy, ranks), vocabulary.sizes, (found, ranked)),
             restoration,
             (found, unsafe),
         ),
@@ -79,7 +78,7 @@ def _with_restoring(
     spec = problem.spec
     deviations = (replace(each, better=actions_of(spec, each.better)) for each in restoration.deviations)
     restoring = Restoring(builder.finish(), roots[0], roots[1], tuple(deviations))
-    return replace(ranks, restoring=minimized_restoring(restoring, Vocabulary.of(problem.spec).sizes, states))
+    return replace(ranks, restoring=minimized(restoring, Vocabulary.of(problem.spec).sizes, states))
 
 
 def certificate(problem: Problem, policy: Bdd, ranks: Sequence[Layers]) -> Certificate:

@@ -9,7 +9,7 @@ from math import prod
 from tumato_symbolic.diagrams import DiagramBuilder
 from tumato_symbolic.game import Layers as Ranks
 from tumato_symbolic.game import Problem
-from tumato_symbolic.policy import RankedGoal, Vocabulary
+from tumato_symbolic.policy import RankedGoal, Vocabulary, minimized
 from tumato_symbolic.policy.unrealizability import (
     ActionEffect,
     Choice,
@@ -22,8 +22,6 @@ from tumato_symbolic.policy.unrealizability import (
     NoRestoration,
     Unrealizability,
     Violation,
-    minimized_layers,
-    minimized_trap,
 )
 from tumato_symbolic.semantics import (
     ActionSet,
@@ -139,7 +137,8 @@ def no_restoration(problem: Problem, state: State, lost: Bdd) -> NoRestoration:
     builder: DiagramBuilder[bool] = DiagramBuilder(problem.encoding.order, (False, True))
     extract = Extractor(problem.encoding, builder, default=False)
     trap, level = (extract.function([(True, states)]) for states in (lost & here, here))
-    return minimized_trap(NoRestoration(state, builder.finish(), trap), Vocabulary.of(problem.spec).sizes, level)
+    diagram = builder.finish()
+    return minimized(NoRestoration(state, diagram, trap), Vocabulary.of(problem.spec).sizes, (diagram, level))
 
 
 def no_plan(problem: Problem, state: State, distances: Sequence[Ranks]) -> NoPlan:
@@ -174,7 +173,8 @@ def _drawn(problem: Problem, state: State, found: Sequence[tuple[Residual, Seque
     ]
     goals.sort(key=lambda goal: (goal.bodies, goal.executed))
     safe = extract.function([(True, problem.steps.safe)])
-    return minimized_layers(NoPlan(state, builder.finish(), tuple(goals)), Vocabulary.of(problem.spec).sizes, safe)
+    diagram = builder.finish()
+    return minimized(NoPlan(state, diagram, tuple(goals)), Vocabulary.of(problem.spec).sizes, (diagram, safe))
 
 
 def _too_far(problem: Problem, ranks: Ranks) -> list[Bdd]:

@@ -1,7 +1,7 @@
 """What a policy decides: other forms of it, smaller ones, and in the numbers of a specification."""
 
 from tumato_symbolic.policy.decisions.binding import Renumbering, bind, fitted, made_for_less, restores_less
-from tumato_symbolic.policy.decisions.compact import minimized_decisions, minimized_ranks, minimized_restoring
+from tumato_symbolic.policy.decisions.compact import minimized, minimized_decisions
 from tumato_symbolic.policy.decisions.convert import (
     Roots,
     as_diagram,
@@ -31,9 +31,8 @@ __all__ = [
     "judged_within",
     "made_for_less",
     "minimal_rules",
+    "minimized",
     "minimized_decisions",
-    "minimized_ranks",
-    "minimized_restoring",
     "never_executed",
     "policy_from_rows",
     "restores_less",

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import islice
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
-from tumato_symbolic.diagrams import Diagram, Leaf, Reference, rebuild
+from tumato_symbolic.diagrams import rebuild
 from tumato_symbolic.policy.decisions.cases import by_case
 from tumato_symbolic.policy.policy import Policy
 from tumato_symbolic.policy.records import (
     Certificate,
     DecisionDiagram,
     Deviation,
-    RankedGoal,
     Restoring,
+    SomeDrawn,
     Table,
     Vocabulary,
 )
@@ -162,30 +162,24 @@ class Renumbering:
     def decisions(self, decisions: DecisionDiagram) -> DecisionDiagram:
         """Roots in the new order of actions; the order of tests stays as it is."""
         by_action = dict(zip(self.actions, decisions.roots, strict=True))
-        wanted = [by_action[action] for action in range(len(self.actions))]
-        diagram, roots = self.diagram(decisions.diagram, (*wanted, decisions.defined))
-        return DecisionDiagram(diagram, roots[:-1], roots[-1])
+        wanted = tuple(by_action[action] for action in range(len(self.actions)))
+        return self.drawn(replace(decisions, roots=wanted))
 
     def certificate(self, certificate: Certificate) -> Certificate:
         """The ranks of the same states."""
-        ranks, roots = self.diagram(certificate.ranks, [goal.root for goal in certificate.goals])
-        kept = zip(certificate.goals, roots, strict=True)
-        goals = tuple(RankedGoal(goal.bodies, goal.executed, root) for goal, root in kept)
         restoring = None if certificate.restoring is None else self.restoring(certificate.restoring)
-        return Certificate(ranks, goals, restoring)
+        return self.drawn(replace(certificate, restoring=restoring))
 
     def restoring(self, restoring: Restoring) -> Restoring:
         """The efforts of the same states."""
-        efforts, (worst, nominal) = self.diagram(restoring.efforts, (restoring.worst, restoring.nominal))
         deviations = (
             Deviation(self.state(each.state), self.action_set(each.better), self.state(each.missed))
             for each in restoring.deviations
         )
-        return Restoring(efforts, worst, nominal, tuple(deviations))
+        return self.drawn(replace(restoring, deviations=tuple(deviations)))
 
-    def diagram(
-        self, diagram: Diagram[Leaf], roots: Sequence[Reference]
-    ) -> tuple[Diagram[Leaf], tuple[Reference, ...]]:
+    def drawn(self, record: SomeDrawn) -> SomeDrawn:
         """The same functions of states with new numbers; the order of tests stays as it is."""
+        diagram, roots = record.drawing
         order = [self.variables[variable] for variable in diagram.order]
-        return rebuild(diagram, roots, order, [self.values[variable] for variable in diagram.order])
+        return record.drawn(*rebuild(diagram, roots, order, [self.values[variable] for variable in diagram.order]))

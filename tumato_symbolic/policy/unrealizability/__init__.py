@@ -4,7 +4,6 @@ Only who needs one loads this room: the face of `policy` does not.
 """
 
 from tumato_symbolic.policy.unrealizability.binding import bind
-from tumato_symbolic.policy.unrealizability.compact import minimized_layers, minimized_trap
 from tumato_symbolic.policy.unrealizability.file import dumps, load, loads, save
 from tumato_symbolic.policy.unrealizability.read import unrealizability_of
 from tumato_symbolic.policy.unrealizability.records import (
@@ -41,8 +40,6 @@ __all__ = [
     "dumps",
     "load",
     "loads",
-    "minimized_layers",
-    "minimized_trap",
     "save",
     "unrealizability_of",
 ]

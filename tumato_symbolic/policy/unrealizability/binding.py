@@ -5,12 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 from tumato_symbolic.policy.decisions import Renumbering
-from tumato_symbolic.policy.records import RankedGoal, Vocabulary
+from tumato_symbolic.policy.records import Vocabulary
 from tumato_symbolic.policy.unrealizability.records import (
     Choice,
     Conflict,
     Cube,
-    Cut,
     NoAllowedSet,
     NoPlan,
     NoRestoration,
@@ -30,11 +29,9 @@ def bind(certificate: Unrealizability, spec: Spec) -> Unrealizability:
         case NoAllowedSet(state, cubes):
             bound = None if cubes is None else tuple(_bound_cube(cube, by) for cube in cubes)
             return replace(certificate, vocabulary=target, reason=NoAllowedSet(by.state(state), bound))
-        case NoRestoration(state, diagram, root):
-            diagram, (root,) = by.diagram(diagram, [root])
-            return replace(certificate, vocabulary=target, reason=NoRestoration(by.state(state), diagram, root))
-        case NoPlan() as no_plan:
-            return replace(certificate, vocabulary=target, reason=_bound_plan(no_plan, by))
+        case NoRestoration() | NoPlan() as reason:
+            bound_reason = by.drawn(replace(reason, state=by.state(reason.state)))
+            return replace(certificate, vocabulary=target, reason=bound_reason)
         case Conflict() as conflict:
             return replace(certificate, vocabulary=target, reason=_bound_conflict(conflict, by))
 
@@ -48,21 +45,10 @@ def _bound_cube(cube: Cube, by: Renumbering) -> Cube:
     )
 
 
-def _bound_plan(reason: NoPlan, by: Renumbering) -> NoPlan:
-    return replace(reason, state=by.state(reason.state)).drawn(*by.diagram(reason.diagram, reason.roots))
-
-
 def _bound_conflict(reason: Conflict, by: Renumbering) -> Conflict:
-    diagram, roots = by.diagram(reason.distances, [goal.root for goal in reason.goals])
-    return Conflict(
-        reason.starts,
-        tuple(
-            Choice(by.state(choice.state), tuple((by.state(after), goal) for after, goal in choice.options))
-            for choice in reason.choices
-        ),
-        tuple(
-            Cut(cut.kind, cut.goal, cut.states, None if cut.end is None else by.state(cut.end)) for cut in reason.cuts
-        ),
-        diagram,
-        tuple(RankedGoal(goal.bodies, goal.executed, root) for goal, root in zip(reason.goals, roots, strict=True)),
+    choices = tuple(
+        Choice(by.state(choice.state), tuple((by.state(after), goal) for after, goal in choice.options))
+        for choice in reason.choices
     )
+    cuts = tuple(replace(cut, end=None if cut.end is None else by.state(cut.end)) for cut in reason.cuts)
+    return by.drawn(replace(reason, choices=choices, cuts=cuts))

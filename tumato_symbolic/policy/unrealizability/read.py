@@ -17,7 +17,7 @@ from tumato_symbolic.policy.formats import (
     read_restoration,
     read_vocabulary,
 )
-from tumato_symbolic.policy.records import RankedGoal, Vocabulary
+from tumato_symbolic.policy.records import RankedGoal, Vocabulary, canonical
 from tumato_symbolic.policy.text import (
     as_list,
     as_names,
@@ -165,8 +165,7 @@ class _Reader:
             return Layers(bodies, executed, layers)
 
         goals = _each(member(section, "Goals", "`Reason`"), "Goals", "goal", goal)
-        read = NoPlan(state, found, goals)
-        return read.drawn(*rebuild(found, read.roots))
+        return canonical(NoPlan(state, found, goals))
 
     def _conflict(self, section: dict[str, Any]) -> Conflict:
         order, leaves, nodes = read_diagram(section, "Reason", self._vocabulary)

@@ -6,12 +6,11 @@ States, values and actions are numbers of the vocabulary; rules are named by the
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 from tumato_symbolic.diagrams import Diagram, Reference
-from tumato_symbolic.policy.records import RankedGoal, Vocabulary
+from tumato_symbolic.policy.records import Drawing, RankedGoal, Vocabulary, rooted
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import Assignment, Ordering, Restoration
 
@@ -82,6 +81,15 @@ class NoRestoration:
     diagram: Diagram[bool]
     root: Reference
 
+    @property
+    def drawing(self) -> Drawing:
+        """See `Drawn`."""
+        return self.diagram, (self.root,)
+
+    def drawn(self, diagram: Diagram[bool], roots: tuple[Reference, ...]) -> NoRestoration:
+        """See `Drawn`."""
+        return NoRestoration(self.state, diagram, *roots)
+
 
 @dataclass(frozen=True, slots=True)
 class Layers:
@@ -106,12 +114,12 @@ class NoPlan:
     goals: tuple[Layers, ...]
 
     @property
-    def roots(self) -> list[Reference]:
-        """The layers of all goals, one after the other."""
-        return [root for goal in self.goals for root in goal.roots]
+    def drawing(self) -> Drawing:
+        """See `Drawn`: the layers of all goals, one after the other."""
+        return self.diagram, tuple(root for goal in self.goals for root in goal.roots)
 
-    def drawn(self, diagram: Diagram[bool], roots: Sequence[Reference]) -> NoPlan:
-        """The same goals with as many layers as before, which are now these roots of another diagram."""
+    def drawn(self, diagram: Diagram[bool], roots: tuple[Reference, ...]) -> NoPlan:
+        """See `Drawn`."""
         left = iter(roots)
         goals = (replace(goal, roots=tuple(next(left) for _ in goal.roots)) for goal in self.goals)
         return NoPlan(self.state, diagram, tuple(goals))
@@ -153,6 +161,15 @@ class Conflict:
     cuts: tuple[Cut, ...]
     distances: Diagram[int | None]
     goals: tuple[RankedGoal, ...]
+
+    @property
+    def drawing(self) -> Drawing:
+        """See `Drawn`."""
+        return self.distances, tuple(goal.root for goal in self.goals)
+
+    def drawn(self, diagram: Diagram[int | None], roots: tuple[Reference, ...]) -> Conflict:
+        """See `Drawn`."""
+        return replace(self, distances=diagram, goals=rooted(self.goals, roots))
 
 
 Reason: TypeAlias = NoAllowedSet | NoRestoration | NoPlan | Conflict
