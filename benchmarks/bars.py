@@ -27,6 +27,10 @@ BARS = {
     "robots 4": Bar(20, 14),
     "samples 30": Bar(50, 30, memory=1000),
     "plant 10": Bar(100, 60, memory=1000),
+    "rooms 12": Bar(10, 10),
+    "rooms 20": Bar(60, 60),
+    "errands 12": Bar(10, 10),
+    "errands 20": Bar(60, 60),
 }
 HELP = 0.35
 """Units for `--help`."""

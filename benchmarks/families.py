@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from benchmarks.arbitrary import arbitrary
+from benchmarks.cleaning import errands, rooms
 from benchmarks.limits import paired, pairs, shelf_counts, shelves
 from benchmarks.missions import grid, plant, samples, strewn
 from benchmarks.robots import amr, loads, robots
@@ -42,6 +43,8 @@ FAMILIES = {
         Family("random", "generated from seed n", arbitrary, (1,), (1,)),
         Family("plant", "a robot among n stations", plant, (1, 4, 7, 10), (1,)),
         Family("strewn", "the plant, declared in a random order", strewn, (4, 10), ()),
+        Family("rooms", "n rooms that clean themselves, a goal each", rooms, (12, 20), (12,)),
+        Family("errands", "n rooms that one robot cleans, a goal each", errands, (12, 20), (12,)),
         Family("shelves", "n boxes with names on n shelves", shelves, (4, 6, 8, 10), (4,), limit=True),
         Family("shelf_counts", "n boxes, all alike, on n shelves", shelf_counts, (4, 6, 8, 10), (), limit=True),
         Family("pairs", "n drives, then their n brakes", pairs, (4, 6, 8, 10), (4,), limit=True),

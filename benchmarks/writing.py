@@ -19,6 +19,7 @@ class Text:
     assumptions: list[str] = field(default_factory=list)
     goals: list[str] = field(default_factory=list)
     longest_plan: int | None = None
+    goal_type: str = "priority"
 
     def state(self, name: str, *values: str) -> None:
         """A state variable."""
@@ -62,12 +63,12 @@ class Text:
         self.assumptions.append(f"assume: {predicate}")
 
     def goal(self, body: str, when: str | None = None) -> None:
-        """The next goal of the one priority list."""
+        """The next goal of the one list."""
         self.goals.append(f"when {when} then goal: {body}" if when else f"goal: {body}")
 
     def render(self) -> str:
         """The whole text; empty blocks are left out."""
-        goals = ["goal type: priority", *self.goals] if self.goals else []
+        goals = [f"goal type: {self.goal_type}", *self.goals] if self.goals else []
         config = [] if self.longest_plan is None else [f"max_plan_length: {self.longest_plan}"]
         blocks = {
             "STATE VECTOR": self.states,

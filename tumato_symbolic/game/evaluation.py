@@ -9,7 +9,7 @@ from functools import cached_property
 from tumato_symbolic.game.fixpoints import ClosedLoop, Layers, attractor, closed_loop, preimage
 from tumato_symbolic.game.problem import Problem
 from tumato_symbolic.game.restoration import Restoration, Restorer
-from tumato_symbolic.symbolic import Bdd
+from tumato_symbolic.symbolic import Bdd, Target
 
 
 @dataclass(frozen=True)
@@ -36,10 +36,18 @@ def winning(problem: Problem, ranks: Sequence[Layers], relation: Bdd) -> Bdd:
     """The states where some pair of `relation` leads, in time, to a state with a rank for its target."""
     manager = problem.encoding.manager
     return manager.union(
-        problem.steps.predecessor(relation & target.pending, manager.union(layers))
+        _leading(problem, target, relation, manager.union(layers))
         for target, layers in zip(problem.targets, in_time(problem, ranks), strict=True)
         if (relation & target.pending) != problem.false
     )
+
+
+def _leading(problem: Problem, target: Target, relation: Bdd, near: Bdd) -> Bdd:
+    """The states where some pair of a relation that has a target leads to where it is near."""
+    if not target.meaning:
+        return problem.steps.predecessor(relation & target.pending, near)
+    leading = relation & target.pending & problem.own(target, problem.steps.before(near))
+    return problem.steps.states_of(leading)
 
 
 class Evaluator:
@@ -78,7 +86,7 @@ class Evaluator:
         found, steps = closed_loop(problem, policy), problem.steps
         ranks = tuple(attractor(problem, t.states, found.predecessor, steps.safe, None) for t in problem.targets)
         near = [union(layers) for layers in in_time(problem, ranks)]
-        safe = union(found.predecessor(*pair) for pair in zip(found.pending, near, strict=True))
+        safe = union(found.first_steps(number, each) for number, each in enumerate(near))
         if problem.spec.restores_stepwise:
             restoration = self.restorer.restore(ranks, self._forced, self._required)
             return Evaluation(found, ranks, (steps.safe & ~safe) | restoration.failing, restoration)
@@ -94,7 +102,7 @@ class Evaluator:
         for place, number in enumerate(suspects):
             target, pending = problem.targets[number], found.pending[number]
             layers = attractor(problem, target.states, found.predecessor, steps.safe, problem.last_layer)
-            if found.predecessor(pending, problem.encoding.manager.union(layers)) != pending:
+            if found.first_steps(number, problem.encoding.manager.union(layers)) != pending:
                 suspects.insert(0, suspects.pop(place))
                 return False
             ranks[number] = layers
@@ -123,14 +131,15 @@ class Evaluator:
         def predecessor(states: Bdd, target: Bdd) -> Bdd:
             return found.predecessor(states, target) | before.predecessor(states, target)
 
-        for target, pending in zip(problem.targets, before.pending, strict=True):
+        for number, (target, pending) in enumerate(zip(problem.targets, before.pending, strict=True)):
             if pending == problem.false:
                 continue
             layers = attractor(problem, target.states, predecessor, problem.steps.valid, problem.last_layer)
-            if before.predecessor(pending, problem.encoding.manager.union(layers)) != pending:
+            if before.first_steps(number, problem.encoding.manager.union(layers)) != pending:
                 return False
         return True
 
     def _restored(self, number: int, near: Bdd) -> Bdd:
         """The unsafe states where some allowed set has a target and leads into the set given for it."""
-        return self.problem.steps.states_of(self._restoring[number](near))
+        into = self._restoring[number](near)
+        return self.problem.steps.states_of(self.problem.own(self.problem.targets[number], into))

@@ -9,7 +9,7 @@ from typing import TypeAlias
 
 from tumato_symbolic.game.problem import Problem
 from tumato_symbolic.spec import Assignment
-from tumato_symbolic.symbolic import Bdd, Leading
+from tumato_symbolic.symbolic import Bdd, Leading, Target
 
 Layers: TypeAlias = list[Bdd]
 """Disjoint sets of safe states: in layer `j` are those that reach the target in `j` steps and not earlier."""
@@ -73,13 +73,15 @@ class ClosedLoop:
     A policy that does few different things is taken move by move: `moves` has the states by what is written there, and
     the predecessor is a union of cofactors. Otherwise `moves` is None, and `following` has the next value of every bit
     that some action writes: the predecessor is a composition, or the relational product where that would be large.
-    `pending` has, for every target, the states whose decision leaves it to be reached.
+    `pending` has, for every target, the states whose decision leaves it to be reached; `meaning` what its goal bits are
+    in these states.
     """
 
     problem: Problem
     policy: Bdd
     decided: Bdd
     pending: tuple[Bdd, ...]
+    meaning: tuple[Mapping[str, Bdd], ...]
     moves: Mapping[Assignment, Bdd] | None
     following: Mapping[str, Bdd]
 
@@ -104,6 +106,11 @@ class ClosedLoop:
             return self.problem.steps.predecessor(self.policy & states, target)
         return states & self.decided & manager.compose(target, self.following)
 
+    def first_steps(self, number: int, near: Bdd) -> Bdd:
+        """The states whose decision has a target, by number, and leads to where it is near."""
+        found = self.predecessor(self.pending[number], near)
+        return self.problem.encoding.manager.compose(found, self.meaning[number])
+
 
 def closed_loop(problem: Problem, policy: Bdd, most: int = MOST_MOVES) -> ClosedLoop:
     """The closed loop of a policy, which is a function where it is defined; `moves` where there are at most so many."""
@@ -111,7 +118,18 @@ def closed_loop(problem: Problem, policy: Bdd, most: int = MOST_MOVES) -> Closed
     moves = steps.moves(policy, most)
     following = steps.next_state(policy) if moves is None else {}
     pending = tuple(steps.states_of(policy & target.pending) for target in problem.targets)
-    return ClosedLoop(problem, policy, steps.states_of(policy), pending, moves, following)
+    meaning = tuple(_decided_meaning(problem, policy, target) for target in problem.targets)
+    return ClosedLoop(problem, policy, steps.states_of(policy), pending, meaning, moves, following)
+
+
+def _decided_meaning(problem: Problem, policy: Bdd, target: Target) -> Mapping[str, Bdd]:
+    """What the goal bits of a target are in the states that a policy decides."""
+    bits = problem.encoding.goal_bits
+    executed = frozenset() if bits is None else frozenset(bits.actions.values())
+    return {
+        bit: problem.steps.states_of(policy & where) if bit in executed else where
+        for bit, where in target.meaning.items()
+    }
 
 
 def mixed(one: ClosedLoop, other: ClosedLoop, states: Bdd) -> ClosedLoop:
@@ -128,11 +146,16 @@ def mixed(one: ClosedLoop, other: ClosedLoop, states: Bdd) -> ClosedLoop:
             for effect in {**one.moves, **other.moves}
         }
     following = {bit: spliced(function, other.following[bit]) for bit, function in one.following.items()}
+    meaning = tuple(
+        {bit: spliced(function, after[bit]) for bit, function in before.items()}
+        for before, after in zip(one.meaning, other.meaning, strict=True)
+    )
     return ClosedLoop(
         problem,
         spliced(one.policy, other.policy),
         spliced(one.decided, other.decided),
         tuple(map(spliced, one.pending, other.pending)),
+        meaning,
         moves,
         following,
     )

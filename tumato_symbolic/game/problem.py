@@ -15,14 +15,15 @@ from tumato_symbolic.symbolic import (
     Target,
     build_steps,
     encode,
-    regions,
+    regions_apart,
     targets,
+    together,
 )
 
 
 @dataclass(frozen=True)
 class Problem:
-    """Steps, regions and targets.
+    """Steps, regions and targets; no regions, and a single target, where there are many residual goals.
 
     Policies are relations between *safe* states and sets of actions, functional where they are defined: no nominal
     run enters an unsafe state after its start, so decisions in unsafe states matter to no other state and come last.
@@ -49,6 +50,15 @@ class Problem:
         return self.encoding.manager.false
 
     @property
+    def goals_are_many(self) -> bool:
+        """Whether one target stands for all residual goals."""
+        return any(target.meaning for target in self.targets)
+
+    def own(self, target: Target, pairs: Bdd) -> Bdd:
+        """The pairs that are in a set with the goal bits of their own residual goal, where a target speaks of these."""
+        return self.encoding.manager.compose(pairs, target.meaning)
+
+    @property
     def last_layer(self) -> int | None:
         """The largest rank that a first successor may have; None without a plan bound."""
         return None if self.spec.max_plan_length is None else self.spec.max_plan_length - 1
@@ -62,5 +72,12 @@ def build_problem(spec: Spec, ordering: Ordering, backend: Backend, context: Con
     with encoding.manager.within_memory():
         context.tell("finding the allowed steps")
         steps = build_steps(encoding, ordering)
-        active = regions(encoding, steps.valid)
-        return Problem(spec, steps, active, tuple(targets(steps, active)))
+        return with_goals(steps)
+
+
+def with_goals(steps: Steps) -> Problem:
+    """The problem with these steps."""
+    spec, active = steps.encoding.spec, regions_apart(steps.encoding, steps.valid)
+    if active is None:
+        return Problem(spec, steps, {}, (together(steps),))
+    return Problem(spec, steps, active, tuple(targets(steps, active)))

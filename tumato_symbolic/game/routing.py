@@ -7,12 +7,14 @@ from collections.abc import Iterator, Sequence
 from tumato_symbolic.game.fixpoints import Layers, attractor, closed_loop, preimage
 from tumato_symbolic.game.problem import Problem
 from tumato_symbolic.semantics import ActiveGoals
-from tumato_symbolic.symbolic import Bdd, Target, preferred
+from tumato_symbolic.symbolic import Bdd, Target, preferred, with_own_bits
 
 
 def own_region_policy(problem: Problem) -> Bdd:
     """Decisions whose runs stay where the same goals are active until these are reached, with the fewest steps."""
     policy = problem.false
+    if problem.goals_are_many:
+        return _all_regions(problem, problem.targets[0])
     targets_in: dict[ActiveGoals, list[Target]] = {}
     for target in problem.targets:
         for active in dict.fromkeys(residual.bodies for residual, _ in target.residuals):
@@ -21,25 +23,34 @@ def own_region_policy(problem: Problem) -> Bdd:
         here = region & problem.steps.safe
         wanted = [target for target in targets_in.get(active, ()) if (target.pending & here) != problem.false]
         if len(wanted) == 1:
-            policy = policy | _nearest_first(problem, wanted[0], here)
+            policy = policy | _nearest_first(problem, wanted[0], here, here)
         elif wanted:
             policy = policy | route(problem, problem.false, here, here, wanted)
     return policy
 
 
-def _nearest_first(problem: Problem, target: Target, here: Bdd) -> Bdd:
+def _all_regions(problem: Problem, target: Target) -> Bdd:
+    """`own_region_policy` for all regions at once, where one target stands for all residual goals."""
+    safe, own = problem.steps.safe, with_own_bits(problem.encoding, target)
+    bits = problem.encoding.goal_bits
+    if bits is None or not bits.actions:
+        return _nearest_first(problem, target, safe, own)
+    return route(problem, problem.false, safe, safe & own, [target])
+
+
+def _nearest_first(problem: Problem, target: Target, here: Bdd, own: Bdd) -> Bdd:
     """The fixpoint for a region with one target: states by the number of steps of their best run inside it.
 
     A state that satisfies the target already still has to make a step: it is decided by its own number, but runs of
-    others end in it.
+    others end in it. Where the target speaks of goal bits, `own` has the states with the bits of their region.
     """
     policy, undecided, front, steps = problem.false, here, target.states, 0
     bound, into = problem.spec.max_plan_length, preimage(problem, target.pending & here)
     while problem.false not in {undecided, front} and (bound is None or steps < bound):
-        pairs = undecided & into(front)
+        pairs = undecided & problem.own(target, into(front))
         decided = problem.steps.states_of(pairs)
         policy = policy | preferred(problem.encoding, pairs)
-        undecided, front, steps = undecided & ~decided, decided & ~target.states, steps + 1
+        undecided, front, steps = undecided & ~decided, decided & own & ~target.states, steps + 1
     return policy
 
 
@@ -74,12 +85,14 @@ def _by_steps(
 ) -> Iterator[Bdd]:
     """The pairs that reach their target in one step, in two, and so on; empty sets are left out."""
     parts = [
-        (preimage(problem, relation & states & target.pending), layers)
+        (target, preimage(problem, relation & states & target.pending), layers)
         for target, layers in zip(wanted, ranks, strict=True)
     ]
     for rank in range(max(map(len, ranks), default=0)):
         pairs = problem.encoding.manager.union(
-            into(layers[rank]) for into, layers in parts if rank < len(layers) and layers[rank] != problem.false
+            problem.own(target, into(layers[rank]))
+            for target, into, layers in parts
+            if rank < len(layers) and layers[rank] != problem.false
         )
         if pairs != problem.false:
             yield pairs

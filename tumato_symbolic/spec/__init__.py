@@ -21,6 +21,7 @@ from tumato_symbolic.spec.formula import (
     executing_atoms,
     variables_of,
 )
+from tumato_symbolic.spec.many_goals import GoalParameters, goal_parameters
 from tumato_symbolic.spec.specification import (
     Action,
     Alternative,
@@ -57,6 +58,7 @@ __all__ = [
     "Formula",
     "Goal",
     "GoalList",
+    "GoalParameters",
     "Iff",
     "Is",
     "Loaded",
@@ -77,6 +79,7 @@ __all__ = [
     "executing_atoms",
     "fold",
     "fold_goal",
+    "goal_parameters",
     "load",
     "subgoals",
     "variables_of",

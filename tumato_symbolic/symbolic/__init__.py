@@ -3,7 +3,17 @@
 from tumato_symbolic.symbolic.choose import by_duration, lasting, least_duration, preferred
 from tumato_symbolic.symbolic.encoding import Encoding, encode
 from tumato_symbolic.symbolic.extract import Extractor
-from tumato_symbolic.symbolic.goals import Regions, Target, never_entered, regions, targets
+from tumato_symbolic.symbolic.goals import (
+    Regions,
+    Target,
+    never_entered,
+    one_by_one,
+    regions,
+    regions_apart,
+    targets,
+    together,
+    with_own_bits,
+)
 from tumato_symbolic.symbolic.manager import Backend, Bdd, Manager, available_backend
 from tumato_symbolic.symbolic.present import Leading
 from tumato_symbolic.symbolic.steps import (
@@ -35,10 +45,14 @@ __all__ = [
     "least_duration",
     "meant_sets",
     "never_entered",
+    "one_by_one",
     "preferred",
     "regions",
+    "regions_apart",
     "staying_in",
     "targets",
     "tiers_within",
+    "together",
+    "with_own_bits",
     "without_effect",
 ]

@@ -13,7 +13,17 @@ from functools import cached_property, lru_cache
 
 from tumato_symbolic.limits import Context
 from tumato_symbolic.semantics import ActionSet, State, exclusive_groups
-from tumato_symbolic.spec import Assignment, Connectives, Executing, Formula, Is, Spec, fold
+from tumato_symbolic.spec import (
+    Assignment,
+    Connectives,
+    Executing,
+    Formula,
+    Is,
+    Spec,
+    fold,
+    goal_parameters,
+    variables_of,
+)
 from tumato_symbolic.symbolic.effect_tree import EffectTree, after_every, effect_tree
 from tumato_symbolic.symbolic.manager import Backend, Bdd, Manager
 from tumato_symbolic.symbolic.order import variable_order
@@ -28,6 +38,17 @@ class Group:
     bits: tuple[str, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class GoalBits:
+    """The bits that tell residual goals apart where there are many: which bodies are active, what is executed first.
+
+    A state or a pair does not set them: they stand for the goal of a run, wherever that is by now.
+    """
+
+    bodies: Mapping[int, str]
+    actions: Mapping[int, str]
+
+
 @dataclass(frozen=True)
 class Encoding:
     """The bits of a specification, and the sets that its names stand for."""
@@ -40,6 +61,8 @@ class Encoding:
     """State variables as their bits are ordered."""
     choice_of: Mapping[int, tuple[int, int]] = field(repr=False)
     """For every action, its group and its choice number there."""
+    goal_bits: GoalBits | None = None
+    """None where there are few residual goals, which are looked at one by one."""
 
     @property
     def all_state_bits(self) -> list[str]:
@@ -266,13 +289,28 @@ def encode(spec: Spec, backend: Backend, context: Context | None = None) -> Enco
     for group in groups:
         written = (place[v] for action in group.actions for effect in spec.actions[action].effects for v, _ in effect)
         above.setdefault(min(written, default=0), []).append(group)
-    bits: list[str] = []
+    goal_bits = _goal_bits(spec)
+    of_goals: dict[int, list[str]] = {}
+    for body, bit in goal_bits.bodies.items() if goal_bits else ():
+        first = min((place[v] for v in variables_of(spec.bodies[body].formula)), default=0)
+        of_goals.setdefault(first, []).append(bit)
+    bits: list[str] = list(goal_bits.actions.values()) if goal_bits else []
     for number, variable in enumerate(order):
         bits += [bit for group in above.get(number, ()) for bit in group.bits]
+        bits += of_goals.get(number, ())
         bits += state_bits[variable]
     choice_of = {
         action: (number, choice)
         for number, group in enumerate(groups)
         for choice, action in enumerate(group.actions, start=1)
     }
-    return Encoding(spec, Manager(bits, backend, context), state_bits, tuple(groups), order, choice_of)
+    return Encoding(spec, Manager(bits, backend, context), state_bits, tuple(groups), order, choice_of, goal_bits)
+
+
+def _goal_bits(spec: Spec) -> GoalBits | None:
+    told_by = goal_parameters(spec)
+    if told_by is None:
+        return None
+    return GoalBits(
+        {body: f"active{body}" for body in told_by.bodies}, {action: f"first{action}" for action in told_by.actions}
+    )

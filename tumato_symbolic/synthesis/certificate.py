@@ -34,7 +34,8 @@ def policy_diagram(
     """A policy that is defined in every valid state, with its certificate; `ranks` must be exact.
 
     `restoration` is how the policy restores safety, where that may take several steps; `ranks` then are of all valid
-    states. What its diagrams say of other states is free, and chosen so that they are small.
+    states. What its diagrams say of other states is free, and chosen so that they are small. Where residual goals are
+    many it has no ranks: a proof computes them, for all goals together.
     """
     encoding, steps = problem.encoding, problem.steps
     builder: DiagramBuilder[bool] = DiagramBuilder(encoding.order, (False, True))
@@ -47,17 +48,16 @@ def policy_diagram(
     ranked = extract.function([(True, steps.safe if restoration is None else steps.valid)])
     unsafe = extract.function([(True, steps.unsafe)]) if restoration is not None else defined
     found, vocabulary = builder.finish(), Vocabulary.of(problem.spec)
+    proof = None
+    if restoration is not None or not problem.goals_are_many:
+        own = minimized(certificate(problem, policy, ranks), vocabulary.sizes, (found, ranked))
+        proof = _with_restoring(problem, own, restoration, (found, unsafe))
     return Policy(
         vocabulary,
         minimized_decisions(DecisionDiagram(found, tuple(roots), defined), vocabulary.sizes),
         steps.ordering,
         digest(problem.spec),
-        _with_restoring(
-            problem,
-            minimized(certificate(problem, policy, ranks), vocabulary.sizes, (found, ranked)),
-            restoration,
-            (found, unsafe),
-        ),
+        proof,
         restoration=problem.spec.restoration,
     )
 
@@ -82,7 +82,10 @@ def _with_restoring(
 
 
 def certificate(problem: Problem, policy: Bdd, ranks: Sequence[Layers]) -> Certificate:
-    """The ranks of every residual goal of the policy's decisions, and of allowed sets in unsafe states."""
+    """The ranks of every residual goal of the policy's decisions, and of allowed sets in unsafe states.
+
+    There are none where one target stands for all residual goals.
+    """
     spec, steps = problem.spec, problem.steps
     concerned = policy | (steps.allowed & steps.unsafe)
     deepest = max((len(layers) for layers in ranks), default=0)

@@ -100,7 +100,7 @@ class Improving:
         ranks = [attractor(problem, each.states, found.predecessor, valid, None) for each in problem.targets]
         union = problem.encoding.manager.union
         near = [union(layers) for layers in in_time(problem, ranks)]
-        return valid & ~union(found.predecessor(*pair) for pair in zip(found.pending, near, strict=True))
+        return valid & ~union(found.first_steps(number, each) for number, each in enumerate(near))
 
     def _restorations(self) -> Restorations:
         """How the present policy restores safety; decisions and efforts are looked up."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from tumato_symbolic.game import (
     ClosedLoop,
     Evaluation,
@@ -12,7 +14,7 @@ from tumato_symbolic.game import (
     mixed,
     shortest_decisions,
 )
-from tumato_symbolic.symbolic import Bdd, preferred
+from tumato_symbolic.symbolic import Bdd, Target, one_by_one, preferred
 
 TRIES_TO_GIVE_BACK = 200
 """How many evaluations are spent on undoing changes that turned out not to be needed."""
@@ -28,8 +30,9 @@ def override(evaluator: Evaluator, found: Evaluation, distances: tuple[Layers, .
     improved = True
     while improved and found.failing != problem.false:
         improved = False
-        for number in range(len(problem.targets)):
-            candidate = _towards(problem, found.closed_loop.policy, found.failing, distances, number)
+        for target, layers in _aims(problem, found.failing, distances):
+            starts = shortest_decisions(problem, distances, found.failing, problem.steps.allowed) & target.pending
+            candidate = _towards(problem, found.closed_loop.policy, starts, layers)
             if candidate == found.closed_loop.policy:
                 continue
             evaluated = evaluator.evaluate(candidate)
@@ -40,14 +43,21 @@ def override(evaluator: Evaluator, found: Evaluation, distances: tuple[Layers, .
     return found
 
 
-def _towards(problem: Problem, policy: Bdd, failing: Bdd, distances: tuple[Layers, ...], number: int) -> Bdd:
-    """The policy after sending every failing state that is nearest to one target there, on a shortest run.
+def _aims(problem: Problem, failing: Bdd, distances: tuple[Layers, ...]) -> Iterator[tuple[Target, Layers]]:
+    """Every target with its distances; where one stands for many residual goals, those of failing states instead."""
+    encoding = problem.encoding
+    for target, layers in zip(problem.targets, distances, strict=True):
+        for single, bits in one_by_one(encoding, target, problem.steps.allowed & failing):
+            yield single, [encoding.manager.cofactor(layer, bits) for layer in layers]
+
+
+def _towards(problem: Problem, policy: Bdd, starts: Bdd, layers: Layers) -> Bdd:
+    """The policy after sending the states of some pairs to the target that they have, on a shortest run.
 
     From far to near: the states that such runs meet keep their decision where it leads one layer nearer, and
     otherwise take the preferred set that does.
     """
-    steps, encoding, layers = problem.steps, problem.encoding, distances[number]
-    starts = shortest_decisions(problem, distances, failing, steps.allowed) & problem.targets[number].pending
+    steps, encoding = problem.steps, problem.encoding
     changed = starts & steps.safe
     met = steps.successors(starts)
     for distance in range(len(layers) - 1, 0, -1):

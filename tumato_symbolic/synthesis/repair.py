@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from tumato_symbolic.game import Evaluation, Evaluator, Layers
 from tumato_symbolic.limits import need_z3
 from tumato_symbolic.semantics import ActionSet, State, successor
-from tumato_symbolic.symbolic import Bdd, preferred
+from tumato_symbolic.symbolic import Bdd, Target, one_by_one, preferred
 from tumato_symbolic.synthesis.picks import Pick
 
 NARROW_ROUNDS = 24
@@ -61,11 +61,13 @@ class RepairConflict:
     """Valid states that no policy serves together, though it does so without any one of them.
 
     The proof: all options of every state that the cuts mention, and cuts that no choice among these options respects.
+    `aims` are the targets by which these know their goals, each with its distances.
     """
 
     states: tuple[State, ...]
     options: dict[State, tuple[Option, ...]]
     cuts: tuple[FailingRun, ...]
+    aims: tuple[tuple[Target, Layers], ...]
 
 
 class Repair:
@@ -79,6 +81,9 @@ class Repair:
         self._problem = problem = evaluator.problem
         self._policy = policy
         self._distances = distances
+        self._aims = [
+            (target, layers) for target, layers in zip(problem.targets, distances, strict=True) if not target.meaning
+        ]
         self._choices = Choices(problem.encoding.manager)
         self._numbers: dict[State, int] = {}
         self._options: list[tuple[Option, ...]] = []
@@ -88,7 +93,7 @@ class Repair:
         self._cubes: dict[State, Bdd] = {}
         self._touched = problem.false
         self._rounds = 0
-        self._cut_off_in = [0] * len(distances)
+        self._cut_off_in: dict[int, int] = {}
         self._distance: dict[tuple[int, State], int | None] = {}
 
     def run(self) -> Bdd | RepairConflict:
@@ -122,7 +127,8 @@ class Repair:
         cuts = [self._cuts[number][1] for number in self._choices.refutation(owned)]
         mentioned = {state for cut in cuts for state in cut.states} | {self._states[number] for number in starts}
         options = {state: self._options[self._numbers[state]] for state in sorted(mentioned)}
-        return RepairConflict(tuple(sorted(self._states[number] for number in starts)), options, tuple(cuts))
+        blamed = tuple(sorted(self._states[number] for number in starts))
+        return RepairConflict(blamed, options, tuple(cuts), tuple(self._aims))
 
     def _minimal(self, core: frozenset[int]) -> list[int]:
         """An inclusion-minimal part of a core: each state in turn is left out, and what remains is tried."""
@@ -192,7 +198,7 @@ class Repair:
             number = self._touch(here)
             if number in path[1:]:
                 self._cut(start, goal, path, self._leaving(path, goal))
-                if self._rounds > NARROW_ROUNDS and self._cut_off_in[goal] < self._rounds:
+                if self._rounds > NARROW_ROUNDS and self._cut_off_in.get(goal, 0) < self._rounds:
                     self._cut_off_in[goal] = self._rounds
                     cut_off = [start, *(number for number in self._leading_nowhere(goal) if number != start)]
                     self._cut(start, goal, cut_off, self._leaving(cut_off, goal))
@@ -253,7 +259,7 @@ class Repair:
         """The fewest steps from a safe state to a target by any allowed steps; None where there is no way."""
         key = (goal, state)
         if key not in self._distance:
-            layers = self._distances[goal]
+            layers = self._aims[goal][1]
             contains = self._problem.encoding.contains
             self._distance[key] = next((n for n, layer in enumerate(layers) if contains(layer, state)), None)
         return self._distance[key]
@@ -286,13 +292,20 @@ class Repair:
             option = self._option(state, chosen)
             yield option
             here = self._cube(state)
-            alike = problem.targets[option.target].pending & here & problem.steps.before(self._cube(option.successor))
+            alike = self._aims[option.target][0].pending & here & problem.steps.before(self._cube(option.successor))
             left = left & ~encoding.at(alike, state)
 
     def _option(self, state: State, chosen: ActionSet) -> Option:
         encoding = self._problem.encoding
         pair = self._cube(state) & encoding.choices_cube(chosen)
-        target = next(
-            number for number, each in enumerate(self._problem.targets) if (pair & each.pending) != self._problem.false
-        )
-        return Option(successor(self._problem.spec, state, chosen), target, chosen)
+        return Option(successor(self._problem.spec, state, chosen), self._aim_of(pair), chosen)
+
+    def _aim_of(self, pair: Bdd) -> int:
+        """The number of the target of one pair: where one stands for many residual goals, given when that is met."""
+        for number, (target, _) in enumerate(self._aims):
+            if (pair & target.pending) != self._problem.false:
+                return number
+        encoding = self._problem.encoding
+        target, bits = next(one_by_one(encoding, self._problem.targets[0], pair))
+        self._aims.append((target, [encoding.manager.cofactor(layer, bits) for layer in self._distances[0]]))
+        return len(self._aims) - 1

@@ -23,7 +23,7 @@ def restoring_policy(problem: Problem, ranks: Sequence[Layers]) -> tuple[Bdd, tu
     manager, steps = problem.encoding.manager, problem.steps
     pairs = steps.allowed & steps.unsafe
     serving = manager.union(
-        pairs & target.pending & steps.before(manager.union(layers))
+        pairs & target.pending & problem.own(target, steps.before(manager.union(layers)))
         for target, layers in zip(problem.targets, ranks, strict=True)
     )
     policy, durations = problem.false, []

@@ -14,12 +14,12 @@ from dataclasses import dataclass, replace
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.diagnostics.wording import count, listed
 from tumato_symbolic.diagrams import DiagramBuilder
-from tumato_symbolic.game import Problem
+from tumato_symbolic.game import Problem, with_goals
 from tumato_symbolic.policy import formula_of
 from tumato_symbolic.semantics import State, named
 from tumato_symbolic.semantics.lint import no_start
 from tumato_symbolic.spec import Formula
-from tumato_symbolic.symbolic import Bdd, Encoding, Extractor, build_steps, regions, targets
+from tumato_symbolic.symbolic import Bdd, Encoding, Extractor, build_steps
 from tumato_symbolic.synthesis.failing import failing_states, failures_of, reason_of
 from tumato_symbolic.synthesis.result import (
     DecidedPart,
@@ -164,9 +164,7 @@ def _greatest(whole: Problem, problem: Problem, stages: tuple[_Stage, ...]) -> _
 
 def _within(whole: Problem, states: Bdd) -> Problem:
     """The problem where only these states are valid."""
-    steps = build_steps(whole.encoding, whole.steps.ordering, states)
-    active = regions(whole.encoding, steps.valid)
-    return Problem(whole.spec, steps, active, tuple(targets(steps, active)))
+    return with_goals(build_steps(whole.encoding, whole.steps.ordering, states))
 
 
 class _Search:

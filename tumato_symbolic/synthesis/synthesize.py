@@ -260,8 +260,8 @@ def _longest_run(problem: Problem, policy: Bdd, ranks: Sequence[Layers]) -> int:
     return next(
         1 + rank
         for rank in reversed(range(deepest))
-        for states, layers in zip(found.pending, ranks, strict=True)
-        if rank < len(layers) and found.predecessor(states, layers[rank]) != problem.false
+        for number, layers in enumerate(ranks)
+        if rank < len(layers) and found.first_steps(number, layers[rank]) != problem.false
     )
 
 

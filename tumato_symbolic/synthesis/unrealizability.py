@@ -39,7 +39,7 @@ from tumato_symbolic.semantics import (
     without_cases,
 )
 from tumato_symbolic.spec import Ordering, Rule, Spec, canonical_text, digest
-from tumato_symbolic.symbolic import Bdd, Extractor
+from tumato_symbolic.symbolic import Bdd, Extractor, one_by_one
 from tumato_symbolic.synthesis.certificate import goal_names
 from tumato_symbolic.synthesis.repair import RepairConflict
 
@@ -146,10 +146,11 @@ def no_plan(problem: Problem, state: State, distances: Sequence[Ranks]) -> NoPla
 
     They are those that are too far from the goal; or those that the runs reach, where that takes fewer nodes.
     """
-    here = problem.encoding.state_cube(state)
+    here, manager = problem.encoding.state_cube(state), problem.encoding.manager
     pending = [
-        (residual, problem.steps.successors(pairs & here), distances[number])
-        for number, target in enumerate(problem.targets)
+        (residual, problem.steps.successors(pairs & here), [manager.cofactor(layer, bits) for layer in layers])
+        for every, layers in zip(problem.targets, distances, strict=True)
+        for target, bits in one_by_one(problem.encoding, every, problem.steps.allowed & here)
         for residual, pairs in target.residuals
         if (pairs & here) != problem.false
     ]
@@ -219,8 +220,9 @@ def conflict(problem: Problem, distances: Sequence[Ranks], proof: RepairConflict
     first: dict[int, int] = {}
     for number in sorted({option.target for options in proof.options.values() for option in options}):
         first[number] = len(goals)
-        root = extract.function(list(enumerate(distances[number])))
-        residuals = [residual for residual, _ in problem.targets[number].residuals]
+        target, layers = proof.aims[number]
+        root = extract.function(list(enumerate(layers)))
+        residuals = [residual for residual, _ in target.residuals]
         goals += [RankedGoal(*goal_names(problem.spec, residual), root) for residual in residuals]
     places = {state: place for place, state in enumerate(proof.options)}
     choices = [

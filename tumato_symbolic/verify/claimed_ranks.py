@@ -12,6 +12,8 @@ from tumato_symbolic.verify.result import CertificateUse
 
 UNNEEDED = CertificateUse("unneeded")
 
+NO_RANKS = "it has no ranks"
+
 NOT_ALL = "not all of its ranks could be checked"
 """What is said of a certificate where a run fails, and it takes too much to look at the rest of the ranks."""
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from tumato_symbolic.limits import Budget, has_z3, need_z3
 from tumato_symbolic.policy import Policy, Table, count_defined
-from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.spec import Ordering, Spec, goal_parameters
 from tumato_symbolic.verify.by_diagrams.prover import WalkProver
 from tumato_symbolic.verify.by_states.prover import StateProver
 from tumato_symbolic.verify.decisions import LARGEST_TABLE
@@ -95,6 +95,7 @@ class _Pair:
     def __init__(self, spec: Spec, policy: Policy, ordering: Ordering, budget: Budget) -> None:
         self._policy = policy
         self._cases = len(spec.actions) if spec.has_cases else 0
+        self._goals_are_many = goal_parameters(spec) is not None
         self._walk = WalkProver(spec, policy, ordering, budget)
         self._make_z3 = partial(_z3, spec, policy, ordering, budget)
         self._make_explicit = partial(StateProver, spec, policy, ordering, budget.context)
@@ -241,8 +242,8 @@ class _Auto(_Pair):
 
     @cached_property
     def _is_large(self) -> bool:
-        """Ranks with many nodes, or those of a diagram that brings none."""
+        """Ranks with many nodes, or those of a diagram, or of many goals, that brings none."""
         certificate = self._policy.certificate
         if certificate is None:
-            return not isinstance(self._policy.decisions, Table)
+            return self._goals_are_many or not isinstance(self._policy.decisions, Table)
         return len(certificate.ranks.nodes) > MANY_RANK_NODES

@@ -62,6 +62,10 @@ class Functions:
         self.constant(0)
         self.constant(1)
 
+    def sizes_after(self, variable: int) -> list[int]:
+        """How many values this variable and those with larger numbers have."""
+        return [self.sizes[level] for each, level in self.level_of.items() if each >= variable]
+
     @property
     def is_full(self) -> bool:
         """Whether more results were remembered than may be."""

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
+from typing import TypeAlias
 
 from tumato_symbolic.semantics import Residual
 from tumato_symbolic.spec import active_bodies, executing_atoms
 from tumato_symbolic.verify.by_diagrams.closed_loop import ClosedLoop
-from tumato_symbolic.verify.by_diagrams.functions import FALSE, Function
+from tumato_symbolic.verify.by_diagrams.functions import FALSE, TRUE, Function
+
+Aim: TypeAlias = Residual | None
+"""What states are near to: a residual goal; None where these are many: that of which the parameters speak."""
 
 
 class WalkGoals:
@@ -44,14 +48,45 @@ class WalkGoals:
             parts = [(held, part) for held, part in inside + outside if part != FALSE]
         return parts
 
-    def reached(self, goal: Residual) -> Function:
+    @property
+    def are_many(self) -> bool:
+        """Whether there may be too many residual goals to look at each."""
+        return bool(self._model.active_variable)
+
+    def own(self, goal: Aim, function: Function, executed: Sequence[Function]) -> Function:
+        """A function of states and goals, for the residual goal that a state has when `executed` is the first set."""
+        if goal is not None:
+            return function
+        model, spec, walk = self._model, self._spec, self._walk
+        meaning = {variable: self.active.get(body, FALSE) for body, variable in model.active_variable.items()}
+        meaning |= {
+            variable: walk.any_of(executed[case] for case in spec.cases_from(action))
+            for action, variable in model.first_variable.items()
+        }
+        return walk.compose(function, meaning)
+
+    def reached(self, goal: Aim) -> Function:
         """Where a residual goal is met: where safety may take several steps to restore, in safe states only."""
-        executed = [int(action in goal.executed) for action in range(len(self._spec.actions))]
-        bodies = [self._spec.bodies[body].formula for body in sorted(goal.bodies)]
-        holds = self._walk.all_of(self._model.formula(body, executed) for body in bodies)
+        if goal is None:
+            holds = self._any_reached
+        else:
+            executed = [int(action in goal.executed) for action in range(len(self._spec.actions))]
+            bodies = [self._spec.bodies[body].formula for body in sorted(goal.bodies)]
+            holds = self._walk.all_of(self._model.formula(body, executed) for body in bodies)
         return self._walk.all_of((holds, self._model.safe)) if self._spec.restores_stepwise else holds
 
-    def within(self, goal: Residual) -> Function:
+    @property
+    def _any_reached(self) -> Function:
+        """Where all bodies that are active, as the parameters say, hold."""
+        model, spec, walk = self._model, self._spec, self._walk
+        first = model.first_variable
+        executed = [walk.variable(first[a]) if a in first else FALSE for a in range(len(spec.actions))]
+        return walk.all_of(
+            walk.select(walk.variable(variable), (TRUE, model.formula(spec.bodies[body].formula, executed)))
+            for body, variable in model.active_variable.items()
+        )
+
+    def within(self, goal: Aim) -> Function:
         """From where the run of the policy satisfies `goal` in at most `L - 1` steps, none included: layer by layer."""
         walk, bound = self._walk, self._spec.max_plan_length
         found = reached = self.reached(goal)

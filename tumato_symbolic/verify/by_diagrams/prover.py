@@ -6,7 +6,6 @@ import operator
 import time
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from functools import cached_property, partial
-from math import prod
 
 from tumato_symbolic.limits import Budget
 from tumato_symbolic.policy import Policy, as_diagram
@@ -14,12 +13,12 @@ from tumato_symbolic.semantics import Residual
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.by_diagrams.closed_loop import ClosedLoop
 from tumato_symbolic.verify.by_diagrams.functions import FALSE, BudgetError, Function, given_up
-from tumato_symbolic.verify.by_diagrams.goals import WalkGoals
+from tumato_symbolic.verify.by_diagrams.goals import Aim, WalkGoals
 from tumato_symbolic.verify.by_diagrams.parallel import ParallelProofs, Task
 from tumato_symbolic.verify.by_diagrams.ranks import WalkRanks
 from tumato_symbolic.verify.by_diagrams.stepwise import Stepwise
 from tumato_symbolic.verify.by_diagrams.witnesses import Witnesses
-from tumato_symbolic.verify.claimed_ranks import NOT_ALL
+from tumato_symbolic.verify.claimed_ranks import NO_RANKS, NOT_ALL
 from tumato_symbolic.verify.decisions import Decisions
 from tumato_symbolic.verify.result import CertificateUse, PropertyName, PropertyResult
 
@@ -142,7 +141,7 @@ class WalkProver:
             model = self._model
         except (BudgetError, RecursionError):
             return None
-        return model.walk.count(model.valid) // prod(len(group) + 1 for group in model.groups)
+        return model.count(model.valid)
 
     def _within(self, most: int | None, work: Callable[[], PropertyResult]) -> PropertyResult:
         """What `work` finds with at most so many results remembered."""
@@ -216,7 +215,7 @@ class WalkProver:
         result = self._by_certificate(pending) if ranks.check_claimed(self._decreases) else None
         if result is not None:
             return result
-        missed = walk.any_of(self._missing(where, ranks.near(goal)) for goal, where in pending)
+        missed = walk.any_of(self._missing(goal, where, ranks.near(goal)) for goal, where in pending)
         if missed == FALSE:
             return PropertyResult("goals", "proved", 1 + len(pending), "walk")
         refuted = self._witnesses.goal_missed(model.first_state(missed))
@@ -224,22 +223,22 @@ class WalkProver:
             raise RuntimeError("the run reaches its goal, against the walk")
         return refuted
 
-    def _pending(self, states: Function) -> list[tuple[Residual, Function]]:
+    def _pending(self, states: Function) -> list[tuple[Aim, Function]]:
         """The residual goals after decisions in `states`, each with the states where it is pending.
 
         Without an active goal none is; in several steps, an unsafe state has to come to safety all the same.
         """
-        every = self._residual_goals.residuals(states, self._model.policy)
+        every = self._ranks.aims(states, self._model.policy)
         if not self._spec.restores_stepwise:
-            return [(goal, where) for goal, where in every if goal.bodies]
+            return [(goal, where) for goal, where in every if goal is None or goal.bodies]
         walk, safe = self._model.walk, self._model.safe
-        parts = [(goal, where if goal.bodies else walk.without(where, safe)) for goal, where in every]
+        parts = [(goal, where if goal is None or goal.bodies else walk.without(where, safe)) for goal, where in every]
         return [(goal, where) for goal, where in parts if where != FALSE]
 
     def _decreases(self, goal: Residual) -> bool:
         return self._parallel.take(("decreases", goal), partial(self._ranks.decreases, goal))
 
-    def _by_certificate(self, pending: list[tuple[Residual, Function]]) -> PropertyResult | None:
+    def _by_certificate(self, pending: list[tuple[Aim, Function]]) -> PropertyResult | None:
         """The proof with the ranks that came with the policy, or a failing run; None where they do not serve.
 
         After a failing run the other ranks are looked at all the same: they may be wrong as well.
@@ -248,11 +247,14 @@ class WalkProver:
         failed, whole = None, True
         try:
             for goal, where in pending:
+                if goal is None:
+                    ranks.fall_short(NO_RANKS)
+                    return None
                 if goal not in ranks.roots:
                     ranks.lacks(goal)
                     whole = False
                     continue
-                missed = self._missing(where, ranks.claimed_near(goal))
+                missed = self._missing(goal, where, ranks.claimed_near(goal))
                 if missed == FALSE:
                     continue
                 state = model.first_state(missed)
@@ -270,9 +272,10 @@ class WalkProver:
         ranks.serve()
         return PropertyResult("goals", "proved", 1 + len(ranks.roots) + len(pending), "walk")
 
-    def _missing(self, where: Function, near: Function) -> Function:
+    def _missing(self, goal: Aim, where: Function, near: Function) -> Function:
         """The states of `where` from which the first step does not lead near enough."""
-        return self._model.walk.without(where, self._model.next(near))
+        after = self._residual_goals.own(goal, self._model.next(near), self._model.policy)
+        return self._model.walk.without(where, after)
 
     def _minimal_joined(self) -> PropertyResult:
         result, use = self._parallel.take(self._minimal_key, self._minimal_apart)
@@ -294,13 +297,13 @@ class WalkProver:
         cheaper = walk.apply(operator.lt, model.duration(model.chosen), takes)
         if cheaper != FALSE:
             cheaper = walk.all_of((cheaper, model.allowed))
-        pending = self._residual_goals.residuals(cheaper, model.chosen)
+        pending = self._ranks.aims(cheaper, model.chosen)
         step = model.successor(model.chosen)
         better = FALSE
         for goal, where in pending:
             near = self._ranks.near_at_least(goal)
-            serves = walk.all_of((where, walk.compose(near, step)))
-            if serves != FALSE and near != self._ranks.near(goal):
+            serves = walk.all_of((where, self._residual_goals.own(goal, walk.compose(near, step), model.chosen)))
+            if goal is not None and serves != FALSE and near != self._ranks.near(goal):
                 at_least, serves = serves, walk.all_of((where, walk.compose(self._ranks.near(goal), step)))
                 if serves != at_least:
                     self._ranks.inexact(goal)

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cached_property
 
 from tumato_symbolic.policy import Policy
 from tumato_symbolic.semantics import Residual
 from tumato_symbolic.verify.by_diagrams.closed_loop import ClosedLoop
 from tumato_symbolic.verify.by_diagrams.functions import FALSE, Function
-from tumato_symbolic.verify.by_diagrams.goals import WalkGoals
+from tumato_symbolic.verify.by_diagrams.goals import Aim, WalkGoals
 from tumato_symbolic.verify.claimed_ranks import UNNEEDED, ClaimedRanks
 
 
@@ -30,10 +30,19 @@ class WalkRanks(ClaimedRanks):
         self._model = model
         self._goals = goals
         self._certificate = policy.certificate
-        self._near: dict[Residual, Function] = {}
+        self._near: dict[Aim, Function] = {}
         self._lower_bounds: dict[Residual, bool] = {}
 
-    def near(self, goal: Residual) -> Function:
+    def aims(self, region: Function, executed: Sequence[Function]) -> Sequence[tuple[Aim, Function]]:
+        """`region` by what its states are to come near to when `executed` is the first set.
+
+        Where there may be many residual goals, and no ranks that tell of each, it is one thing for all.
+        """
+        if self._goals.are_many and not self.roots:
+            return [(None, region)] if region != FALSE else []
+        return self._goals.residuals(region, executed)
+
+    def near(self, goal: Aim) -> Function:
         """Exactly these states, computed backwards from the goal."""
         if goal not in self._near:
             self._near[goal] = self._goals.within(goal)
@@ -70,8 +79,10 @@ class WalkRanks(ClaimedRanks):
                 return False
         return True
 
-    def near_at_least(self, goal: Residual) -> Function:
+    def near_at_least(self, goal: Aim) -> Function:
         """These states and perhaps more, by claimed ranks that are nowhere too large, else exactly these."""
+        if goal is None:
+            return self.near(goal)
         if goal not in self.roots:
             if self.roots:
                 self.lacks(goal)

@@ -3,12 +3,16 @@
 A function is of a state `s`, and of a set of actions `A` by one variable for every *group*, actions of which at
 most one can be in an allowed set: 0 when none is, otherwise the place of the action in its group. So `Ok(s, A)` is one
 function; an effect and a successor are what is substituted for its variables.
+
+Where there are many residual goals, a function may also be of the goal of a run, by one variable for every body, *it is
+active*, and one for every action that bodies speak of, *it was executed first*.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from functools import cached_property
+from math import prod
 
 from tumato_symbolic.semantics import (
     ActionSet,
@@ -18,7 +22,7 @@ from tumato_symbolic.semantics import (
     contested_values,
     exclusive_groups,
 )
-from tumato_symbolic.spec import Connectives, Executing, Formula, Is, Ordering, Rule, Spec, fold
+from tumato_symbolic.spec import Connectives, Executing, Formula, Is, Ordering, Rule, Spec, fold, goal_parameters
 from tumato_symbolic.verify.by_diagrams.functions import FALSE, TRUE, Function
 from tumato_symbolic.verify.by_diagrams.order import walk_order
 from tumato_symbolic.verify.by_diagrams.walk import Walk
@@ -37,7 +41,12 @@ class Steps:
         self._ordering = ordering
         self.groups = exclusive_groups(spec)
         sizes = [*(len(variable.values) for variable in spec.variables), *(len(group) + 1 for group in self.groups)]
-        self.walk = walk = Walk(walk_order(spec, order, self.groups), sizes)
+        told_by, first = goal_parameters(spec), len(sizes)
+        bodies, actions = (told_by.bodies, told_by.actions) if told_by is not None else ((), ())
+        self.active_variable = {body: number for number, body in enumerate(bodies, first)}
+        self.first_variable = {action: number for number, action in enumerate(actions, first + len(bodies))}
+        sizes += [2] * (len(bodies) + len(actions))
+        self.walk = walk = Walk(walk_order(spec, order, self.groups, told_by), sizes)
         walk.deadline = deadline
         self._place = {
             action: (group, place)
@@ -248,6 +257,10 @@ class Steps:
                     where = rest
                     break
         return tuple(found)
+
+    def count(self, where: Function) -> int:
+        """In how many states a predicate of the state holds."""
+        return self.walk.count(where) // prod(self.walk.sizes_after(len(self.spec.variables)))
 
     def is_state(self, state: State) -> Function:
         """One state."""

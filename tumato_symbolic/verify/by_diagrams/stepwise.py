@@ -131,9 +131,10 @@ class Stepwise:
         better = walk.all_of((unsafe, walk.apply(operator.lt, self._quality, now)))
         if better != FALSE:
             better = walk.all_of((better, model.allowed))
-        pending, step, found = self._goals.residuals(better, model.chosen), model.successor(model.chosen), FALSE
+        pending, step, found = self._ranks.aims(better, model.chosen), model.successor(model.chosen), FALSE
         for goal, where in pending:
-            serves = walk.all_of((where, walk.compose(self._ranks.near_at_least(goal), step)))
+            after = walk.compose(self._ranks.near_at_least(goal), step)
+            serves = walk.all_of((where, self._goals.own(goal, after, model.chosen)))
             found = walk.any_of((found, serves))
         return found, len(pending)
 

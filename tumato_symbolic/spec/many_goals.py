@@ -1,0 +1,46 @@
+"""Whether a specification may have too many residual goals to look at each apart.
+
+The members of a `constraint` list are entered or not, each by itself: n conditions make up to 2^n sets of active goals,
+of n bodies. Then one parameter for each body, *it is active*, and one for each action that bodies speak of, *it is
+executed first*, tell the residual goals apart.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import prod
+
+from tumato_symbolic.spec.fold import fold_goal
+from tumato_symbolic.spec.formula import executing_atoms
+from tumato_symbolic.spec.specification import ConditionalGoal, Goal, GoalList, Spec
+
+MOST_APART = 256
+"""Up to so many sets of active goals, by the structure of the goals, are looked at one by one."""
+
+
+@dataclass(frozen=True, slots=True)
+class GoalParameters:
+    """What residual goals are told apart by: bodies, and actions (by their first cases) that some body speaks of."""
+
+    bodies: tuple[int, ...]
+    actions: tuple[int, ...]
+
+
+def goal_parameters(spec: Spec) -> GoalParameters | None:
+    """The parameters of a specification whose goals may be many; None where each is looked at apart."""
+    if spec.goals is None or _most(spec.goals) <= MOST_APART:
+        return None
+    actions = frozenset[int]().union(*(executing_atoms(body.formula) for body in spec.bodies))
+    return GoalParameters(tuple(range(len(spec.bodies))), tuple(sorted(spec.as_actions(actions))))
+
+
+def _most(goals: Goal) -> int:
+    """How many sets of active goals there can be at most, whatever the conditions say."""
+
+    def several(goal: GoalList, members: list[int]) -> int:
+        each = zip(goal.members, members, strict=True)
+        if goal.kind == "priority":
+            return sum(members) + all(isinstance(member, ConditionalGoal) for member in goal.members)
+        return prod(inner + isinstance(member, ConditionalGoal) for member, inner in each)
+
+    return fold_goal(goals, lambda _: 1, lambda _, inner: inner, several)
