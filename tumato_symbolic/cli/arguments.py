@@ -101,6 +101,11 @@ def profile() -> Any:  # noqa: ANN401
     )
 
 
+def check(help_: str) -> Any:  # noqa: ANN401
+    """`--check`."""
+    return argument("--check", action="store_true", help=help_)
+
+
 def output_format(*formats: OutputFormat) -> Any:  # noqa: ANN401
     """`--output-format`, with the formats that there are beside the text for a person."""
     readers = {

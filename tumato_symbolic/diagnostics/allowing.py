@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Final
 
 from tumato_symbolic.diagnostics.diagnostic import Diagnostic, Source
@@ -21,18 +21,20 @@ def not_allowed(diagnostics: Iterable[Diagnostic], source: Source) -> tuple[Diag
     return tuple(each for each in found if each.severity == "error" or not _is_allowed(each, lines))
 
 
-def _is_allowed(diagnostic: Diagnostic, lines: list[str]) -> bool:
-    """Whether the code is allowed on the first line of its span, or in the comments just above that line."""
-    if diagnostic.span is None or diagnostic.span.line > len(lines):
-        return False
-    place = diagnostic.span.line - 1
-    if diagnostic.code.name in _allowed(lines[place]):
-        return True
+def allowed_on(lines: Sequence[str], place: int) -> frozenset[str]:
+    """The codes that are allowed on the line at a place: by a comment on it, or in the comments just above it."""
+    found = set(_allowed(lines[place]))
     while place and _ONLY_COMMENT.match(lines[place - 1]):
         place -= 1
-        if diagnostic.code.name in _allowed(lines[place]):
-            return True
-    return False
+        found.update(_allowed(lines[place]))
+    return frozenset(found)
+
+
+def _is_allowed(diagnostic: Diagnostic, lines: list[str]) -> bool:
+    """Whether the code is allowed on the first line of its span."""
+    if diagnostic.span is None or diagnostic.span.line > len(lines):
+        return False
+    return diagnostic.code.name in allowed_on(lines, diagnostic.span.line - 1)
 
 
 def _allowed(line: str) -> list[str]:

@@ -60,6 +60,11 @@ _RESTARTS = frozenset(
 
 def parse_text(source: Source) -> Parsed:
     """Parse a whole text. The tree is what could be read; `lost` holds the words that were passed over."""
+    return read_terminals(source)[0]
+
+
+def read_terminals(source: Source) -> tuple[Parsed, tuple[Token, ...], tuple[str, ...]]:
+    """What `parse_text` yields, the tokens, and, where there is no mistake, what each of them was read as."""
     compiled = grammar()
     text = tokenize(source, compiled.token_pattern)
     run = _Run(compiled, text.tokens)
@@ -69,7 +74,7 @@ def parse_text(source: Source) -> Parsed:
         end = text.tokens[-1].span
         found = [*(each for each in found if each.span != end), text.unclosed_comment]
     found = [*found, *text.misleading[:MAX_SYNTAX_ERRORS]]
-    return Parsed(tree, tuple(found), frozenset(run.lost))
+    return Parsed(tree, tuple(found), frozenset(run.lost)), text.tokens, tuple(run.terminals)
 
 
 class _Run:
@@ -82,6 +87,7 @@ class _Run:
         self.index = 0
         self.found: list[Diagnostic] = []
         self.lost: set[str] = set()
+        self.terminals: list[str] = []
         self.open: list[Token] = []
         self.denials = 0
         self.blocks = 0
@@ -99,6 +105,7 @@ class _Run:
                 self._recover()
                 continue
             result = self.stack.feed(terminal, token)
+            self.terminals.append(terminal)
             if token.kind == "end":
                 return self._checked(result)
             self.index += 1

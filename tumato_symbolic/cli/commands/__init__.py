@@ -22,6 +22,7 @@ COMMANDS: Final = {
     "rules": "a policy as a short list of rules",
     "why": "why a policy decides as it does in a state",
     "check": "look for mistakes in specifications",
+    "format": "lay out specifications, and keep their comments",
 }
 """Every command in the order of the help, with its purpose."""
 

@@ -49,9 +49,7 @@ class Options(CommandOptions):
         "where to write it (default: the standard output; a target of several files needs a name, and writes the "
         "others beside it)",
     )
-    check: bool = argument(
-        "--check", action="store_true", help="also write the program that checks what is written, beside FILE"
-    )
+    check: bool = arguments.check("also write the program that checks what is written, beside FILE")
     timeout: float | None = arguments.timeout()
     memory: int | None = arguments.memory()
     effect_ordering: Ordering | None = arguments.effect_ordering(
