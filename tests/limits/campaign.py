@@ -24,7 +24,8 @@ LATE = 2.0
 _PROGRAM = (sys.executable, "-c", "from tumato_symbolic.cli.main import entry; entry()")
 
 _SPEC_ALONE = ("synth", "explain", "check")
-COMMANDS = (*_SPEC_ALONE, "verify", "rules", "why", "run", "export")
+COMMANDS = (*_SPEC_ALONE, "verify", "rules", "why", "run", "export", "report")
+WITHOUT_JSON = ("export", "report")
 
 _CODES = {
     "ok": 0,
@@ -136,6 +137,8 @@ def _arguments(command: str, spec: Path) -> list[str]:
             return [policy.name, spec.name, "--faults", "random", "--runs", "50", "--output-format", "json"]
         case "export":
             return ["coq", policy.name, spec.name, "-o", "proof.v"]
+        case "report":
+            return [policy.name, spec.name]
         case _:
             return [policy.name, spec.name, "--output-format", "json"]
 
@@ -153,7 +156,7 @@ def _judge(command: str, code: int, out: bytes, err: bytes) -> Iterator[str]:
     if code not in (0, 1, 2, 3) or b"Traceback" in err:
         yield f"it exits with {code}: {err[-300:].decode(errors='replace')}"
         return
-    if command == "export":
+    if command in WITHOUT_JSON:
         if code == 3 and b"undecided" not in out + err:
             yield "it does not say that it is undecided"
         return

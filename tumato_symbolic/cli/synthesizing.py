@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, cast
 
-from tumato_symbolic.cli.console import write, writing
+from tumato_symbolic.cli.console import note, write, writing
 from tumato_symbolic.cli.options import STANDARD_OUTPUT
 from tumato_symbolic.cli.targets import certificate_path
 from tumato_symbolic.diagnostics import Code, UserError, not_allowed
@@ -115,6 +115,28 @@ def write_answer(so_far: Synthesized, context: Context) -> Synthesized:
             context.learn(done)
         return done
     return so_far
+
+
+def write_html(done: Synthesized, target: str, context: Context) -> None:
+    """Write the page of the answer, where there is one, and say so."""
+    from tumato_symbolic.cli.reporting import rules_of, why_none, write_page
+    from tumato_symbolic.report.html.contents import NoPolicyPage, PolicyPage
+
+    spec = done.spec if done.restoration is None else replace(done.spec, restoration=done.restoration)
+    page: PolicyPage | NoPolicyPage
+    match done.outcome:
+        case Realizable(policy, statistics) if done.written:
+            name = "a policy" if done.output == STANDARD_OUTPUT else done.output
+            rules = rules_of(policy, context)
+            page = PolicyPage(done.source, spec, name, policy, statistics.ordering, done.proof, rules)
+        case Unrealizable(statistics=statistics):
+            name, ordering = done.certificate or done.source.name, statistics.ordering
+            explained = why_none(done.source, spec, ordering, context)
+            page = NoPolicyPage(done.source, spec, name, ordering, done.unrealizability, explained)
+        case _:
+            return
+    write_page(page, target, context)
+    note(f"{target} is written: a page for a browser.")
 
 
 def _write_certificate(certificate: Unrealizability, output: str) -> str | None:

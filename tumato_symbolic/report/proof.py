@@ -74,10 +74,11 @@ def states_covered(verification: Verification) -> str:
 
 def provers(verification: Verification) -> str:
     """Who proved what is proved."""
-    return _named("+".join(result.proved_by for result in verification.properties if result.proved_by))
+    return prover_names("+".join(result.proved_by for result in verification.properties if result.proved_by))
 
 
-def _named(proved_by: str) -> str:
+def prover_names(proved_by: str) -> str:
+    """The names of provers, as `z3+walk`, for a person."""
     names = dict.fromkeys(filter(None, proved_by.split("+")))
     return enumeration([_PROVERS.get(name, name) for name in names])
 
@@ -90,13 +91,17 @@ def property_line(result: PropertyResult, paint: Paint, verification: Verificati
         "undecided": paint.doubt("undecided"),
     }[result.verdict]
     reason = f" ({result.reason})" if result.reason else ""
-    prover = f" by {_named(result.proved_by)}" if result.proved_by not in (None, "z3") else ""
+    prover = f" by {prover_names(result.proved_by)}" if result.proved_by not in (None, "z3") else ""
+    width = max(9, *(len(each.name) + 1 for each in verification.properties), len(result.name) + 1)
+    return f"{result.name:<{width}}{verdict}{prover}: {claim_of(result, verification)}{reason}"
+
+
+def claim_of(result: PropertyResult, verification: Verification) -> str:
+    """What a property says of the policy."""
     claims = _CLAIMS if verification.restoration is None else _CLAIMS | _SEVERAL_STEPS
     claims = claims | _FROM_STARTS if verification.from_starts else claims
     decided = "valid" if verification.decides_all else "decided"
-    claim = claims[result.name].format(decided=decided, how=_HOW[verification.restoration])
-    width = max(9, *(len(each.name) + 1 for each in verification.properties), len(result.name) + 1)
-    return f"{result.name:<{width}}{verdict}{prover}: {claim}{reason}"
+    return claims[result.name].format(decided=decided, how=_HOW[verification.restoration])
 
 
 def refutation_text(place: Place, refutation: Refutation) -> str:

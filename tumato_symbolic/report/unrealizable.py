@@ -73,9 +73,14 @@ def as_text(done: VerifiedUnrealizable, colour: bool) -> str:
 
 def proof_line(found: UnrealizabilityVerdict) -> str:
     """What a certificate that holds proves."""
-    by = " and ".join(_PROVERS[name] for name in _proved_by(found) if name in _PROVERS)
+    by = proved_by(found)
     how = f"proved by {by}" if by else "checked by direct evaluation"
     return f"{_REASONS[found.kind]} ({found.kind}): {count(found.obligations, 'obligation')} {how}"
+
+
+def proved_by(found: UnrealizabilityVerdict) -> str:
+    """The names of the provers that were needed; empty where none was."""
+    return " and ".join(_PROVERS[name] for name in _proved_by(found) if name in _PROVERS)
 
 
 def _proved_by(found: UnrealizabilityVerdict) -> list[str]:

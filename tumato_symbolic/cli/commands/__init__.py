@@ -19,6 +19,7 @@ COMMANDS: Final = {
     "export": "write a policy for another tool or language",
     "decide": "what to do in a state",
     "run": "execute a policy, step by step or many times",
+    "report": "a policy as a page for a browser",
     "rules": "a policy as a short list of rules",
     "why": "why a policy decides as it does in a state",
     "check": "look for mistakes in specifications",

@@ -28,6 +28,7 @@ examples:
   tumato-sym synth amr.tum                                      # writes policy.json
   tumato-sym synth amr.tum -o - | python -m json.tool | less    # the policy on the standard output
   tumato-sym synth amr.tum --output-format json                 # the answer for a program
+  tumato-sym synth amr.tum --html amr.html                      # and a page for a browser
 """
 
 
@@ -53,6 +54,12 @@ class Options(CommandOptions):
     prove: bool = argument(
         "--no-verify", action="store_false", help="write the policy without a proof (the report says so)"
     )
+    html: str | None = argument(
+        "--html",
+        metavar="FILE",
+        help="also write a page for a browser about the answer, as `report` does",
+        writes=Target("page", "--html", "report.html"),
+    )
     timeout: float | None = arguments.timeout()
     memory: int | None = arguments.memory()
     prover: ProverName = arguments.prover()
@@ -73,7 +80,7 @@ class Options(CommandOptions):
 def run(options: Options, context: Context) -> int:
     """Exit with 0 only when there is a policy, it is proved (unless that was declined), and it is written."""
     from tumato_symbolic.cli.inputs import errors_in, read_spec
-    from tumato_symbolic.cli.synthesizing import prove, solve, write_answer
+    from tumato_symbolic.cli.synthesizing import prove, solve, write_answer, write_html
     from tumato_symbolic.report.synthesized import Synthesized
     from tumato_symbolic.synthesis import Undecided
 
@@ -87,6 +94,8 @@ def run(options: Options, context: Context) -> int:
         so_far = solve(so_far, options.effect_ordering, options.policy_format, context)
         so_far = prove(so_far, options.prover, options.jobs, context, wanted=options.prove)
     done = write_answer(so_far, context)
+    if options.html is not None:
+        write_html(done, options.html, context)
     context.tell("writing the report")
     code = _report(done, options)
     if options.profile:

@@ -1,0 +1,54 @@
+"""The judge of the page finds in every policy what the explicit one finds; `python -m tests.page` tries many."""
+
+from __future__ import annotations
+
+import json
+from itertools import islice
+
+import pytest
+
+from tests.page.judged import Asked, Tally, asked, compare, needs_node
+
+SEEDS = range(1, 3)
+
+
+@pytest.fixture(scope="module")
+def sample() -> Tally:
+    """Some policies of specifications of every kind, most of them changed."""
+    tally = Tally()
+    compare([each for seed in SEEDS for each in asked(seed, 1)], tally)
+    return tally
+
+
+@needs_node
+def test_the_judges_agree(sample: Tally) -> None:
+    """State by state, in all that can be wrong."""
+    assert not sample.complaints
+    assert sample.judged > 30
+
+
+@needs_node
+def test_the_sample_has_every_fault(sample: Tally) -> None:
+    """Decisions missing, not allowed, that miss goals, that restore nothing, or not well."""
+    assert {"missing", "not_allowed", "goal_missed", "not_minimal", "not_restored"} <= sample.faults.keys()
+    assert sample.wrong < sample.judged
+
+
+@needs_node
+def test_a_difference_is_noticed() -> None:
+    """A judge that is told of another specification disagrees."""
+
+    tally = Tally()
+    compare([Misled(each.name, each.spec, each.policy) for each in islice(asked(1, 1), 5)], tally)
+    assert tally.complaints
+
+
+class Misled(Asked):
+    """A question that forgets the rules of the specification, and says another one."""
+
+    @property
+    def question(self) -> str:
+        """The wrong one."""
+        told = json.loads(Asked.question.fget(self))  # type: ignore[attr-defined]
+        told["spec"]["state_rules"] = [{"is": [0, 0], "text": "", "line": 1, "severity": 1}]
+        return json.dumps(told)

@@ -1,0 +1,55 @@
+// Which states are looked at: some values of some variables.
+import { button, chip, h } from "./dom.mjs";
+import { decided } from "./policy.mjs";
+import { grouped } from "./words.mjs";
+
+export function filterView(app) {
+  const { spec } = app;
+  app.executed = null;
+  const chips = spec.names.map((name, n) => spec.values[n].map((value, number) =>
+    chip(value, false, () => toggle(app, n, number), { title: `${name} is ${value}` })));
+  const rows = spec.names.map((name, n) => {
+    const own = spec.environment.includes(n) ? h("small", { title: "no action writes it" }, " environment") : null;
+    return h("div.variable", { role: "group", "aria-label": name }, h("span.name", name, own), chips[n]);
+  });
+  const count = h("p", { role: "status" });
+  const search = h("input", { type: "search", placeholder: "find a variable or a value", "aria-label": "find a variable or a value",
+    oninput: () => rows.forEach((row, n) => { row.hidden = !`${spec.names[n]} ${spec.values[n].join(" ")}`.toLowerCase().includes(search.value.toLowerCase()); }) });
+  const executed = h("select", { "aria-label": "where this action is executed", onchange: () => {
+    app.executed = executed.value === "" ? null : Number(executed.value);
+    looked(app);
+  } }, h("option", { value: "" }, "whatever is done"), spec.actions.map((action, number) => h("option", { value: number }, `where ${action.name} is done`)));
+  const clear = button("all states", () => {
+    app.filter = spec.names.map(() => null);
+    app.executed = null;
+    executed.value = "";
+    looked(app);
+  });
+  const update = () => {
+    chips.forEach((row, n) => row.forEach((each, value) => each.setAttribute("aria-pressed", String(app.filter[n]?.has(value) ?? false))));
+    const some = app.filter.some((each) => each);
+    clear.disabled = !some && app.executed === null;
+    if (!app.data.policy) return;
+    const found = decided(spec, app.data.policy, app.filter).count;
+    count.textContent = some ? `${grouped(found)} of ${app.data.policy.decided} decided states` : `all ${app.data.policy.decided} decided states`;
+  };
+  const element = h("section.filter", { "aria-label": "which states" },
+    h("div", { class: "line-of" }, h("h2", "In which states?"), count, executed, clear, spec.names.length > 12 ? search : null),
+    h("div.variables", rows));
+  return { element, update };
+}
+
+function toggle(app, n, value) {
+  const some = new Set(app.filter[n] ?? []);
+  if (!some.delete(value)) some.add(value);
+  app.filter[n] = some.size && some.size < app.spec.sizes[n] ? some : null;
+  if (app.filter[n] && !some.has(app.selected[n])) app.selected = app.selected.map((one, at) => (at === n ? Math.min(...some) : one));
+  looked(app);
+}
+
+// Other states are looked at.
+function looked(app) {
+  app.wanted = null;
+  app.page = 0;
+  app.change();
+}

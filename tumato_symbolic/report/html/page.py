@@ -1,0 +1,95 @@
+"""A page in one file: its frame, style, program and data put together. It asks nothing of anybody else."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+import re
+from collections.abc import Mapping
+from html import escape
+from pathlib import Path
+from typing import Final
+
+from tumato_symbolic.report.html.contents import NoPolicyPage, PolicyPage, contents
+
+_FOLDER: Final = Path(__file__).parent
+
+_SHARED: Final = (
+    "spec",
+    "policy",
+    "steps",
+    "runs",
+    "restoring",
+    "judge",
+    "words",
+    "dom",
+    "state",
+    "verdict",
+    "listing",
+    "app",
+)
+
+_OF_A_POLICY: Final = (
+    *("chance", "checking", "filter", "table", "rules", "graph"),
+    *("decision", "execution", "compare", "policy_page"),
+)
+
+MODULES: Final = {PolicyPage: (*_SHARED, *_OF_A_POLICY), NoPolicyPage: (*_SHARED, "reasons", "no_policy_page")}
+"""The program of each kind of page: a module stands behind what it imports. The names of all share one scope."""
+
+
+def page(of: PolicyPage | NoPolicyPage) -> str:
+    """The page as HTML."""
+    program, style = bundle(type(of)), _plain((_FOLDER / "page.css").read_text(encoding="utf-8"))
+    allowed = (f"script-src {_hash(program)}", f"style-src {_hash(style)}")
+    parts = {
+        "title": escape(f"{Path(of.source.name).name} · tumato-sym"),
+        "policy": "; ".join(("default-src 'none'", *allowed, "base-uri 'none'", "form-action 'none'")),
+        "style": style,
+        "data": data_text(contents(of)),
+        "program": program,
+    }
+    frame = (_FOLDER / "page.html").read_text(encoding="utf-8")
+    return re.sub(r"\{\{(\w+)\}\}", lambda place: parts[place[1]], frame)
+
+
+def bundle(kind: type[PolicyPage | NoPolicyPage]) -> str:
+    """The program of a kind of page as one module."""
+    texts = ((_FOLDER / f"{name}.mjs").read_text(encoding="utf-8") for name in MODULES[kind])
+    return "".join(_tight(_plain(_alone(text))) for text in texts)
+
+
+def data_text(record: Mapping[str, object]) -> str:
+    """A record as JSON in ASCII that ends no element, whatever names and comments are in it."""
+    text = json.dumps(record, separators=(",", ":"))
+    for character in "<>&":
+        text = text.replace(character, f"\\u{ord(character):04x}")
+    return text
+
+
+def _alone(text: str) -> str:
+    """A module without what ties it to others."""
+    return re.sub(r"^export ", "", re.sub(r"^import [^;]*;\n", "", text, flags=re.MULTILINE), flags=re.MULTILINE)
+
+
+def _plain(text: str) -> str:
+    """Without indentation, and without lines that are comments."""
+    lines = (line.strip() for line in re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL).splitlines())
+    return "".join(f"{line}\n" for line in lines if line and not line.startswith("//"))
+
+
+_PIECES: Final = re.compile(r'("(?:[^"\\\n]|\\.)*"|`(?:[^`\\]|\\.)*`)')
+"""Strings and templates, which stay as they are; no template stands in another, and no regular expression anywhere."""
+
+
+def _tight(program: str) -> str:
+    """Without the spaces and ends of lines that nobody but people needs."""
+    parts = _PIECES.split(program)
+    parts[::2] = [re.sub(r"(?<=[{(\[,;]) *\n| *([{}()\[\],;:?<>=|&!+*]) *", r"\1", part) for part in parts[::2]]
+    return "".join(parts)
+
+
+def _hash(text: str) -> str:
+    digest = hashlib.sha256(text.encode()).digest()
+    return f"'sha256-{base64.b64encode(digest).decode()}'"
