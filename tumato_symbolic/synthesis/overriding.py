@@ -16,7 +16,10 @@ from tumato_symbolic.game import (
 )
 from tumato_symbolic.symbolic import Bdd, Target, one_by_one, preferred
 
-TRIES_TO_GIVE_BACK = 200
+MOST_LOOPS = 100
+"""How often changes are made again one after the other, where runs loop without them."""
+
+TRIES_TO_REVERT = 64
 """How many evaluations are spent on undoing changes that turned out not to be needed."""
 
 
@@ -74,16 +77,18 @@ def _towards(problem: Problem, policy: Bdd, starts: Bdd, layers: Layers) -> Bdd:
 
 
 def revert_unneeded(evaluator: Evaluator, before: Bdd, after: Bdd) -> Bdd:
-    """`after` with as many decisions of `before` as fit without a failing state; what does not go is halved.
+    """`after` with as many decisions of `before` as fit without a failing state.
 
-    Both policies are defined in every safe state, and none fails under `after`.
+    Both policies are defined in every safe state, and none fails under `after`. First only those changes are kept
+    without which runs close loops; what is left of them is tried by halves.
     """
     problem = evaluator.problem
+    after = _breaking_loops(evaluator, before, after)
     pending = [problem.steps.states_of(after & ~before)]
     suspects = list(range(len(problem.targets)))
     earlier, now = _smaller(problem, before, after)
     tries = 0
-    while pending and tries < TRIES_TO_GIVE_BACK:
+    while pending and tries < TRIES_TO_REVERT:
         states = pending.pop()
         candidate = mixed(now, earlier, states)
         tries += 1
@@ -92,6 +97,44 @@ def revert_unneeded(evaluator: Evaluator, before: Bdd, after: Bdd) -> Bdd:
         else:
             pending += reversed(_halves(problem, states))
     return now.policy
+
+
+def _breaking_loops(evaluator: Evaluator, before: Bdd, after: Bdd) -> Bdd:
+    """`before` with those decisions of `after` that keep its runs from looping; `after`, where these do not suffice.
+
+    In every round failing runs are followed to the states that they come back to for ever. Those of them that were
+    changed get their change, where the run next leaves the states that were.
+    """
+    problem, steps = evaluator.problem, evaluator.problem.steps
+    changed, kept = steps.states_of(after & ~before), problem.false
+    for _ in range(MOST_LOOPS):
+        policy = (before & ~kept) | (after & kept)
+        found = evaluator.evaluate(policy)
+        if found.failing == problem.false:
+            return policy
+        open_ = changed & ~kept
+        looping = _visited_for_ever(problem, policy, found.failing) & open_
+        if looping == problem.false:
+            return after
+        last = looping & ~found.closed_loop.predecessor(looping, open_)
+        kept = kept | (looping if last == problem.false else last)
+    return after
+
+
+def _visited_for_ever(problem: Problem, policy: Bdd, starts: Bdd) -> Bdd:
+    """The states that runs from some states come back to again and again."""
+    steps = problem.steps
+    met = (starts & steps.safe) | steps.successors(steps.allowed & steps.unsafe & starts)
+    front = met
+    while front != problem.false:
+        problem.context.check()
+        front = steps.successors(policy & front) & ~met
+        met = met | front
+    lasting = steps.successors(policy & met)
+    while lasting != met:
+        problem.context.check()
+        lasting, met = steps.successors(policy & lasting), lasting
+    return met
 
 
 def _smaller(problem: Problem, before: Bdd, after: Bdd) -> tuple[ClosedLoop, ClosedLoop]:
