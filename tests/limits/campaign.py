@@ -24,7 +24,7 @@ LATE = 2.0
 _PROGRAM = (sys.executable, "-c", "from tumato_symbolic.cli.main import entry; entry()")
 
 _SPEC_ALONE = ("synth", "explain", "check")
-COMMANDS = (*_SPEC_ALONE, "verify", "rules", "why", "run", "export", "report")
+COMMANDS = (*_SPEC_ALONE, "verify", "show", "why", "run", "export", "report")
 WITHOUT_JSON = ("export", "report")
 
 _CODES = {
@@ -128,7 +128,7 @@ def _arguments(command: str, spec: Path) -> list[str]:
         made = None
     policy.write_text("{}" if made is None else dumps(made))
     match command:
-        case "rules":
+        case "show":
             return [policy.name, "--output-format", "json"]
         case "why":
             state = [] if made is None else [f"{name}={values[0]}" for name, values in made.vocabulary.variables]

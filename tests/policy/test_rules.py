@@ -176,11 +176,11 @@ def test_a_policy_without_states_has_no_rules() -> None:
 
 
 def test_rules_load_no_engine() -> None:
-    """`tumato-sym rules` imports neither lark nor dd nor z3."""
+    """`tumato-sym show --format rules` imports neither lark nor dd nor z3."""
     script = (
         "import sys; from tumato_symbolic.cli.main import main; code = main(sys.argv[1:]);"
         "print(code, sorted({'lark', 'dd', 'z3'} & set(sys.modules)))"
     )
-    command = [sys.executable, "-c", script, "rules", str(PROOFS / "amr.policy.json")]
+    command = [sys.executable, "-c", script, "show", str(PROOFS / "amr.policy.json"), "--format", "rules"]
     run = subprocess.run(command, capture_output=True, text=True, check=True)
     assert run.stdout.endswith("0 []\n")

@@ -85,7 +85,9 @@ def test_it_decides_as_it_says(published: Published) -> None:
 
 def test_its_rules_speak_of_all_states(published: Published) -> None:
     """In a gigabyte."""
-    answer = json.loads(ask("rules", published.policy, "--output-format", "json", "--memory", str(MEGABYTES)))
+    answer = json.loads(
+        ask("show", published.policy, "--format", "rules", "--output-format", "json", "--memory", str(MEGABYTES))
+    )
     assert (answer["verdict"], answer["states"]) == ("ok", published.states)
 
 

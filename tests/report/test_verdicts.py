@@ -64,13 +64,16 @@ def test_what_others_change_is_named_where_there_is_no_plan() -> None:
         assert (told in report) == expected
 
 
-def test_a_policy_too_large_to_draw_is_shown_by_rules() -> None:
-    """The next command is `rules` where the report has no tree."""
+def test_a_policy_too_large_to_draw_comes_with_the_command_that_shows_it() -> None:
+    """That the picture is left out is said, and how to see it; also where the policy is in no file."""
     for example, drawn in (("coin", True), ("forklift", False)):
         spec = parse((ROOT / "examples" / f"{example}.tum").read_text(encoding="utf-8"))
-        outcome = synthesize(spec)
-        text = as_text(replace(GIVEN_UP, spec=spec, outcome=outcome, written=True, output="p.json"), colour=False)
-        assert ("What it does" in text, "tumato-sym rules p.json" in text) == (drawn, not drawn)
+        done = replace(GIVEN_UP, spec=spec, outcome=synthesize(spec), written=True, output="p.json")
+        text = as_text(done, colour=False)
+        show = f"left out here. To see them:\n  tumato-sym show p.json {GIVEN_UP.source.name}"
+        assert ("What it does" in text, show in text) == (True, not drawn)
+        apart = as_text(replace(done, output="-"), colour=False)
+        assert ("tumato-sym show POLICY" in apart) == (not drawn)
 
 
 def test_actions_that_no_state_needs_are_named() -> None:

@@ -30,7 +30,7 @@ COMMANDS: dict[str, tuple[str, ...]] = {
     "decide": ("decide", "made.json", *STATE),
     "run": ("run", "made.json", "amr.tum", "--faults", "random", "--runs", "20"),
     "worst": ("run", "made.json", "amr.tum", *STATE, "--faults", "worst"),
-    "rules": ("rules", "made.json"),
+    "show": ("show", "made.json", "--format", "rules"),
     "export": ("export", "python", "made.json", "amr.tum"),
 }
 

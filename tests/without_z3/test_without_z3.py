@@ -64,7 +64,7 @@ def test_every_command_ends_well(commands: dict[str, dict[str, tuple[int, str, s
 
 def test_every_other_command_prints_the_same(commands: dict[str, dict[str, tuple[int, str, str]]]) -> None:
     """But for times, and for who proved it."""
-    same = ("check", "explain", "explain more", "why", "decide", "run", "worst", "rules", "export")
+    same = ("check", "explain", "explain more", "why", "decide", "run", "worst", "show", "export")
     for name in (*same, "synth by the walk", "walk", "explicit"):
         with_z3, without = (_timeless(commands[kind][name]) for kind in ("with", "without"))
         assert with_z3 == without, name
@@ -80,7 +80,7 @@ def test_no_package_is_needed_but_to_compute_policies(commands: dict[str, dict[s
         code, out, _ = bare[name]
         assert code == 3, name
         assert "dd is needed to look for policies" in " ".join(out.split()), name
-    for name in ("check", "why", "decide", "run", "worst", "rules", "export", "walk", "explicit"):
+    for name in ("check", "why", "decide", "run", "worst", "show", "export", "walk", "explicit"):
         assert _timeless(bare[name]) == _timeless(commands["with"][name]), name
     for name in ("auto", "guarantees"):
         assert bare[name][0] == 0, name

@@ -2,31 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
-from tumato_symbolic.diagnostics.wording import quoted
-from tumato_symbolic.policy import Rule, RuleList, Vocabulary
+from tumato_symbolic.policy import Rule, RuleList
+from tumato_symbolic.report.cubes import actions_text, named_cube_text
 from tumato_symbolic.report.layout import count
+from tumato_symbolic.views import OTHER
 
 OTHERWISE = "otherwise"
 
+SOMETHING_ELSE = "–"
+"""Stands for the decisions that are not looked at."""
 
-def as_text(path: str, vocabulary: Vocabulary, found: RuleList, states: int) -> str:
-    """The rules with conditions in the syntax of specifications, each with its actions below."""
+
+def rule_lines(values: Mapping[str, Sequence[str]], found: RuleList, states: int) -> Iterator[str]:
+    """The rules that decide so many states, with conditions in the syntax of specifications, each with its actions
+    below; `values` are all values of each variable.
+    """
     rules = found.rules
-    decided = f"{path} decides {count(states, 'state')}"
-    if not rules and not found.left:
-        return f"{decided}: there are no rules."
-    values = dict(vocabulary.variables)
     same = f"{count(len(rules), 'rule decides', 'rules decide')} the same"
     if found.left:
         same += f" in {states - found.left:,} of them"
-    lines = [f"{decided}; {same}. The first that matches decides.", ""]
+    yield f"{same}. The first that matches decides."
+    yield ""
     width = len(str(len(rules)))
     for number, rule in enumerate(rules, 1):
-        actions = ", ".join(map(_shown, rule.actions)) or "(nothing)"
-        lines += [f"{number:>{width}}  {condition(values, rule)}", f"{'':>{width}}    {actions}"]
-    return "\n".join((*lines, *_left_out(found)))
+        yield f"{number:>{width}}  {condition(values, rule)}"
+        yield f"{'':>{width}}    {SOMETHING_ELSE if OTHER in rule.actions else actions_text(rule.actions)}"
+    yield from _left_out(found)
 
 
 def _left_out(found: RuleList) -> list[str]:
@@ -39,30 +42,17 @@ def _left_out(found: RuleList) -> list[str]:
 
 def condition(values: Mapping[str, Sequence[str]], rule: Rule) -> str:
     """A rule's condition as a specification would say it; `values` are all values of each variable."""
-    parts = [_literal(name, allowed, values[name]) for name, allowed in rule.condition]
-    if len(parts) == 1:
-        return parts[0].removeprefix("(").removesuffix(")") if parts[0].startswith("(") else parts[0]
-    return " AND ".join(parts) or OTHERWISE
+    return named_cube_text(values, rule.condition, " AND ") or OTHERWISE
 
 
-def _literal(name: str, allowed: Sequence[str], known: Sequence[str]) -> str:
-    excluded = [value for value in known if value not in allowed]
-    named = excluded if len(excluded) < len(allowed) else allowed
-    text = " OR ".join(f"{_shown(name)} is {_shown(value)}" for value in named)
-    text = f"({text})" if len(named) > 1 else text
-    return f"NOT {text}" if named is excluded else text
-
-
-def _shown(name: str) -> str:
-    return quoted(name)[1:-1]
-
-
-def as_json(path: str, found: RuleList, states: int) -> dict[str, object]:
-    """The object that `rules --output-format json` prints."""
+def rules_json(found: RuleList) -> dict[str, object]:
+    """The rules for a program, and what was left out; `actions` are null where something else is done."""
     listed = [
-        {"condition": {name: list(values) for name, values in rule.condition}, "actions": list(rule.actions)}
+        {
+            "condition": {name: list(values) for name, values in rule.condition},
+            "actions": None if OTHER in rule.actions else list(rule.actions),
+        }
         for rule in found.rules
     ]
-    verdict = "undecided" if found.left else "ok"
     more = {} if found.limit is None else {"left": found.left, "limit": found.limit}
-    return {"verdict": verdict, "policy": path, "states": states, "rules": listed, **more}
+    return {"rules": listed, **more}

@@ -6,21 +6,21 @@ import shlex
 from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Diagnostic, Source
-from tumato_symbolic.policy import as_table, never_executed, some_decided
+from tumato_symbolic.policy import Policy, count_defined, never_executed, some_decided
 from tumato_symbolic.report.failures import FAILURE_CODES, failure_json, failure_line, failure_text, left_out_lines
 from tumato_symbolic.report.findings import Finding, finding_json, findings_of, undecided
 from tumato_symbolic.report.layout import Paint, count, enumeration, every, seconds
 from tumato_symbolic.report.objections import Place
-from tumato_symbolic.report.policy_tree import policy_tree
 from tumato_symbolic.report.proof import ORDERINGS, proof_json, proof_text, provers
 from tumato_symbolic.report.restorable import restorable_json, restorable_lines
 from tumato_symbolic.report.restored import restored_json, restored_text
-from tumato_symbolic.semantics import cases_in
+from tumato_symbolic.report.trees import tree_lines
 from tumato_symbolic.spec import Ordering, Restoration, Spec
 from tumato_symbolic.synthesis.result import Realizable, Statistics, SynthesisResult, Undecided, Unrealizable
 from tumato_symbolic.verify.result import UnrealizabilityVerdict, Verification
+from tumato_symbolic.views import Folded, Questions, Tree, rows, select
 
-_PICTURED_STATES = 500
+_PICTURED_STATES = 10_000
 _PICTURED_LINES = 30
 _NAMES = 5
 
@@ -121,13 +121,12 @@ def _realizable(done: Synthesized, outcome: Realizable, paint: Paint) -> list[st
         f"  effects: {ORDERINGS[statistics.ordering]}",
         *_engine(statistics),
     ]
-    drawn = _drawn(done, outcome)
-    parts = ["\n".join(head), *_left_out(done, statistics), *drawn]
+    parts = ["\n".join(head), *_left_out(done, statistics), _drawn(done, outcome)]
     if done.proof is None:
         parts.append(paint.doubt("Not proved: --no-verify was given."))
     else:
         parts.append(proof_text(done.proof, statistics.valid, done.proved_in, paint))
-    return [*parts, _next(done, outcome, shown=bool(drawn))]
+    return [*parts, _next(done, outcome)]
 
 
 def _decided(statistics: Statistics) -> str:
@@ -153,27 +152,34 @@ def _never_executed(outcome: Realizable) -> list[str]:
     return [f"  never executed: {enumeration(shown)}"] if names else []
 
 
-def _drawn(done: Synthesized, outcome: Realizable) -> list[str]:
-    table = as_table(outcome.policy, _PICTURED_STATES)
-    if table is None:
-        return []
-    rows = {state: cases_in(done.spec, chosen, state) for state, chosen in table.rows.items()}
-    lines = policy_tree(done.spec, rows)
-    if len(lines) > _PICTURED_LINES:
-        return []
+def _drawn(done: Synthesized, outcome: Realizable) -> str:
+    """What the policy does; where that is long, the command that shows it."""
+    tree = _tree(done.spec, outcome.policy)
+    if tree is None:
+        file = done.output if done.written and done.output != "-" else "POLICY"
+        show = f"tumato-sym show {shlex.quote(file)} {shlex.quote(done.source.name)}"
+        return f"What it does takes more than {_PICTURED_LINES} lines, which are left out here. To see them:\n  {show}"
     legend = " (! restores safety)" if outcome.statistics.unsafe else ""
-    return ["\n".join((f"What it does{legend}:", *(f"  {line}" for line in lines)))]
+    return "\n".join((f"What it does{legend}:", *(f"  {line}" for line in tree_lines(outcome.policy.vocabulary, tree))))
 
 
-def _next(done: Synthesized, outcome: Realizable, *, shown: bool) -> str:
+def _tree(spec: Spec, policy: Policy) -> Tree | None:
+    """The whole policy, where that takes a few lines."""
+    if count_defined(policy) > _PICTURED_STATES:
+        return None
+    tree = Questions(select(policy, spec=spec).joint()).tree(_PICTURED_LINES)
+    whole = tree is not None and not any(isinstance(row.leaf, Folded) for row in rows(tree))
+    return tree if whole else None
+
+
+def _next(done: Synthesized, outcome: Realizable) -> str:
     if not done.written:
         return "The policy was not written. With --no-verify it would be written without a proof."
     if done.output == "-":
         return "The policy is on the standard output."
     file, example = shlex.quote(done.output), some_decided(outcome.policy)
     state = "VARIABLE=VALUE …" if example is None else done.place.state(example)
-    lines = [f"{done.output} is written. Next:", *([] if shown else [f"  tumato-sym rules {file}"])]
-    lines.append(f"  tumato-sym decide {file} {state}")
+    lines = [f"{done.output} is written. Next:", f"  tumato-sym decide {file} {state}"]
     overrule = _overruling(done, outcome.statistics.ordering)
     return "\n".join((*lines, f"  tumato-sym verify {file} {shlex.quote(done.source.name)}{overrule}"))
 

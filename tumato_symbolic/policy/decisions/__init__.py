@@ -14,12 +14,14 @@ from tumato_symbolic.policy.decisions.convert import (
 )
 from tumato_symbolic.policy.decisions.part import formula_of, judged_within
 from tumato_symbolic.policy.decisions.rules import Rule, RuleList, find_rules, minimal_rules
+from tumato_symbolic.policy.decisions.state_sets import StateSets
 
 __all__ = [
     "Renumbering",
     "Roots",
     "Rule",
     "RuleList",
+    "StateSets",
     "as_diagram",
     "as_table",
     "bind",

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 
-from tumato_symbolic.diagrams import EVERYTHING, LEAVES, NOTHING, Reference, Sets, room_for
+from tumato_symbolic.diagrams import EVERYTHING, LEAVES, Reference, Sets, room_for
+from tumato_symbolic.policy.decisions.state_sets import StateSets
 from tumato_symbolic.policy.policy import Policy
 from tumato_symbolic.policy.records import DecisionDiagram, Restoring, Table, Vocabulary
 from tumato_symbolic.semantics import cases_in
-from tumato_symbolic.spec import Connectives, Executing, Formula, Is, Spec, fold
+from tumato_symbolic.spec import Spec
 
 
 def by_case(policy: Policy, spec: Spec) -> Policy:
@@ -47,14 +48,7 @@ class _Lifting:
         self._sets = Sets([*order, *others], [len(variable.values) for variable in spec.variables])
         roots = (*decisions.roots, decisions.defined)
         *self._actions, self._defined = self._sets.take(decisions.diagram, roots, LEAVES)
-        self._levels = {variable: level for level, variable in enumerate(self._sets.order)}
-        self._by: Connectives[Reference] = Connectives(
-            constant=lambda value: EVERYTHING if value else NOTHING,
-            negation=lambda states: self._sets.without(EVERYTHING, states),
-            conjunction=self._all_of,
-            disjunction=self._any_of,
-            equivalence=lambda one, other: self._sets.choose(one, other, self._sets.without(EVERYTHING, other)),
-        )
+        self._formulas = StateSets.of(self._sets, spec)
 
     def decisions(self) -> DecisionDiagram:
         """All cases of all actions, in their order."""
@@ -70,29 +64,10 @@ class _Lifting:
             return
         guards = [self._guard(case) for case in cases]
         if sum(map(self._sets.count, guards)) < self._sets.count(EVERYTHING):
-            guards[0] = self._sets.without(EVERYTHING, self._any_of(guards[1:]))
+            guards[0] = self._sets.without(EVERYTHING, self._formulas.any_of(guards[1:]))
         for guard in guards:
             yield self._sets.both(action, guard)
 
     def _guard(self, case: int) -> Reference:
         guard = self._spec.actions[case].guard
-        return EVERYTHING if guard is None else self._states(guard.formula)
-
-    def _states(self, formula: Formula) -> Reference:
-        def atom(atom: Is | Executing) -> Reference:
-            assert isinstance(atom, Is), "guards speak of the state"
-            return self._sets.cube(((self._levels[atom.variable], (atom.value,)),))
-
-        return fold(formula, atom, self._by)
-
-    def _all_of(self, parts: Sequence[Reference]) -> Reference:
-        found = EVERYTHING
-        for part in parts:
-            found = self._sets.both(found, part)
-        return found
-
-    def _any_of(self, parts: Sequence[Reference]) -> Reference:
-        found = NOTHING
-        for part in parts:
-            found = self._sets.either(found, part)
-        return found
+        return EVERYTHING if guard is None else self._formulas.states(guard.formula)

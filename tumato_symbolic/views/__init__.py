@@ -1,0 +1,24 @@
+"""Policies looked at: a part of one, its decisions as a tree or a graph, how two differ. States are never listed."""
+
+from tumato_symbolic.views.questions import Answer, Box, Branch, Condition, Folded, Question, Questions, Row, Tree, rows
+from tumato_symbolic.views.selected import OTHER, Label, Selected, select
+from tumato_symbolic.views.selection import Selection, parse_selection
+
+__all__ = [
+    "OTHER",
+    "Answer",
+    "Box",
+    "Branch",
+    "Condition",
+    "Folded",
+    "Label",
+    "Question",
+    "Questions",
+    "Row",
+    "Selected",
+    "Selection",
+    "Tree",
+    "parse_selection",
+    "rows",
+    "select",
+]
