@@ -131,7 +131,7 @@ Variables (spec : specification) (order : ordering).
 
 Definition is_action_set (A : actions) : bool := increasing_below (length (declared spec)) 0 A.
 
-Definition assumed (s : state) : bool := forallb (holds s []) (assumptions spec).
+Definition assumed (s : state) : bool := forallb (holds s []) (assumptions spec) &&& part spec s.
 
 Definition keeps_rules (s : state) : bool := assumed s && forallb (forallb (holds s [])) (state_rules spec).
 
@@ -139,7 +139,10 @@ Definition keeps_rules (s : state) : bool := assumed s && forallb (forallb (hold
 Definition compatible (a b : nat) : bool :=
   disjoint (resources (the spec a)) (resources (the spec b)) && agree (nominal (the spec a)) (nominal (the spec b)).
 
-Definition applicable (s : state) (a : nat) : bool := forallb (holds s []) (preconditions (the spec a)).
+Definition applicable (s : state) (a : nat) : bool := forallb (holds s []) (conditions spec a).
+
+(** Whether an action that was started before may still take effect, where preconditions have to hold throughout. *)
+Definition lasting (s : state) (a : nat) : bool := forallb (holds s []) (preconditions (the spec a)).
 
 (** ** What a step can lead to *)
 
@@ -185,7 +188,7 @@ Definition is_ok (fine : state -> bool) (s : state) (A : actions) : bool :=
     if a =? b then agree (nominal (the spec a)) (nominal (the spec a)) else compatible a b) A) A &&&
   forallb (holds s A) (reaction_rules spec) &&&
   next_fine fine s A &&&
-  (negb (throughout spec) ||| after_good (fun t => forallb (applicable t)) s A).
+  (negb (throughout spec) ||| after_good (fun t => forallb (lasting t)) s A).
 
 (** ** Runs *)
 
@@ -339,3 +342,15 @@ Definition check (t : table) (known : efforts) : bool :=
   forallb (fun s => negb (assumed s) ||| match entry t s with Some A => judge s A | None => false end) states.
 
 End Checking.
+
+(** ** From starts *)
+
+Definition decides (t : table) : state -> bool := fun s => match entry t s with Some _ => true | None => false end.
+
+Definition is_start (spec : specification) (s : state) : bool :=
+  match starts spec with [] => true | _ :: _ => existsb (holds s []) (starts spec) end.
+
+Definition check_from_starts (spec : specification) (order : ordering) (t : table) (known : efforts) : bool :=
+  every (fun s => if assumed spec s then negb (is_start spec s) ||| decides t s else negb (decides t s))
+    (all_states (sizes spec)) &&&
+  check (within spec (decides t)) order t known.

@@ -1,7 +1,7 @@
 (** What a specification means, and when a policy is right.
 
     To be read beside [docs/semantics.md]; the section numbers are the same, and sections 9 and 10 are told where they
-    belong. Nothing is proved here.
+    belong; section 12, on starts, comes last. Nothing is proved here.
     Variables, values, resources and actions are numbers: positions in the declaration. *)
 
 From Coq Require Import List Arith NArith Sorted.
@@ -31,6 +31,7 @@ Record action := {
   duration : N;
   resources : list nat;
   preconditions : list formula;
+  guard : list formula;  (* where it is the one that is meant, of several that stand for an action with clauses *)
   nominal : assignment;
   alternatives : list assignment
 }.
@@ -54,7 +55,9 @@ Record specification := {
   goals : option goal;
   max_plan_length : option N;
   restored_in : restoration;
-  throughout : bool  (* whether preconditions have to hold until the action takes effect *)
+  throughout : bool;  (* whether preconditions have to hold until the action takes effect *)
+  starts : list formula;  (* the start conditions; see the end of this file *)
+  part : state -> bool  (* which states are looked at: all, or those of a part *)
 }.
 
 Inductive ordering := Any | First.
@@ -85,7 +88,8 @@ Variables (spec : specification) (order : ordering).
 
 Definition is_state (s : state) : Prop := Forall2 lt s (sizes spec).
 
-Definition valid (s : state) : Prop := is_state s /\ all_hold s (assumptions spec).
+(** Where only a part of the states is looked at, the others count as if an assumption excluded them (section 12). *)
+Definition valid (s : state) : Prop := is_state s /\ all_hold s (assumptions spec) /\ part spec s = true.
 
 Definition safe (s : state) : Prop := valid s /\ all_hold s (concat (state_rules spec)).
 
@@ -109,7 +113,10 @@ Definition action_set (A : actions) : Prop :=
 (** The record of action number [a]; the empty one stands for numbers that are not declared. *)
 Definition the (a : nat) : action :=
   nth a (declared spec)
-    {| duration := 0; resources := []; preconditions := []; nominal := []; alternatives := [] |}.
+    {| duration := 0; resources := []; preconditions := []; guard := []; nominal := []; alternatives := [] |}.
+
+(** Where an action may start. *)
+Definition conditions (a : nat) : list formula := preconditions (the a) ++ guard (the a).
 
 (** What an action may do. One whose effects all write nothing never takes effect. *)
 Definition effects (a : nat) : list assignment :=
@@ -170,7 +177,7 @@ Definition kept (s t : state) : Prop := valid t /\ all_hold t (required s).
 
 (** The set [A] is allowed in state [s]; under [Bounded] and [Fair] this is [Keep(s, A)] of section 9. *)
 Record ok (s : state) (A : actions) : Prop := {
-  preconditions_hold : forall a, In a A -> all_hold s (preconditions (the a));
+  preconditions_hold : forall a, In a A -> all_hold s (conditions a);
   resources_differ : forall a b r, In a A -> In b A -> a <> b ->
     In r (resources (the a)) -> ~ In r (resources (the b));
   nominals_agree : forall a b x v w, In a A -> In b A ->
@@ -288,3 +295,26 @@ Definition minimal (pi : policy) : Prop :=
   forall s A, valid s -> ~ safe s -> action_set A -> ok s A -> better pi s A -> ~ sound_and_complete (change pi s A).
 
 End Meaning.
+
+(** ** 12. Start states *)
+
+(** The same, where only the states of [D] are looked at. *)
+Definition within (spec : specification) (D : state -> bool) : specification := {|
+  sizes := sizes spec; declared := declared spec; reaction_rules := reaction_rules spec;
+  state_rules := state_rules spec; assumptions := assumptions spec; goals := goals spec;
+  max_plan_length := max_plan_length spec; restored_in := restored_in spec; throughout := throughout spec;
+  starts := starts spec; part := D
+|}.
+
+(** Where there are no start conditions, every valid state is a start. *)
+Definition start (spec : specification) (s : state) : Prop :=
+  valid spec s /\ (starts spec = [] \/ exists f, In f (starts spec) /\ holds s [] f = true).
+
+(** [pi], which decides the states of [D], is right: there are all starts among them, and valid states only; what
+    sections 5 and 9 ask of valid states holds for these; and so, in particular, no step leads out of them. *)
+Record right_from_starts (spec : specification) (order : ordering) (D : state -> bool) (pi : policy) : Prop := {
+  starts_decided : forall s, start spec s -> D s = true;
+  decided_valid : forall s, is_state spec s -> D s = true -> valid spec s;
+  part_sound_and_complete : sound_and_complete (within spec D) order pi;
+  part_minimal : minimal (within spec D) order pi
+}.

@@ -12,7 +12,7 @@ Lemma all_hold_spec : forall s fs, forallb (holds s []) fs = true <-> all_hold s
 Proof. intros s fs. apply forallb_forall. Qed.
 
 Lemma assumed_spec : forall s, is_state spec s -> assumed spec s = true <-> valid spec s.
-Proof. intros s H. unfold assumed, valid. rewrite all_hold_spec. tauto. Qed.
+Proof. intros s H. unfold assumed, valid. eager. rewrite andb_true_iff, all_hold_spec. tauto. Qed.
 
 Definition valid_at : state -> bool := is_true_at (build (assumed spec) (sizes spec)).
 
@@ -20,7 +20,7 @@ Definition safe_at : state -> bool := is_true_at (build (keeps_rules spec) (size
 
 Lemma valid_at_spec : forall s, valid_at s = true <-> valid spec s.
 Proof.
-  intros s. unfold valid_at. rewrite is_true_at_spec. unfold assumed. now rewrite all_hold_spec.
+  intros s. unfold valid_at. rewrite is_true_at_spec. unfold assumed. eager. now rewrite andb_true_iff, all_hold_spec.
 Qed.
 
 Lemma all_hold_concat : forall s tiers, forallb (forallb (holds s [])) tiers = true <-> all_hold s (concat tiers).
@@ -32,7 +32,7 @@ Qed.
 Lemma safe_at_spec : forall s, safe_at s = true <-> safe spec s.
 Proof.
   intros s. unfold safe_at, safe, valid. rewrite is_true_at_spec. unfold keeps_rules, assumed.
-  rewrite andb_true_iff, all_hold_spec, all_hold_concat. unfold is_state. tauto.
+  eager. rewrite !andb_true_iff, all_hold_spec, all_hold_concat. unfold is_state. tauto.
 Qed.
 
 (** ** Levels *)
@@ -302,7 +302,7 @@ Proof.
       * apply agree_spec. intros x v w. now apply N.
 Qed.
 
-Lemma lasting_spec : forall s A, after_good spec order (fun t => forallb (applicable spec t)) s A = true <->
+Lemma lasting_spec : forall s A, after_good spec order (fun t => forallb (lasting spec t)) s A = true <->
   forall t B a, after spec order s A t B -> In a B -> all_hold t (preconditions (the spec a)).
 Proof.
   intros s A. rewrite after_good_spec.
@@ -319,7 +319,7 @@ Proof.
   assert (K : (forall t, next spec order s A t -> kept_at s t = true) <-> (forall t, next spec order s A t -> kept spec s t)).
   { split; intros H t N; now apply kept_at_spec, H. }
   rewrite K. assert (same : (forall a, In a A -> applicable spec s a = true) <->
-    (forall a, In a A -> all_hold s (preconditions (the spec a)))).
+    (forall a, In a A -> all_hold s (conditions spec a))).
   { split; intros H a Ha; now apply all_hold_spec, H. }
   rewrite same. split.
   - intros [[[[P [R N]] Q] O] L]. constructor; auto. intros T. destruct L as [L|L]; [congruence | exact L].

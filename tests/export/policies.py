@@ -8,6 +8,7 @@ from itertools import product
 from pathlib import Path
 from random import Random
 
+from tests.export.compiler import Case
 from tests.repo.documents import ROOT
 from tumato_symbolic import parse
 from tumato_symbolic.diagrams import DiagramBuilder, rebuild
@@ -29,6 +30,11 @@ def example(name: str, *, diagram: bool = False) -> Request:
 def request(spec: Spec, rows: Mapping[State, ActionSet], name: str = "policy") -> Request:
     """Decisions for a specification."""
     return Request(policy_from_rows(spec, rows), spec, spec.ordering, name)
+
+
+def exported(case: Case) -> Request:
+    """What is exported of a case."""
+    return replace(request(case.spec, case.rows), ordering=case.ordering)
 
 
 def as_some_diagram(policy: Policy, random: Random) -> Policy:

@@ -12,7 +12,8 @@ import pytest
 
 from tests.export.behaviour_trees import Running, entries, fallback, fresh, needs_library
 from tests.export.cases import generated
-from tests.export.policies import EXAMPLES, decisions, example, random_request, request, written
+from tests.export.mixed import FROM_STARTS, mixed
+from tests.export.policies import EXAMPLES, decisions, example, exported, random_request, request, written
 from tumato_symbolic.export import btcpp
 from tumato_symbolic.export.decisions import rules_of
 from tumato_symbolic.export.request import Request
@@ -120,6 +121,16 @@ def test_random_policies_with_nasty_names(seed: int, monkeypatch: pytest.MonkeyP
     assert _in_every_state(watched) == []
     assert _where_actions_fail(watched) == []
     assert _where_the_state_changes(watched, states[:12]) == []
+
+
+@needs_library
+@pytest.mark.parametrize("seed", FROM_STARTS)
+def test_policies_from_starts(seed: int) -> None:
+    """Where nothing is decided the tree fails, and nothing that ran before goes on."""
+    watched = Watched(exported(mixed(seed)[0]))
+    assert None in watched.wanted.values()
+    assert _in_every_state(watched) == []
+    assert _where_the_state_changes(watched, list(watched.wanted)) == []
 
 
 @needs_library

@@ -10,11 +10,13 @@ from pathlib import Path
 import pytest
 
 from tests.export.c_compiler import compile_c, needs_cc
+from tests.export.mixed import FROM_STARTS, mixed
 from tests.export.policies import (
     EXAMPLES,
     decisions,
     example,
     expected_lines,
+    exported,
     random_request,
     request,
     write,
@@ -76,6 +78,17 @@ def test_every_example_decides_as_decide_does(name: str, tmp_path: Path, monkeyp
     _compare(example(name), tmp_path)
     monkeypatch.setattr(c_decisions, "MOST_ANSWERS", 0)
     _compare(example(name, diagram=True), tmp_path)
+
+
+@needs_cc
+@pytest.mark.parametrize("seed", FROM_STARTS)
+def test_policies_from_starts(seed: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Decided states have their actions, all others the status that says so; in both forms."""
+    policy = exported(mixed(seed)[0])
+    assert "undecided" in expected_lines(policy)
+    _compare(policy, tmp_path)
+    monkeypatch.setattr(c_decisions, "MOST_ANSWERS", 0)
+    _compare(policy, tmp_path)
 
 
 @needs_cc

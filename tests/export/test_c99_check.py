@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import subprocess
 from collections.abc import Sequence
 from dataclasses import replace
@@ -11,74 +10,31 @@ from pathlib import Path
 
 import pytest
 
+from tests.export.c_check import counts, expected, grouped
 from tests.export.c_compiler import compile_c, needs_cc
 from tests.export.cases import generated, stepwise
 from tests.export.compiler import Case
-from tests.export.policies import EXAMPLES, example, request, write, written
+from tests.export.policies import EXAMPLES, example, exported, request, write, written
 from tests.profiles import ALL_PROFILES
 from tumato_symbolic import parse
 from tumato_symbolic.diagnostics import Code, UserError
 from tumato_symbolic.export import c99
 from tumato_symbolic.export.c99_check import MOST_STATES
-from tumato_symbolic.export.request import Request
 from tumato_symbolic.policy import Table, as_table
 from tumato_symbolic.semantics import judge
 from tumato_symbolic.spec import Restoration
-
-_COUNTS = re.compile(r"undecided (\d+), not allowed (\d+), goals not reached (\d+), safety not restored (\d+)")
-
-
-def counts(requests: Sequence[Request], folder: Path) -> list[tuple[int, tuple[int, ...]]]:
-    """For policies of one specification, the exit code of the check and the faults that it counts.
-
-    The sources are compiled into one program, as functions of different names.
-    """
-    first = replace(requests[0], check=True)
-    _, _, check = write(folder, first, c99.files(first), (".c", ".h", "_check.c"))
-    parts = []
-    for number, made in enumerate(requests):
-        (folder / f"decide{number}.c").write_text(c99.files(made)[0], encoding="utf-8")
-        parts.append(f'#define policy_decide decide{number}\n#include "decide{number}.c"\n#undef policy_decide\n')
-    listed = ", ".join(f"decide{number}" for number in range(len(requests)))
-    (folder / "policies.c").write_text(
-        '#include "policy.h"\n#include <stdlib.h>\n'
-        + "".join(f"policy_status decide{n}(const policy_state *s, policy_actions *a);\n" for n in range(len(requests)))
-        + "".join(parts)
-        + f"static policy_status (*const all[])(const policy_state *, policy_actions *) = {{ {listed} }};\n"
-        + "policy_status policy_decide(const policy_state *s, policy_actions *a)\n"
-        + '{\n    return all[atoi(getenv("POLICY"))](s, a);\n}\n'
-    )
-    program = compile_c([folder / "policies.c", check], folder)
-    found = []
-    for number in range(len(requests)):
-        ran = subprocess.run([program], env={"POLICY": str(number)}, capture_output=True, text=True, check=False)
-        said = _COUNTS.search(ran.stdout)
-        assert said is not None, (ran.stdout, ran.stderr)
-        found.append((ran.returncode, tuple(map(int, said.groups()))))
-    return found
-
-
-def expected(case: Case) -> tuple[int, tuple[int, ...]]:
-    """What the explicit meaning counts."""
-    found = judge(case.spec, case.rows, case.ordering)
-    faults = tuple(map(len, (found.missing, found.not_allowed, found.goal_missed, found.not_restored)))
-    return int(any(faults)), faults
 
 
 def _compare(cases: Sequence[Case], folder: Path) -> tuple[int, int]:
     """How many policies were right and wrong, where the program and the meaning agree on all of them."""
     right = wrong = 0
-    groups: dict[tuple[int, str], list[Case]] = {}
-    for case in cases:
-        groups.setdefault((id(case.spec), case.ordering), []).append(case)
-    for number, same in enumerate(groups.values()):
+    for number, same in enumerate(grouped(cases)):
         place = folder / str(number)
         place.mkdir()
-        requests = [replace(request(case.spec, case.rows), ordering=case.ordering) for case in same]
         truth = [expected(case) for case in same]
-        assert counts(requests, place) == truth
-        right += sum(not code for code, _ in truth)
-        wrong += sum(code for code, _ in truth)
+        assert counts([exported(case) for case in same], place) == truth
+        right += sum(not each.code for each in truth)
+        wrong += sum(each.code for each in truth)
     return right, wrong
 
 

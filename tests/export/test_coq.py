@@ -64,7 +64,8 @@ def test_the_specification_is_written_in_numbers_and_explained_in_comments(amr: 
     assert "    (* IF S_Location is corridor OR S_Location is charger THEN S_Conveyor is off *)\n" in text
     assert "    Or [Not (Or [Is 0 0; Is 0 1]); Is 3 1]\n" in text
     assert "      (* when S_Battery is low *)\n      (When (Is 1 0)\n" in text
-    assert "max_plan_length := Some 5%N;\n  restored_in := OneStep;\n  throughout := false\n" in text
+    assert "max_plan_length := Some 5%N;\n  restored_in := OneStep;\n  throughout := false;\n" in text
+    assert "  starts := [];\n  part := fun _ => true\n|}." in text
     assert text.count("Leaf") == 32
 
 

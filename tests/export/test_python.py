@@ -13,7 +13,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.export.policies import EXAMPLES, decisions, example, random_request, request, written
+from tests.export.mixed import FROM_STARTS, mixed
+from tests.export.policies import EXAMPLES, decisions, example, exported, random_request, request, written
 from tumato_symbolic.export import python
 from tumato_symbolic.export.request import Request
 from tumato_symbolic.export.targets import TARGETS
@@ -85,9 +86,10 @@ def _compare(interpreter: str, requests: Sequence[Request], folder: Path) -> Non
 
 @pytest.mark.parametrize("interpreter", interpreters(), ids=lambda path: Path(path).resolve().name)
 def test_every_python_decides_as_decide_does(interpreter: str, tmp_path: Path) -> None:
-    """In every state of examples (here: of all), and of random policies, which leave states undecided."""
+    """In every state of examples (here: of all), of policies from starts, and of random ones with undecided states."""
     names = EXAMPLES if interpreter == sys.executable else ["amr", "nested_goals"]
     requests = [example(name) for name in names] + [example(name, diagram=True) for name in names[:2]]
+    requests += [exported(mixed(seed)[0]) for seed in FROM_STARTS]
     _compare(interpreter, [*requests, *(random_request(seed) for seed in range(12))], tmp_path)
 
 

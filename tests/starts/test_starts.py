@@ -15,9 +15,6 @@ from tumato_symbolic import Realizable, Undecided, Unrealizable, parse, synthesi
 from tumato_symbolic.diagnostics import Code, UserError
 from tumato_symbolic.explain.explain import explain
 from tumato_symbolic.explain.explanation import Explanation, NothingToExplain
-from tumato_symbolic.export.closed_loop import ClosedLoop
-from tumato_symbolic.export.coq import export
-from tumato_symbolic.export.request import Request
 from tumato_symbolic.policy import as_table, dumps, policy_from_rows
 from tumato_symbolic.policy.guarantees import dumps as guarantees_text
 from tumato_symbolic.semantics import guarantees as explicit_guarantees
@@ -136,16 +133,11 @@ def test_a_policy_is_judged_by_the_part_that_it_decides() -> None:
 
 
 def test_what_does_not_know_starts_refuses_them() -> None:
-    """Proofs that there is no policy, theorems for Coq, and programs that check what is exported."""
+    """Proofs that goals conflict."""
     spec, plain = parse(begun("x is l")), synthesize(parse(CONFLICT))
-    outcome = synthesize(spec)
-    assert isinstance(plain, Unrealizable) and plain.certificate is not None and isinstance(outcome, Realizable)
+    assert isinstance(plain, Unrealizable) and plain.certificate is not None
     with pytest.raises(UserError, match="does not support START"):
         verify_unrealizable(plain.certificate, spec)
-    with pytest.raises(UserError, match="does not support START"):
-        export(outcome.policy, spec, "any")
-    with pytest.raises(UserError, match="does not support START"):
-        ClosedLoop.of(Request(outcome.policy, spec, "any", "robot"))
 
 
 def test_what_is_guaranteed_is_guaranteed_of_decided_states(tmp_path: Path) -> None:

@@ -89,7 +89,7 @@ def files(request: Request) -> tuple[str]:
     trees = [_MAIN, *(f"Rules_{number}" for number in range(1, len(parts) + 1))]
     names = names_of(request, trees)
     text = _FILE.substitute(
-        promise=fill(_PROMISE.format(**_ORDERINGS[request.ordering]), 119),
+        promise=fill(_PROMISE.format(**_ORDERINGS[request.ordering]) + request.from_starts, 119),
         entries="".join(_entries(names)),
         main=_MAIN,
         trees="\n".join(_trees(names, trees, parts)),

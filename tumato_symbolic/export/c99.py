@@ -44,7 +44,7 @@ typedef struct {
 
 typedef enum {
     ${u}_INVALID,   /* some variable has a value that it cannot have: nothing is decided */
-    ${u}_UNDECIDED, /* the policy says nothing of this state, which the specification excludes */
+    ${u}_UNDECIDED, /* the policy says nothing of this state: no action is known to be safe */
     ${u}_DECIDED    /* execute the set of actions, which may be empty */
 } ${p}_status;
 

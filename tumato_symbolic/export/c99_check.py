@@ -8,12 +8,11 @@ from string import Template
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.export.c99_names import Names
 from tumato_symbolic.export.c99_program import PROGRAM
-from tumato_symbolic.export.closed_loop import ClosedLoop, preconditions
+from tumato_symbolic.export.closed_loop import ClosedLoop, guard, lasting
 from tumato_symbolic.export.decisions import MOST_QUESTIONS, Answer, questions, tree_of
-from tumato_symbolic.export.request import Request
+from tumato_symbolic.export.request import Request, commented
 from tumato_symbolic.semantics import count_states
-from tumato_symbolic.spec import Assignment, Connectives, Executing, Formula, Is, fold
-from tumato_symbolic.spec.support import require_no_lasting_cases
+from tumato_symbolic.spec import TRUE, Assignment, Connectives, Executing, Formula, Is, fold
 
 MOST_STATES = 10_000_000
 """The program holds a byte for every state, valid or not, and goes through all of them."""
@@ -21,7 +20,6 @@ MOST_STATES = 10_000_000
 
 def check(request: Request) -> str:
     """The text of the program. Raises `UserError` (TUM508) where there are too many states."""
-    require_no_lasting_cases(request.spec, "the check in C")
     count = count_states(request.spec)
     if count > MOST_STATES:
         message = f"the specification has {count:,} states; the check in C goes through each, for up to {MOST_STATES:,}"
@@ -53,9 +51,12 @@ def check(request: Request) -> str:
         spend="".join(_spending(loop)),
         excluded="".join(f"    if (chosen[{a}] && chosen[{b}]) return 0;\n" for a, b in loop.excluded),
         fields="".join(_fields(names)),
+        about=_about(request, loop),
+        starts=int(loop.starts is not None),
         valid=_formula(loop.valid),
+        start=_formula(TRUE if loop.starts is None else loop.starts),
         levels="".join(f"    if (!{_formula(each)}) return {n};\n" for n, each in enumerate(loop.levels)),
-        preconditions="".join(_cases(_formula(preconditions(action)) for action in loop.actions)),
+        preconditions="".join(_preconditions(loop)),
         chosen="".join(_chosen(loop, names)),
         reaction_rules=_formula(loop.reaction_rules),
         when=_array("when", [_formula(each.when) for each in loop.required]),
@@ -63,6 +64,19 @@ def check(request: Request) -> str:
         active=_array("active", [_formula(each.when) for each in loop.goals]),
         goals=_broken("active", [_formula(goal.body) for goal in loop.goals]),
     )
+
+
+_ABOUT = (
+    "Runs the closed loop of the policy in {header}: from {begins}, what it decides, with all effects in every order."
+    " Exits with 0 where all decisions are allowed{more}, safety is restored and nominal effects reach the goals. "
+    "Whether a cheaper set would restore safety as well is not asked. Written by `tumato-sym export c99 --check`."
+)
+
+
+def _about(request: Request, loop: ClosedLoop) -> str:
+    more = "" if loop.starts is None else " and lead to decided states only"
+    text = _ABOUT.format(header=f"{request.name}.h", begins=loop.begins, more=more)
+    return "/*" + commented(text, "   ")[2:]
 
 
 def _largest(request: Request, loop: ClosedLoop) -> int:
@@ -127,9 +141,11 @@ def _fields(names: Names) -> Iterator[str]:
         yield "    state.nothing = 0;\n"
 
 
-def _cases(formulas: Iterator[str]) -> Iterator[str]:
-    for number, formula in enumerate(formulas):
-        yield f"    case {number}: return {formula};\n"
+def _preconditions(loop: ClosedLoop) -> Iterator[str]:
+    for number, action in enumerate(loop.actions):
+        meant = guard(action)
+        more = "" if meant == TRUE else f" && (started || {_formula(meant)})"
+        yield f"    case {number}: return {_formula(lasting(action))}{more};\n"
 
 
 def _chosen(loop: ClosedLoop, names: Names) -> Iterator[str]:
@@ -137,10 +153,10 @@ def _chosen(loop: ClosedLoop, names: Names) -> Iterator[str]:
     for action, cases in zip(names.actions, loop.cases, strict=True):
         yield f"    if ({names.prefix}_executes(&actions, {action})) {{\n"
         if len(cases) == 1:
-            yield f"        chosen[{cases[0]}] = 1;\n        *possible &= can_start({cases[0]}, s);\n"
+            yield f"        chosen[{cases[0]}] = 1;\n        *possible &= is_possible({cases[0]}, 0, s);\n"
         else:
-            yield from (f"        chosen[{case}] = (char)can_start({case}, s);\n" for case in cases)
-            yield f"        *possible &= {' | '.join(f'chosen[{case}]' for case in cases)};\n"
+            yield from (f"        chosen[{case}] = (char){_formula(guard(loop.actions[case]))};\n" for case in cases)
+            yield f"        *possible &= {' | '.join(f'is_possible({case}, 0, s)' for case in cases)};\n"
         yield "    }\n"
 
 

@@ -3,9 +3,7 @@
 from typing import Final
 
 PROGRAM: Final = """\
-/* Runs the closed loop of the policy in $header: from every valid state, what it decides, with all effects in every
-   order. Exits with 0 where all decisions are allowed, safety is restored and nominal effects reach the goals.
-   Whether a cheaper set would restore safety as well is not asked. Written by `tumato-sym export c99 --check`.
+$about
 
    What is judged is the compiled policy, and not the code of the robot: that must ask only when nothing is being
    executed, see every effect before it asks again, and keep an action that it halted from having an effect later. */
@@ -25,6 +23,7 @@ enum {
     ONE_EFFECT = $one_effect,     /* whether a step ends with the first effect */
     SEVERAL_STEPS = $several_steps, /* whether safety may take several steps to restore */
     FAIR = $fair,                 /* whether nominal effects may be needed for that */
+    STARTS = $starts,             /* whether only starts have to be decided, and what may follow */
     LASTING = $preconditions_last, /* whether preconditions have to hold until an action takes effect */
     LARGEST = $largest            /* how many actions with effects are decided together at most */
 };
@@ -42,11 +41,38 @@ static const char *const variable_names[] = { $variable_names };
 $value_names
 /* Pairs of variable and value; where in them each effect begins and ends; where in those an action's effects do. */
 $tables
-static int is_valid(const world *w)
+static int is_assumed(const world *w)
 {
     const int *const s = w->values;
     (void)s;
     return $valid;
+}
+
+static int is_start(const world *w)
+{
+    const int *const s = w->values;
+    (void)s;
+    return $start;
+}
+
+static ${p}_status ask(const world *w, ${p}_actions *actions)
+{
+    const int *const s = w->values;
+    ${p}_state state;
+    (void)s;
+$fields    return ${p}_decide(&state, actions);
+}
+
+static int is_decided(const world *w)
+{
+    ${p}_actions actions;
+    return ask(w, &actions) == ${u}_DECIDED;
+}
+
+/* Whether a state is one of those that are looked at. */
+static int is_valid(const world *w)
+{
+    return is_assumed(w) && (!STARTS || is_decided(w));
 }
 
 /* How many severities, the most severe first, have all their rules satisfied. */
@@ -62,9 +88,11 @@ static int is_safe(const world *w)
     return is_valid(w) && level(w) == LEVELS;
 }
 
-static int can_start(int action, const int *s)
+/* Whether an action may start here; or, where it was started before, whether it may still take effect. */
+static int is_possible(int action, int started, const int *s)
 {
     (void)s;
+    (void)started;
     switch (action) {
 $preconditions    default: return 1;
     }
@@ -75,10 +103,8 @@ static ${p}_status decide(const world *w, set *decided, int *possible)
 {
     const int *const s = w->values;
     char *const chosen = decided->executed;
-    ${p}_state state;
     ${p}_actions actions;
-    ${p}_status status;
-$fields    status = ${p}_decide(&state, &actions);
+    const ${p}_status status = ask(w, &actions);
     memset(decided, 0, sizeof *decided);
     *possible = 1;
     (void)s;
@@ -109,7 +135,7 @@ static int is_as_required(const world *w, const char *when)
     const int *const s = w->values;
     (void)s;
     (void)when;
-$required    return 1;
+$required    return !STARTS || is_decided(w);
 }
 
 static void activate(const world *w, char *active)
@@ -243,7 +269,7 @@ static int stays_as_required(const world *after, const set *waiting, const void 
     int action;
     if (!is_as_required(after, when)) return 0;
     for (action = 0; LASTING && action < ACTIONS; action++) {
-        if (waiting->executed[action] && !can_start(action, after->values)) return 0;
+        if (waiting->executed[action] && !is_possible(action, 1, after->values)) return 0;
     }
     return 1;
 }
@@ -259,7 +285,8 @@ static int is_allowed(const world *w, const set *decided, int possible)
 #ifdef PROVE
 
 /* For a bounded model checker: any valid state, any order of effects. What it proves is that every such state is
-   decided, that the decision is allowed, and that every outcome is as required. */
+   decided (with starts: every start, and no state that is not valid), that the decision is allowed, and that every
+   outcome is as required (with starts: decided, too). */
 
 #include <assert.h>
 
@@ -276,7 +303,14 @@ int main(void)
         w.values[variable] = __VERIFIER_nondet_int();
         if (w.values[variable] < 0 || w.values[variable] >= sizes[variable]) return 0;
     }
-    if (!is_valid(&w)) return 0;
+    if (STARTS && !is_decided(&w)) {
+        assert(!(is_assumed(&w) && is_start(&w)));
+        return 0;
+    }
+    if (!is_assumed(&w)) {
+        assert(!STARTS);
+        return 0;
+    }
     assert(decide(&w, &decided, &possible) == ${u}_DECIDED);
     assert(possible);
     assert(are_compatible(&decided));
@@ -392,6 +426,7 @@ static void show(const char *what, const world *w, unsigned long *count)
 int main(void)
 {
     unsigned long number, valid = 0, safe = 0, missing = 0, forbidden = 0, lost = 0, trapped = 0;
+    unsigned long starts = 0, decisions = 0, invalid = 0;
     if (SEVERAL_STEPS) find_restored();
     seen = 0;
     for (number = 0; number < STATES; number++) {
@@ -399,13 +434,18 @@ int main(void)
         set decided;
         int possible;
         world_of(number, &w);
-        if (!is_valid(&w)) continue;
-        valid++;
-        safe += (unsigned long)is_safe(&w);
-        if (decide(&w, &decided, &possible) != ${u}_DECIDED) {
-            show("undecided", &w, &missing);
+        if (!is_assumed(&w)) {
+            if (STARTS && is_decided(&w)) show("decided, but not valid", &w, &invalid);
             continue;
         }
+        valid++;
+        starts += (unsigned long)is_start(&w);
+        safe += (unsigned long)(level(&w) == LEVELS);
+        if (decide(&w, &decided, &possible) != ${u}_DECIDED) {
+            if (is_start(&w)) show("undecided", &w, &missing);
+            continue;
+        }
+        decisions++;
         if (!is_allowed(&w, &decided, possible)) {
             show("not allowed", &w, &forbidden);
         } else if (!run_succeeds(&w, &decided, -1)) {
@@ -420,7 +460,10 @@ int main(void)
            seen, longest);
     printf("undecided %lu, not allowed %lu, goals not reached %lu, safety not restored %lu\\n", missing, forbidden,
            lost, trapped);
-    return missing + forbidden + lost + trapped != 0;
+    if (STARTS) {
+        printf("starts %lu, valid states decided %lu, others decided %lu\\n", starts, decisions, invalid);
+    }
+    return missing + invalid + forbidden + lost + trapped != 0;
 }
 
 #endif

@@ -1,9 +1,10 @@
 """A policy at work, as guarded commands over named values: decide, let effects happen, halt, decide again.
 
-From every valid state, whenever nothing is being executed, the policy chooses a set of actions. Then, under `any`, the
-actions that have not taken effect take one of their effects each, in any order, until the robot halts the rest, which
-it may do after any effect; under `first`, one action takes one effect, or all nominal effects happen at once. A set
-whose actions have no effects changes nothing. What has to hold, and when, is said here as formulas; targets print them.
+From every valid state, or with starts from every one that is decided, whenever nothing is being executed, the policy
+chooses a set of actions. Then, under `any`, the actions that have not taken effect take one of their effects each, in
+any order, until the robot halts the rest, which it may do after any effect; under `first`, one action takes one effect,
+or all nominal effects happen at once. A set whose actions have no effects changes nothing. What has to hold, and when,
+is said here as formulas; targets print them.
 """
 
 from __future__ import annotations
@@ -32,7 +33,6 @@ from tumato_symbolic.spec import (
     Variable,
     active_bodies,
 )
-from tumato_symbolic.spec.support import require_no_starts
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,13 +61,16 @@ class ClosedLoop:
     `cases[action]` are the numbers of the entries of `actions` that share the name of an action of the policy: the one
     whose preconditions hold when it starts is executed. `excluded` are pairs of entries that must not be executed
     together. `levels[n]` holds where the `n + 1` most severe tiers of state rules do. `several_steps` tells that goals
-    count in safe states only, and that `restoration` asks for more than the required rules.
+    count in safe states only, and that `restoration` asks for more than the required rules. Valid states where `starts`
+    holds have to be decided; all of them where it is None. With starts, others may be left undecided, and then no
+    effect of a decision may lead there (`docs/semantics.md`, section 12).
     """
 
     variables: tuple[Variable, ...]
     actions: tuple[Action, ...]
     cases: tuple[tuple[int, ...], ...]
     valid: Formula
+    starts: Formula | None
     levels: tuple[Formula, ...]
     reaction_rules: Formula
     excluded: tuple[tuple[int, int], ...]
@@ -80,15 +83,19 @@ class ClosedLoop:
     preconditions_last: bool
 
     @property
+    def begins(self) -> str:
+        """Where runs begin, in words."""
+        return "every valid state" if self.starts is None else "every start, and every other state that is decided"
+
+    @property
     def safe(self) -> Formula:
         """Where all state rules hold, besides the assumptions."""
         return conjunction((self.valid, self.levels[-1]))
 
     @classmethod
     def of(cls, request: Request) -> ClosedLoop:
-        """The closed loop of a policy and its specification. Raises `UserError` where there are starts."""
+        """The closed loop of a policy and its specification."""
         spec = request.spec
-        require_no_starts(spec, "what checks an export")
         names = request.policy.vocabulary.actions
         by_name = {spec.actions[cases[0]].name: tuple(cases) for cases in spec.cases}
         cases = tuple(by_name[name] for name in names)
@@ -98,6 +105,7 @@ class ClosedLoop:
             spec.actions,
             cases,
             _all(spec.assumptions),
+            spec.start if spec.starts else None,
             tuple(_levels(spec)),
             _all(spec.reaction_rules),
             tuple(_excluded(spec)),
@@ -146,6 +154,11 @@ def preconditions(action: Action) -> Formula:
 def lasting(action: Action) -> Formula:
     """What may have to hold until an action takes effect."""
     return _all(action.preconditions)
+
+
+def guard(action: Action) -> Formula:
+    """Where a case of an action is the one that is meant, besides its preconditions."""
+    return TRUE if action.guard is None else action.guard.formula
 
 
 def _all(rules: Sequence[Rule]) -> Formula:

@@ -21,6 +21,7 @@ from tumato_symbolic.semantics import (
     action_names,
     all_states,
     count_states,
+    is_start,
     is_valid,
     named,
 )
@@ -42,7 +43,6 @@ from tumato_symbolic.spec import (
     fold,
     fold_goal,
 )
-from tumato_symbolic.spec.support import require_no_lasting_cases, require_no_starts
 
 MOST_STATES = 30_000
 """Coq goes through all states, valid or not; so many take it about a minute (`proofs/coq/README.md`)."""
@@ -53,13 +53,13 @@ _HEAD = """\
    Written by `tumato-sym export coq`; comments are for readers and prove nothing. *)
 
 From Coq Require Import List NArith.
-From Tumato Require Import Semantics Checker Correct.
+From Tumato Require Import Semantics Checker Correct Starts.
 Import ListNotations.
 """
 
 _CASES = """\
 (* An action whose effects depend on the state stands here as several, its cases, one for each thing that it may do: the
-   last precondition of a case tells in which states the action does that. *)
+   guard of a case tells in which states the action does that. *)
 """
 
 _THEOREM = """\
@@ -75,6 +75,18 @@ Proof. exact (checker_sound spec {ordering} decisions {efforts} accepted). Qed.
 Print Assumptions policy_is_right.
 """
 
+_THEOREM_FROM_STARTS = """\
+(* Coq computes the check. Where the policy is wrong, it says here that `true` is not what comes out;
+   `tumato-sym verify` tells why. *)
+Lemma accepted : check_from_starts spec {ordering} decisions {efforts} = true.
+Proof. vm_cast_no_check (eq_refl true). Qed.
+
+Theorem policy_is_right : right_from_starts spec {ordering} (decides decisions) (policy_of decisions).
+Proof. exact (starts_sound spec {ordering} decisions {efforts} accepted). Qed.
+
+Print Assumptions policy_is_right.
+"""
+
 
 def files(request: Request) -> tuple[str]:
     """The text of the theorem."""
@@ -84,15 +96,15 @@ def files(request: Request) -> tuple[str]:
 def export(policy: Policy, spec: Spec, ordering: Ordering) -> str:
     """The text of a Coq file that compiles when `policy` is sound, complete and minimal under `ordering`.
 
-    What that means is section 5 of `docs/semantics.md`; `proofs/coq/README.md` tells how to compile. Raises
-    `UserError` where the policy does not fit the specification (`bind`), where it leaves a valid state undecided
-    (TUM502), or where the specification has more than `MOST_STATES` states (TUM508).
+    What that means is section 5 of `docs/semantics.md`, with starts section 12; `proofs/coq/README.md` tells how to
+    compile. Raises `UserError` where the policy does not fit the specification (`bind`), where it leaves a valid state,
+    with starts a start, undecided (TUM502), or where the specification has more than `MOST_STATES` states (TUM508).
     """
-    require_no_starts(spec, "the theorem for Coq")
-    require_no_lasting_cases(spec, "export-proof")
     rows = _rows(bind(policy, spec), spec)
     several = spec.restoration != "one_step"
-    theorem = _THEOREM.format(ordering=ordering.capitalize(), efforts="known" if several else "no_efforts")
+    theorem = (_THEOREM_FROM_STARTS if spec.starts else _THEOREM).format(
+        ordering=ordering.capitalize(), efforts="known" if several else "no_efforts"
+    )
     efforts = _efforts(spec, rows, ordering) if several else ()
     return "\n".join(
         [
@@ -107,7 +119,7 @@ def export(policy: Policy, spec: Spec, ordering: Ordering) -> str:
 
 
 def _rows(policy: Policy, spec: Spec) -> dict[State, ActionSet]:
-    """The decisions in the valid states."""
+    """The decisions in the valid states; with starts all decisions, for there are to be none in other states."""
     count = count_states(spec)
     if count > MOST_STATES:
         message = f"the specification has {count:,} states; Coq goes through each, for up to {MOST_STATES:,}"
@@ -116,11 +128,12 @@ def _rows(policy: Policy, spec: Spec) -> dict[State, ActionSet]:
     table = as_table(policy, count)
     rows = {} if table is None else table.rows
     valid = [state for state in all_states(spec) if is_valid(spec, state)]
-    missing = next((state for state in valid if state not in rows), None)
+    missing = next((state for state in valid if state not in rows and is_start(spec, state)), None)
     if missing is not None:
         state = ", ".join(f"{name} is {value}" for name, value in islice(named(spec, missing).items(), 20))
-        raise _fault(Code.TUM502, f"the policy decides nothing in the valid state ({state})", "synthesize it again")
-    return {state: rows[state] for state in valid}
+        what = "start" if spec.starts else "valid state"
+        raise _fault(Code.TUM502, f"the policy decides nothing in the {what} ({state})", "synthesize it again")
+    return dict(rows) if spec.starts else {state: rows[state] for state in valid}
 
 
 def _fault(code: Code, message: str, help: str) -> UserError:
@@ -146,7 +159,9 @@ def _specification(spec: Spec) -> Iterator[str]:
     bound = spec.max_plan_length
     yield "  max_plan_length := " + ("None" if bound is None else f"Some {bound}%N") + ";"
     yield f"  restored_in := {_RESTORATIONS[spec.restoration]};"
-    yield f"  throughout := {'true' if spec.preconditions == 'throughout' else 'false'}"
+    yield f"  throughout := {'true' if spec.preconditions == 'throughout' else 'false'};"
+    yield from _field("starts", _rules(spec.starts))
+    yield "  part := fun _ => true"
     yield "|}.\n"
 
 
@@ -220,7 +235,8 @@ _COQ: Connectives[str] = Connectives(
 def _action(action: Action) -> str:
     return (
         f"{{| duration := {action.duration}%N; resources := {_list(map(str, sorted(action.resources)))};\n"
-        f"       preconditions := {_list(_formula(rule.formula) for rule in action.conditions)};\n"
+        f"       preconditions := {_list(_formula(rule.formula) for rule in action.preconditions)};\n"
+        f"       guard := {_list([] if action.guard is None else [_formula(action.guard.formula)])};\n"
         f"       nominal := {_assignment(action.nominal)};\n"
         f"       alternatives := {_list(_assignment(o) for entry in action.alternatives for o in entry.outcomes)} |}}"
     )

@@ -86,7 +86,8 @@ class Model:
 class Language:
     """How a language writes formulas: connectives, what is between a variable and a value, which rules decide.
 
-    `and_below` joins conditions that stand below each other; `safe` names the safe states.
+    `and_below` joins conditions that stand below each other; `safe`, `valid` and `decided` name the safe, the valid and
+    the decided states.
     """
 
     by: Connectives[str]
@@ -94,6 +95,8 @@ class Language:
     rule_is: Callable[[Sequence[int]], str]
     and_below: str
     safe: str
+    valid: str = "valid"
+    decided: str = "decided"
 
 
 class Claims:
@@ -133,7 +136,20 @@ class Claims:
         }
         below = {name: self.language.and_below.join(parts) or by.constant(True) for name, parts in listed.items()}
         states = {"valid": self.now(loop.valid), "safe": self.now(loop.safe)}
-        return {"decided": decided, "quiet": self.quiet(), **states, **below}
+        runs = {"begins": self.begins(), "complete": self.complete()}
+        return {"decided": decided, "quiet": self.quiet(), **states, **below, **runs}
+
+    def begins(self) -> str:
+        """Where runs begin: in the valid states; with starts, in these, and in all other decided states."""
+        starts = self.model.loop.starts
+        if starts is None:
+            return self.language.valid
+        return self.any([self.all([self.language.valid, self.now(starts)]), self.language.decided])
+
+    def complete(self) -> str:
+        """What holds where runs begin: the state is decided; with starts, it is valid too."""
+        names = [self.language.decided, *([] if self.model.loop.starts is None else [self.language.valid])]
+        return self.all(names)
 
     def executed(self, entry: int) -> str:
         """Where an entry of the actions is executed."""
@@ -162,11 +178,12 @@ class Claims:
         return [*found, self.now(loop.reaction_rules)]
 
     def required(self) -> list[str]:
-        """What holds after each effect."""
+        """What holds after each effect; with starts, that the next decision is there, too."""
         rules = [self.now(each.rule) for each in self.model.loop.required]
-        return [
+        kept = [
             self._implied(f"kept_{number}", rule) if number in self.kept else rule for number, rule in enumerate(rules)
         ]
+        return kept if self.model.loop.starts is None else [*kept, self.language.decided]
 
     def possible(self) -> list[str]:
         """The preconditions of what has not taken effect, where they have to hold until then."""

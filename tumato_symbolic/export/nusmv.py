@@ -16,9 +16,7 @@ _MODEL = Template("""\
 --
 $promise
 --
--- From every valid state: the policy decides; then effects of the set occur, in any order, until the robot halts what
--- is left, after any of them. Where `nominal` is chosen, a step is all nominal effects of a set at once. Whether a
--- cheaper set would restore safety as well is not asked.
+$about
 
 MODULE main
 
@@ -44,7 +42,7 @@ $executed  quiet := $quiet;
   remembers := $remembers;
   nothing_waits := $nothing_waits;
 
-INIT valid & !acting & !acted$init
+INIT $begins & !acting & !acted$init
 
 TRANS
   ( nominal & !next(acting) & !next(acted) & remembers & next(nothing_waits)
@@ -53,10 +51,16 @@ $nominal  )
 $decide  )
 | ( !nominal & acting & acted & !next(acting) & next(acted) & next(nothing_waits) & remembers & stays )
 $effects
-CTLSPEC NAME total := AG (!acting & valid -> decided)
+CTLSPEC NAME total := $complete
 CTLSPEC NAME allowed_at_decisions := AG (!acting & valid & decided -> allowed)
 CTLSPEC NAME safe_after_effects := AG (acted -> as_required)
 $more""")
+
+_ABOUT: Final = (
+    "From {begins}: the policy decides; then effects of the set occur, in any order, until the robot halts what is "
+    "left, after any of them. Where `nominal` is chosen, a step is all nominal effects of a set at once. Whether a "
+    "cheaper set would restore safety as well is not asked."
+)
 
 _WORDS: Final = """
 MODULE DEFINE MDEFINE CONSTANTS VAR IVAR FROZENVAR INIT TRANS INVAR SPEC CTLSPEC LTLSPEC PSLSPEC COMPUTE NAME INVARSPEC
@@ -95,6 +99,7 @@ class _Printer:
         model, claims = self._model, self._claims
         return _MODEL.substitute(
             promise=self._promise,
+            about=commented(_ABOUT.format(begins=self._loop.begins), "-- "),
             frozen="".join(f"  {name} : boolean;\n" for name in self._frozen()),
             variables="".join(self._variables()),
             rules="".join(self._rules()),

@@ -18,10 +18,7 @@ _MODEL = Template("""\
 //
 $promise
 //
-// From every valid state: the policy decides; then effects of the set occur, in any order, until the robot halts what
-// is left, after any of them. Where `nominal` is chosen, a step is all nominal effects of a set at once. No probability
-// is assumed: what occurs is a choice that may be made for ever. Whether a cheaper set would restore safety as well is
-// not asked.
+$about
 
 mdp
 
@@ -50,17 +47,24 @@ $effects
 endmodule
 
 init
-  valid & !acting & !acted & !stepped$init
+  $begins & !acting & !acted & !stepped$init
 endinit
 """)
 
 _CLAIMS = Template("""\
 // What is claimed of the model in $name.prism. Written by `tumato-sym export prism`.
 
-"total": P>=1 [ G (acting | !valid | decided) ];
+"total": P>=1 [ G (acting | acted | stepped | $complete) ];
 "allowed_at_decisions": P>=1 [ G (acting | !valid | !decided | allowed) ];
 "safe_after_effects": P>=1 [ G (!acted | as_required) ];
 $more""")
+
+_ABOUT: Final = (
+    "From {begins}: the policy decides; then effects of the set occur, in any order, until the robot halts what is "
+    "left, after any of them. Where `nominal` is chosen, a step is all nominal effects of a set at once. No "
+    "probability is assumed: what occurs is a choice that may be made for ever. Whether a cheaper set would restore "
+    "safety as well is not asked."
+)
 
 _WORDS: Final = """
 A bool clock const ctmc C double dtmc E endinit endinvariant endmodule endobservables endrewards endsystem false formula
@@ -104,6 +108,7 @@ class _Printer:
         return _MODEL.substitute(
             name=self._name,
             promise=self._promise,
+            about=commented(_ABOUT.format(begins=self._loop.begins), "// "),
             constants="".join(self._constants()),
             rule=self._rule(),
             executed="\n".join(executed),
@@ -118,7 +123,8 @@ class _Printer:
 
     def claims(self) -> str:
         """The properties."""
-        return _CLAIMS.substitute(name=self._name, more="".join(f"{each};\n" for each in self._more()))
+        more = "".join(f"{each};\n" for each in self._more())
+        return _CLAIMS.substitute(name=self._name, complete=self._claims.complete(), more=more)
 
     def _constants(self) -> Iterator[str]:
         for values in self._model.values:

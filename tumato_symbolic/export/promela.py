@@ -22,9 +22,7 @@ _MODEL = Template("""\
 
 $promise
 
-   From every valid state: the policy decides; then effects of the set occur, in any order, until the robot halts what
-   is left, after any of them. Or a step is all nominal effects of a set at once, and the goals are reached. Whether a
-   cheaper set would restore safety as well is not asked. To check all of it:
+$about
 
    spin -a amr.pml && cc -O2 -DSAFETY -o pan pan.c && ./pan -m1000000 */
 
@@ -59,11 +57,7 @@ $wait$nominal    forget();
 init
 {
     atomic { rule = 0; steps = 0; }
-$choices    if
-    :: VALID
-    :: else -> goto done
-    fi;
-    if
+$choices$begin    if
     :: true -> goto closed_loop
     :: true -> goto nominal_run
 $restoring_mode    fi;
@@ -108,6 +102,30 @@ done:
 }
 """)
 
+_ABOUT: Final = (
+    "From {begins}: the policy decides; then effects of the set occur, in any order, until the robot halts what is "
+    "left, after any of them. Or a step is all nominal effects of a set at once, and the goals are reached. Whether a"
+    " cheaper set would restore safety as well is not asked. To check all of it:"
+)
+
+_BEGIN: Final = """\
+    if
+    :: VALID
+    :: else -> goto done
+    fi;
+"""
+
+_BEGIN_DECIDED = Template("""\
+    atomic {
+        find_rule();
+        if
+        :: $begins -> assert($complete)
+        :: else -> goto done
+        fi;
+        rule = 0;
+    }
+""")
+
 _RESTORING = Template("""\
     goto done;
 
@@ -150,6 +168,8 @@ _LANGUAGE = Language(
     lambda rules: f"({' || '.join(f'rule == {number}' for number in rules)})",
     " \\\n    && ",
     "SAFE",
+    "VALID",
+    "DECIDED",
 )
 
 
@@ -180,12 +200,15 @@ class _Printer:
         loop, model, claims = self._loop, self._model, self._claims
         fair = loop.several_steps and loop.restoration == "fair"
         counts = loop.several_steps and not fair
+        places = claims.placeholders()
         return _MODEL.substitute(
+            places,
             promise=self._promise,
+            about=commented(_ABOUT.format(begins=loop.begins), "   "),
+            begin=_BEGIN if loop.starts is None else _BEGIN_DECIDED.substitute(places),
             constants="".join(self._constants()),
             variables="".join(self._variables()),
             executed="".join(f"#define executed_{name} {claims.executed(n)}\n" for n, name in enumerate(model.actions)),
-            **claims.placeholders(),
             rules="".join(self._rules()),
             forget="".join(f"    {name} = false;\n" for name in self._passing()) or "    skip;\n",
             wait="".join(f"    waiting_{name} = executed_{name};\n" for name in model.actions),
@@ -248,7 +271,10 @@ class _Printer:
 
     def _effects(self) -> Iterator[str]:
         once = " && !acted" if self._loop.ordering == "first" else ""
-        after = "acted = true; assert(AS_REQUIRED); assert(STILL_POSSIBLE) }\n"
+        required = "assert(AS_REQUIRED)"
+        if self._loop.starts is not None:
+            required = f"find_rule(); {required}; rule = 0"
+        after = f"acted = true; {required}; assert(STILL_POSSIBLE) }}\n"
         for entry, effect in self._model.effects:
             name = self._model.actions[entry]
             yield f"       :: atomic {{ waiting_{name}{once} ->\n"
@@ -256,4 +282,4 @@ class _Printer:
         if once:
             yield "       :: atomic { !acted ->\n"
             yield from self._nominal("              ")
-            yield "              acted = true; assert(AS_REQUIRED) }\n"
+            yield f"              acted = true; {required} }}\n"

@@ -25,7 +25,7 @@ $actions)
 
 
 class UndecidedState(LookupError):
-    """The policy says nothing of this state: it is one that the specification excludes."""
+    """The policy says nothing of this state: no action is known to be safe."""
 
 
 def decide(state):

@@ -15,6 +15,12 @@ _PROMISE = (
     "and keep an action that it halted from having an effect later."
 )
 
+_FROM_STARTS = (
+    " It decides the starts of the specification then, and all states that the robot's actions may lead to from any "
+    "decided one; what else changes the state may lead to one that is undecided, and no action is known to be safe "
+    "there."
+)
+
 
 def commented(text: str, mark: str) -> str:
     """A text as lines of a comment that each begin with `mark`."""
@@ -37,8 +43,13 @@ class Request:
     @property
     def promise(self) -> str:
         """What is guaranteed, and what the code around a decision must do: a sentence for every file."""
+        whatever, again = "whatever effects occur, in any order", "see every effect before it asks again"
         if self.ordering == "first":
+            whatever = "whatever effect occurs first"
             again = "halt the others as soon as one of them has an effect, see that effect before it asks again"
-            return _PROMISE.format(whatever="whatever effect occurs first", again=again)
-        again = "see every effect before it asks again"
-        return _PROMISE.format(whatever="whatever effects occur, in any order", again=again)
+        return _PROMISE.format(whatever=whatever, again=again) + self.from_starts
+
+    @property
+    def from_starts(self) -> str:
+        """Which states are decided, where that is not every valid one: a sentence more for every file."""
+        return _FROM_STARTS if self.spec.starts else ""

@@ -13,13 +13,6 @@ def require_no_starts(spec: Spec, who: str) -> None:
         raise UserError((Diagnostic(Code.TUM313, message, spec.starts[0].span, "leave the block out for now"),))
 
 
-def require_no_lasting_cases(spec: Spec, who: str) -> None:
-    """Raise `UserError` where preconditions last and effects depend on the state, and `who` does not know both."""
-    if spec.has_cases and spec.preconditions == "throughout":
-        message = f"{who} does not support `preconditions: throughout` together with `when` clauses of effects yet"
-        raise UserError((Diagnostic(Code.TUM313, message, help="use `preconditions: at_start` for now"),))
-
-
 def require_one_step(spec: Spec, who: str) -> None:
     """Raise `UserError` where safety may take several steps to restore, and `who` does not know that yet."""
     if spec.restores_stepwise:
