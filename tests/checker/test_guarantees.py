@@ -21,8 +21,10 @@ from tests.verify.policies import near_policies
 from tumato_symbolic import Realizable
 from tumato_symbolic.diagrams import DiagramBuilder
 from tumato_symbolic.policy import Policy, as_table, dumps, policy_from_rows
-from tumato_symbolic.policy.guarantees import GuaranteesCertificate
+from tumato_symbolic.policy.formats.kinds import Names
+from tumato_symbolic.policy.guarantees import FILE, CertifiedRanks, GuaranteesCertificate
 from tumato_symbolic.policy.guarantees import dumps as written
+from tumato_symbolic.policy.records import canonical
 from tumato_symbolic.semantics import State, all_states, is_valid, judge
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.guarantees.analyse import guarantees
@@ -73,7 +75,7 @@ def _generated(ordering: Ordering, count: int) -> Iterator[tuple[Spec, str, Poli
 def _renumbered(spec: Spec, certificate: GuaranteesCertificate, random: Random) -> GuaranteesCertificate:
     """One number of one goal is another in one valid state."""
     sizes = [len(variable.values) for variable in spec.variables]
-    ranks, goals = certificate.ranks, list(certificate.goals)
+    ranks, goals = certificate.ranks.diagram, certificate.ranks.goals
     place = random.randrange(len(goals))
     roots = [*goals[place].surviving, goals[place].forced]
     tables: list[dict[State, int | None]] = [
@@ -90,18 +92,22 @@ def _renumbered(spec: Spec, certificate: GuaranteesCertificate, random: Random) 
     renewed = tuple(
         replace(goal, surviving=tuple([next(taken) for _ in goal.surviving]), forced=next(taken)) for goal in goals
     )
-    return replace(certificate, ranks=builder.finish(), goals=renewed)
+    return replace(certificate, ranks=CertifiedRanks(builder.finish(), renewed))
 
 
 def test_the_schema_describes_them() -> None:
-    """What is written is valid; an entry more or less is not."""
+    """What is written is valid, and says what was meant; without one of its keys it is not."""
     spec, outcome = solved(ROOT / "examples" / "amr.tum")
     assert isinstance(outcome, Realizable)
     schema = json.loads((ROOT / "tumato_symbolic" / "policy" / "guarantees.schema.json").read_text())
     jsonschema.Draft202012Validator.check_schema(schema)
     validator = jsonschema.Draft202012Validator(schema)
-    document = json.loads(written(_certificate(outcome.policy, spec)))
+    certificate = _certificate(outcome.policy, spec)
+    document = json.loads(written(certificate))
     assert validator.is_valid(document)
+    assert FILE.read(document, "the certificate", Names(certificate.vocabulary)) == replace(
+        certificate, ranks=canonical(certificate.ranks)
+    )
     del document["Ranks"]["Goals"][0]["Forced"]
     assert not validator.is_valid(document)
 

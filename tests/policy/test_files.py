@@ -137,7 +137,7 @@ def test_an_endless_file_is_too_large(monkeypatch: pytest.MonkeyPatch) -> None:
     """Reading stops at the limit, and texts beyond it are neither read nor written."""
     monkeypatch.setattr(strict_json, "MAX_BYTES", 100)
     monkeypatch.setattr("tumato_symbolic.policy.text.reading.MAX_BYTES", 100)
-    monkeypatch.setattr("tumato_symbolic.policy.formats.write.MAX_BYTES", 100)
+    monkeypatch.setattr("tumato_symbolic.policy.formats.policies.MAX_BYTES", 100)
     with pytest.raises(UserError, match="TUM508"):
         load("/dev/zero")
     with pytest.raises(UserError, match="TUM508"):

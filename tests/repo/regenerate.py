@@ -1,7 +1,7 @@
 """Write everything that is generated and committed: `make regenerate`.
 
-The parse table of the grammar, the proofs of the examples, the table of examples, the golden outputs, and the output
-shown in documents. Look at the difference before committing it.
+The parse table of the grammar, the JSON Schemas, the proofs of the examples, the table of examples, the golden outputs,
+and the output shown in documents. Look at the difference before committing it.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from tests.repo.examples import (
     proof_text,
     with_table,
 )
+from tests.repo.schemas import schemas
 from tests.repo.test_documents import DOCUMENTS
 from tumato_symbolic.syntax.compiling import compile_table
 from tumato_symbolic.syntax.grammar import TABLE_PATH, grammar_path
@@ -30,6 +31,8 @@ def main() -> None:
     """Regenerate all of it."""
     grammar = grammar_path().read_text(encoding="utf-8")
     TABLE_PATH.write_text(written(compile_table(grammar), grammar), encoding="utf-8")
+    for path, schema in schemas():
+        path.write_text(schema, encoding="utf-8")
     for example in EXAMPLES:
         for path, text in (
             (proof_path(example), proof_text(example)),

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
-from json import dumps as _json
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from tumato_symbolic.diagrams import Diagram, Reference, rebuild
-from tumato_symbolic.policy.formats import FORMAT_VERSION, block, diagram_lines, variable_entries
-from tumato_symbolic.policy.records import Vocabulary
+from tumato_symbolic.diagrams import Diagram, Reference
+from tumato_symbolic.policy.formats import header, kinds
+from tumato_symbolic.policy.formats.diagrams import DiagramPart, section
+from tumato_symbolic.policy.formats.kinds import Names
+from tumato_symbolic.policy.formats.tables import NEEDED, Entries, Field, Record, plain, text_of
+from tumato_symbolic.policy.records import Drawing, Vocabulary
 from tumato_symbolic.policy.text import save_text
 from tumato_symbolic.spec import Ordering, Restoration
 
@@ -39,7 +40,29 @@ class CertifiedLevel:
     steps: int | None
     deviations: int | None
     states: int
-    cubes: tuple[dict[str, list[str]], ...] | None
+    cubes: tuple[dict[str, tuple[str, ...]], ...] | None
+
+
+@dataclass(frozen=True, slots=True)
+class CertifiedRanks:
+    """The ranks of all goals, in one diagram."""
+
+    diagram: Diagram[int | None]
+    goals: tuple[CertifiedGoal, ...]
+
+    @property
+    def drawing(self) -> Drawing:
+        """See `Drawn`."""
+        return self.diagram, tuple(root for goal in self.goals for root in (*goal.surviving, goal.forced))
+
+    def drawn(self, diagram: Diagram[int | None], roots: tuple[Reference, ...]) -> CertifiedRanks:
+        """See `Drawn`."""
+        left = iter(roots)
+        goals = (
+            replace(goal, surviving=tuple([next(left) for _ in goal.surviving]), forced=next(left))
+            for goal in self.goals
+        )
+        return CertifiedRanks(diagram, tuple(goals))
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,9 +73,52 @@ class GuaranteesCertificate:
     digest: str
     ordering: Ordering
     restoration: Restoration
-    ranks: Diagram[int | None]
-    goals: tuple[CertifiedGoal, ...]
+    ranks: CertifiedRanks
     levels: tuple[CertifiedLevel, ...]
+
+
+_GOAL = Record(
+    CertifiedGoal,
+    (
+        Field("Bodies", kinds.TEXTS),
+        Field("Executed", kinds.TEXTS),
+        Field("Surviving", kinds.listed(kinds.REFERENCE, filled=True), "W_0, W_1, … to W_ω"),
+        Field("Forced", kinds.REFERENCE, "G"),
+    ),
+)
+
+_LEVEL = Record(
+    CertifiedLevel,
+    (
+        Field("Level", kinds.one_of("guaranteed", "fair", "survives", "nominal")),
+        Field("Steps", kinds.optional(kinds.whole())),
+        Field("Deviations", kinds.optional(kinds.whole())),
+        Field("States", kinds.whole(least=1)),
+        Field("Cubes", kinds.optional(kinds.listed(kinds.VALUE_SETS))),
+    ),
+)
+
+_RANKS = section(
+    CertifiedRanks,
+    (DiagramPart("diagram", kinds.RANKS), Entries("Goals", _GOAL, "goal", first=1)),
+    "One diagram with the ranks of all fixpoints: a number of steps, or null outside.",
+)
+
+FILE = Record(
+    GuaranteesCertificate,
+    (
+        header.type_of_file(GUARANTEES),
+        header.version(default=NEEDED),
+        header.digest(),
+        header.ordering(),
+        header.restoration(default=NEEDED),
+        header.VocabularyPart(),
+        Field("Ranks", _RANKS),
+        Entries("Levels", _LEVEL, "level", first=1),
+    ),
+    style=plain,
+)
+"""The fields of the file."""
 
 
 def save(certificate: GuaranteesCertificate, path: Path) -> None:
@@ -62,48 +128,4 @@ def save(certificate: GuaranteesCertificate, path: Path) -> None:
 
 def dumps(certificate: GuaranteesCertificate) -> str:
     """The certificate as JSON text in ASCII, always the same for equal ones."""
-    return "\n".join(_lines(certificate)) + "\n"
-
-
-def _lines(certificate: GuaranteesCertificate) -> Iterator[str]:
-    vocabulary = certificate.vocabulary
-    roots = [root for goal in certificate.goals for root in (*goal.surviving, goal.forced)]
-    diagram, renewed = rebuild(certificate.ranks, roots)
-    known = dict(zip(roots, renewed, strict=True))
-    yield "{"
-    yield f'  "Type": "{GUARANTEES}",'
-    yield f'  "FormatVersion": {FORMAT_VERSION},'
-    yield f'  "SpecificationDigest": {_json(certificate.digest)},'
-    yield f'  "EffectOrdering": "{certificate.ordering}",'
-    yield f'  "Restoration": "{certificate.restoration}",'
-    yield from block('  "Actions": [', map(_json, vocabulary.actions), "  ],")
-    yield from block('  "States": {', variable_entries(vocabulary), "  },")
-    yield '  "Ranks": {'
-    yield from diagram_lines(diagram, vocabulary)
-    goals = (
-        _json(
-            {
-                "Bodies": goal.bodies,
-                "Executed": goal.executed,
-                "Surviving": [known[root] for root in goal.surviving],
-                "Forced": known[goal.forced],
-            }
-        )
-        for goal in certificate.goals
-    )
-    yield from block('    "Goals": [', goals, "    ]")
-    yield "  },"
-    levels = (
-        _json(
-            {
-                "Level": each.level,
-                "Steps": each.steps,
-                "Deviations": each.deviations,
-                "States": each.states,
-                "Cubes": each.cubes,
-            }
-        )
-        for each in certificate.levels
-    )
-    yield from block('  "Levels": [', levels, "  ]")
-    yield "}"
+    return text_of(FILE, certificate, Names(certificate.vocabulary))

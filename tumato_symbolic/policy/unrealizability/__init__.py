@@ -4,8 +4,7 @@ Only who needs one loads this room: the face of `policy` does not.
 """
 
 from tumato_symbolic.policy.unrealizability.binding import bind
-from tumato_symbolic.policy.unrealizability.file import dumps, load, loads, save
-from tumato_symbolic.policy.unrealizability.read import unrealizability_of
+from tumato_symbolic.policy.unrealizability.file import FILE, dumps, load, loads, save, unrealizability_of
 from tumato_symbolic.policy.unrealizability.records import (
     ActionEffect,
     Choice,
@@ -23,6 +22,7 @@ from tumato_symbolic.policy.unrealizability.records import (
 )
 
 __all__ = [
+    "FILE",
     "ActionEffect",
     "Choice",
     "Conflict",

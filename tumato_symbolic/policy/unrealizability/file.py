@@ -2,26 +2,164 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from json import dumps as _json
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from tumato_symbolic.diagnostics import Source, UserError
-from tumato_symbolic.diagrams import rebuild
-from tumato_symbolic.policy.formats import FORMAT_VERSION, UNREALIZABLE, block, diagram_lines, variable_entries
-from tumato_symbolic.policy.records import Vocabulary
+from tumato_symbolic.policy.formats import header, kinds
+from tumato_symbolic.policy.formats.diagrams import DiagramPart, section
+from tumato_symbolic.policy.formats.kinds import Names
+from tumato_symbolic.policy.formats.policies import UNREALIZABLE
+from tumato_symbolic.policy.formats.tables import Entries, Field, Record, Tagged, dotted, plain, text_of, within
+from tumato_symbolic.policy.records import RankedGoal, Vocabulary
 from tumato_symbolic.policy.text import MAX_BYTES, as_object, parse_json, read_text, save_text, too_large
-from tumato_symbolic.policy.unrealizability.read import unrealizability_of
 from tumato_symbolic.policy.unrealizability.records import (
+    Choice,
     Conflict,
+    Cube,
+    Cut,
+    Layers,
     NoAllowedSet,
     NoPlan,
     NoRestoration,
+    Reason,
     Unrealizability,
     Violation,
 )
 from tumato_symbolic.semantics import State
+from tumato_symbolic.spec import Assignment
+
+# Violations: the condition that no set of a cube meets.
+
+
+class _Effect(NamedTuple):
+    """An action taking one of its effects."""
+
+    action: int
+    effect: Assignment
+
+
+_EFFECT = Record[_Effect](
+    _Effect, (Field("Action", kinds.ACTION), Field("Effect", kinds.ASSIGNMENT)), view=_Effect._make
+)
+_OUTCOME = Entries("Outcome", _EFFECT, "effect", "Effects in the order in which they happen.")
+_ONE, _TWO = (Field("Actions", kinds.actions(number)) for number in (1, 2))
+_RULE = Field("Rule", kinds.TEXT, "The rule in canonical text.")
+
+VIOLATION = Tagged[Violation](
+    {
+        words: Record(Violation, parts, style=within)
+        for words, parts in (
+            (("precondition",), (_ONE,)),
+            (("resource", "nominal-conflict"), (_TWO,)),
+            (("reaction-rule",), (_RULE,)),
+            (("unsafe",), (_OUTCOME,)),
+            (("falsified",), (_ONE, _OUTCOME)),
+            (("idle", "nominal-unsafe"), ()),
+        )
+    },
+    within,
+)
+
+CUBE = Record(
+    Cube,
+    (
+        Field("Executed", kinds.ACTION_SET),
+        Field("Idle", kinds.ACTION_SET),
+        Field("Violation", VIOLATION),
+    ),
+    "All sets that contain the executed actions and none of the idle ones.",
+)
+
+# Conflicts: what can be done, and the runs that fail.
+
+
+class _Option(NamedTuple):
+    """Where an allowed set leads, and its residual goal."""
+
+    successor: State
+    goal: int
+
+
+_GOAL = Field("Goal", kinds.whole("goal"))
+_OPTION = Record[_Option](_Option, (Field("Successor", kinds.STATE), _GOAL), view=_Option._make)
+_CHOICE = Record(
+    Choice,
+    (Field("State", kinds.STATE), Entries("Options", _OPTION, "option")),
+    "A state, and for every set allowed in it where it leads and its residual goal (by number).",
+)
+_RUN = (_GOAL, Field("States", kinds.listed(kinds.whole("choice"), filled=True), "Numbers of choices."))
+_CUT = Tagged[Cut](
+    {
+        ("path",): Record(Cut, (*_RUN, Field("End", kinds.STATE))),
+        ("loop",): Record(partial(Cut, end=None), _RUN, without=("End",)),
+    },
+)
+
+# Reasons.
+
+_NAMED = (Field("Bodies", kinds.TEXTS), Field("Executed", kinds.ACTION_NAMES))
+_LAYERS = Record(Layers, (*_NAMED, Field("Layers", kinds.listed(kinds.REFERENCE, filled=True), name="roots")))
+_STATE = Field("State", kinds.STATE)
+_STARTS = Field("Starts", kinds.listed(kinds.whole("choice")), "Numbers of choices.")
+_CHOICES = Entries("Choices", _CHOICE, "choice")
+_CUTS = Entries("Cuts", _CUT, "cut")
+_DISTANCES = DiagramPart("distances", kinds.RANKS, "Numbers of steps; null is never, or not within the plan bound.")
+_GOALS = Entries("Goals", Record(RankedGoal, (*_NAMED, Field("Root", kinds.REFERENCE))), "goal")
+
+REASON = Tagged[Reason](
+    {
+        ("no-allowed-set",): Record(
+            NoAllowedSet,
+            (_STATE, Entries("Cubes", CUBE, "cube", or_null=True)),
+            "No set of actions is allowed in a state: disjoint cubes hold all sets. Null leaves the claim to a prover.",
+            dotted,
+        ),
+        ("no-restoration",): section(
+            NoRestoration,
+            (_STATE, DiagramPart("diagram", kinds.TRUTH), Field("Root", kinds.REFERENCE)),
+            "From a state safety is never surely restored: nothing surely leads out of a set of states that it is in.",
+        ),
+        ("no-plan",): section(
+            NoPlan,
+            (_STATE, DiagramPart("diagram", kinds.TRUTH), Entries("Goals", _LAYERS, "goal")),
+            "No run from a state meets its residual goal: for each that it can have, layers of states that hold all "
+            "runs.",
+        ),
+        ("conflict",): section(
+            Conflict,
+            (_STARTS, _CHOICES, _CUTS, _DISTANCES, _GOALS),
+            "No policy serves the starts together: every choice of options breaks a cut.",
+            first=(_DISTANCES, _GOALS, _CHOICES, _CUTS),
+        ),
+    },
+    dotted,
+    told=False,
+)
+
+FILE = Record(
+    Unrealizability,
+    (
+        header.type_of_file(UNREALIZABLE),
+        header.version(),
+        header.digest("Identifies the meaning of the specification that has no policy."),
+        header.ordering("The ordering of effects under which there is no policy."),
+        header.restoration("How safety was to be restored; one_step where it is missing."),
+        header.VocabularyPart(
+            "All actions, in the order of declaration.",
+            "The variables; for each, its values and their indices 0, 1, ….",
+        ),
+        Field("Reason", REASON),
+    ),
+    style=plain,
+)
+"""The fields of a certificate."""
+
+
+def unrealizability_of(document: dict[str, Any]) -> Unrealizability:
+    """The certificate that a JSON object describes. Raises `UserError` (TUM502 to TUM505) where it describes none."""
+    return FILE.read(document, "the certificate", Names(Vocabulary((), ())))
 
 
 def loads(text: str, name: str = "certificate") -> Unrealizability:
@@ -50,138 +188,7 @@ def dumps(certificate: Unrealizability) -> str:
 
     Raises `UserError` (TUM508) where the text would be larger than `loads` accepts.
     """
-    text = "\n".join(_lines(certificate)) + "\n"
+    text = text_of(FILE, certificate, Names(certificate.vocabulary))
     if len(text) > MAX_BYTES:
         raise too_large("certificate", "certificate")
     return text
-
-
-def _lines(certificate: Unrealizability) -> Iterator[str]:
-    vocabulary = certificate.vocabulary
-    yield "{"
-    yield f'  "Type": "{UNREALIZABLE}",'
-    yield f'  "FormatVersion": {FORMAT_VERSION},'
-    yield f'  "SpecificationDigest": {_json(certificate.digest)},'
-    yield f'  "EffectOrdering": "{certificate.ordering}",'
-    if certificate.restoration != "one_step":
-        yield f'  "Restoration": "{certificate.restoration}",'
-    yield from block('  "Actions": [', map(_json, vocabulary.actions), "  ],")
-    yield from block('  "States": {', variable_entries(vocabulary), "  },")
-    yield '  "Reason": {'
-    names = _Names(vocabulary)
-    match certificate.reason:
-        case NoAllowedSet() as reason:
-            yield from _no_allowed_set(reason, names)
-        case NoRestoration() as reason:
-            yield from _no_restoration(reason, vocabulary, names)
-        case NoPlan() as reason:
-            yield from _no_plan(reason, vocabulary, names)
-        case Conflict() as reason:
-            yield from _conflict(reason, vocabulary, names)
-    yield "  }"
-    yield "}"
-
-
-class _Names:
-    """Numbers to names."""
-
-    def __init__(self, vocabulary: Vocabulary) -> None:
-        self._vocabulary = vocabulary
-
-    def actions(self, numbers: Iterable[int]) -> list[str]:
-        """Actions, in the order given."""
-        return [self._vocabulary.actions[number] for number in numbers]
-
-    def assignment(self, pairs: Iterable[tuple[int, int]]) -> dict[str, str]:
-        """Value by variable."""
-        variables = self._vocabulary.variables
-        return {variables[number][0]: variables[number][1][value] for number, value in pairs}
-
-    def state(self, state: State) -> dict[str, str]:
-        """Value by variable."""
-        return self.assignment(enumerate(state))
-
-    def violation(self, violation: Violation) -> Mapping[str, Any]:
-        """The condition with what its kind needs."""
-        match violation.kind:
-            case "precondition" | "resource" | "nominal-conflict":
-                return {"Kind": violation.kind, "Actions": self.actions(violation.actions)}
-            case "reaction-rule":
-                return {"Kind": violation.kind, "Rule": violation.rule}
-            case "unsafe" | "falsified":
-                effects = [
-                    {"Action": self.actions([action])[0], "Effect": self.assignment(effect)}
-                    for action, effect in violation.outcome
-                ]
-                pending = {"Actions": self.actions(violation.actions)} if violation.kind == "falsified" else {}
-                return {"Kind": violation.kind, **pending, "Outcome": effects}
-            case _:
-                return {"Kind": violation.kind}
-
-
-def _no_allowed_set(reason: NoAllowedSet, names: _Names) -> Iterator[str]:
-    yield '    "Kind": "no-allowed-set",'
-    yield f'    "State": {_json(names.state(reason.state))},'
-    if reason.cubes is None:
-        yield '    "Cubes": null'
-        return
-    cubes = (
-        {
-            "Executed": names.actions(sorted(cube.executed)),
-            "Idle": names.actions(sorted(cube.idle)),
-            "Violation": names.violation(cube.violation),
-        }
-        for cube in reason.cubes
-    )
-    yield from block('    "Cubes": [', map(_json, cubes), "    ]")
-
-
-def _no_restoration(reason: NoRestoration, vocabulary: Vocabulary, names: _Names) -> Iterator[str]:
-    yield '    "Kind": "no-restoration",'
-    yield f'    "State": {_json(names.state(reason.state))},'
-    diagram, (root,) = rebuild(reason.diagram, [reason.root])
-    yield from diagram_lines(diagram, vocabulary)
-    yield f'    "Root": {root}'
-
-
-def _no_plan(reason: NoPlan, vocabulary: Vocabulary, names: _Names) -> Iterator[str]:
-    yield '    "Kind": "no-plan",'
-    yield f'    "State": {_json(names.state(reason.state))},'
-    diagram, kept = rebuild(reason.diagram, [root for goal in reason.goals for root in goal.roots])
-    roots = iter(kept)
-    yield from diagram_lines(diagram, vocabulary)
-    goals = [
-        {"Bodies": goal.bodies, "Executed": goal.executed, "Layers": [next(roots) for _ in goal.roots]}
-        for goal in reason.goals
-    ]
-    yield from block('    "Goals": [', map(_json, goals), "    ]")
-
-
-def _conflict(reason: Conflict, vocabulary: Vocabulary, names: _Names) -> Iterator[str]:
-    yield '    "Kind": "conflict",'
-    yield f'    "Starts": {_json(reason.starts)},'
-    choices = (
-        {
-            "State": names.state(choice.state),
-            "Options": [{"Successor": names.state(after), "Goal": goal} for after, goal in choice.options],
-        }
-        for choice in reason.choices
-    )
-    yield from block('    "Choices": [', map(_json, choices), "    ],")
-    cuts = (
-        {
-            "Kind": cut.kind,
-            "Goal": cut.goal,
-            "States": cut.states,
-            **({} if cut.end is None else {"End": names.state(cut.end)}),
-        }
-        for cut in reason.cuts
-    )
-    yield from block('    "Cuts": [', map(_json, cuts), "    ],")
-    diagram, roots = rebuild(reason.distances, [goal.root for goal in reason.goals])
-    yield from diagram_lines(diagram, vocabulary)
-    goals = [
-        {"Bodies": goal.bodies, "Executed": goal.executed, "Root": root}
-        for goal, root in zip(reason.goals, roots, strict=True)
-    ]
-    yield from block('    "Goals": [', map(_json, goals), "    ]")

@@ -7,7 +7,7 @@ States, values and actions are numbers of the vocabulary; rules are named by the
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Literal, TypeAlias
+from typing import ClassVar, Literal, TypeAlias
 
 from tumato_symbolic.diagrams import Diagram, Reference
 from tumato_symbolic.policy.records import Drawing, RankedGoal, Vocabulary, rooted
@@ -65,6 +65,7 @@ class NoAllowedSet:
     Where there are too many, `cubes` is None, and *no set is allowed in this state* is left as an obligation.
     """
 
+    kind: ClassVar = "no-allowed-set"
     state: State
     cubes: tuple[Cube, ...] | None
 
@@ -77,6 +78,7 @@ class NoRestoration:
     outcome in the set, or, under `fair`, the state after all nominal effects.
     """
 
+    kind: ClassVar = "no-restoration"
     state: State
     diagram: Diagram[bool]
     root: Reference
@@ -109,6 +111,7 @@ class Layers:
 class NoPlan:
     """No run of allowed steps from `state` meets its residual goal: layers for every one that it can have."""
 
+    kind: ClassVar = "no-plan"
     state: State
     diagram: Diagram[bool]
     goals: tuple[Layers, ...]
@@ -156,6 +159,7 @@ class Conflict:
     none that the plan bound leaves room for. Goals with one root are one goal under several names.
     """
 
+    kind: ClassVar = "conflict"
     starts: tuple[int, ...]
     choices: tuple[Choice, ...]
     cuts: tuple[Cut, ...]

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from tumato_symbolic.diagrams import DiagramBuilder, Reference
 from tumato_symbolic.policy import Vocabulary
-from tumato_symbolic.policy.guarantees import CertifiedGoal, CertifiedLevel, GuaranteesCertificate
+from tumato_symbolic.policy.guarantees import CertifiedGoal, CertifiedLevel, CertifiedRanks, GuaranteesCertificate
 from tumato_symbolic.semantics import Residual, action_names
 from tumato_symbolic.spec import Ordering, Spec, canonical_text, digest
 from tumato_symbolic.verify.by_diagrams.functions import Function
@@ -50,8 +50,7 @@ def certificate_of(
         digest(spec),
         ordering,
         spec.restoration,
-        builder.finish(),
-        goals,
+        CertifiedRanks(builder.finish(), goals),
         tuple(_claimed(spec, level) for level in levels),
     )
 
@@ -62,7 +61,7 @@ def _claimed(spec: Spec, level: Level) -> CertifiedLevel:
     if level.cubes is not None:
         cubes = tuple(
             {
-                variable.name: [variable.values[value] for value in values]
+                variable.name: tuple([variable.values[value] for value in values])
                 for variable, values in zip(spec.variables, cube, strict=True)
                 if len(values) < len(variable.values)
             }
