@@ -28,3 +28,11 @@ def need_z3(purpose: str) -> None:
     """Raise `MissingPackageError` where Z3 cannot be imported."""
     if not has_z3():
         raise MissingPackageError("Z3", "z3-solver", purpose)
+
+
+def need_pygls(purpose: str) -> None:
+    """Raise `MissingPackageError` where pygls cannot be imported."""
+    try:
+        import_module("pygls.lsp.server")
+    except ImportError:
+        raise MissingPackageError("pygls", "'tumato-symbolic[lsp]'", purpose) from None

@@ -5,6 +5,7 @@ Keywords are soft: which words are keywords is decided here, by what the parser 
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source, Span
@@ -25,6 +26,9 @@ from tumato_symbolic.syntax.tokens import BLOCKS, HARD, TITLES, Token, tokenize
 
 if TYPE_CHECKING:
     from tumato_symbolic.syntax.situation import Situation
+
+_LOOKED_AT = 3
+"""So many words in a row may be needed to tell that the first is a keyword: `exactly one R` and `in`."""
 
 MAX_SYNTAX_ERRORS = 100
 """Reading stops after so many mistakes in the syntax."""
@@ -77,10 +81,51 @@ def read_terminals(source: Source) -> tuple[Parsed, tuple[Token, ...], tuple[str
     return Parsed(tree, tuple(found), frozenset(run.lost)), text.tokens, tuple(run.terminals)
 
 
-class _Run:
-    """One pass over the tokens of a text."""
+@dataclass(frozen=True, slots=True)
+class Expected:
+    """What may stand at a place: terminals of the grammar.
 
-    def __init__(self, compiled: Grammar, tokens: tuple[Token, ...]) -> None:
+    `before` are the tokens before it, `open` those of them that are keywords and symbols of what is half read.
+    """
+
+    terminals: frozenset[str]
+    before: tuple[Token, ...]
+    open: tuple[Token, ...]
+
+
+def expected_at(source: Source, line: int, column: int) -> Expected:
+    """What may stand at a line and column in place of the word that ends there, whatever follows in the text."""
+    compiled = grammar()
+    tokens = tokenize(source, compiled.token_pattern).tokens
+    before = tuple(each for each in tokens[:-1] if _is_before(each, line, column))
+    read = (*before, Token("end", "", line, column))
+    found = frozenset[str]()
+    opened: tuple[Token, ...] = ()
+    for eager in (False, True):
+        run = _Run(compiled, read, stop=len(before), eager=eager)
+        run.read()
+        found |= run.stack.accepted()
+        opened = _without_closed(_open_tokens(run.stack.values))
+    return Expected(found, before, opened)
+
+
+def _is_before(token: Token, line: int, column: int) -> bool:
+    """Whether a token is over before a place; a word may be being typed as long as nothing follows it."""
+    end = (token.line, token.column + len(token.text))
+    return end < (line, column) or (end == (line, column) and token.kind not in ("word", "number", "malformed"))
+
+
+class _Run:
+    """One pass over the tokens of a text, up to the one at `stop`.
+
+    `eager`: where it takes words after the last one to tell, a word is taken for the keyword.
+    """
+
+    def __init__(
+        self, compiled: Grammar, tokens: tuple[Token, ...], stop: int | None = None, eager: bool = False
+    ) -> None:
+        self.stop = len(tokens) if stop is None else stop
+        self.eager = eager
         self.grammar = compiled
         self.tokens = tokens
         self.stack = Stack(compiled.table)
@@ -97,6 +142,8 @@ class _Run:
     def read(self) -> ast.Specification | None:
         """Feed every token, recovering where one does not fit. None where reading had to be given up."""
         while len(self.found) <= MAX_SYNTAX_ERRORS:
+            if self.index >= self.stop:
+                return None
             token = self.tokens[self.index]
             terminal = self._terminal(self.index, self.stack.row())
             if self._too_deep(token):
@@ -185,6 +232,8 @@ class _Run:
     def _confirmed(self, index: int, possible: bool) -> bool:
         """Whether a word that may be a keyword or a name is the keyword; `possible`: it fits here as a keyword."""
         text, following = self.tokens[index].text, self.tokens[index + 1]
+        if self.eager and index >= len(self.tokens) - 1 - _LOOKED_AT:
+            return possible
         if text in _FOLLOWED_BY:
             return following.text in _FOLLOWED_BY[text]
         if text in _CONFIRMED:

@@ -24,6 +24,7 @@ COMMANDS: Final = {
     "why": "why a policy decides as it does in a state",
     "check": "look for mistakes in specifications",
     "format": "lay out specifications, and keep their comments",
+    "lsp": "serve an editor",
 }
 """Every command in the order of the help, with its purpose."""
 

@@ -1,0 +1,57 @@
+"""`tumato-sym lsp`: the language server that editors start."""
+
+from __future__ import annotations
+
+import os
+import sys
+from dataclasses import dataclass
+from typing import ClassVar
+
+from tumato_symbolic.cli.console import note
+from tumato_symbolic.cli.exits import UNDECIDED, YES
+from tumato_symbolic.cli.numbers import seconds
+from tumato_symbolic.cli.options import CommandOptions, argument
+from tumato_symbolic.limits import Context
+
+ABOUT = """\
+Serve an editor: mistakes as one types, what a name stands for, completion, renaming, layout, and synthesis of what is
+saved. It speaks the language server protocol on the standard streams; docs/editors.md says how editors are told of it.
+"""
+
+EXAMPLES = """\
+example:
+  tumato-sym lsp --synthesis 5     # editors start it; synthesis may take five seconds
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class Options(CommandOptions):
+    """What may be typed after `lsp`."""
+
+    synthesis: float = argument(
+        "--synthesis",
+        type=seconds,
+        metavar="SECONDS",
+        default=20.0,
+        help="how long synthesis of a specification that is saved may take, repairs included (default: 20)",
+    )
+    synthesize: bool = argument("--no-synthesis", action="store_false", help="do not synthesize what is saved")
+
+    shows_progress: ClassVar[bool] = False
+
+
+def run(options: Options, context: Context) -> int:
+    """Serve until the editor says that it is enough."""
+    from tumato_symbolic.limits.packages import MissingPackageError, need_pygls
+
+    try:
+        need_pygls("serve an editor")
+    except MissingPackageError as error:
+        note(f"tumato-sym: {error}")
+        return UNDECIDED
+    from tumato_symbolic.lsp.server import make_server
+
+    context.enter("serving an editor")
+    with os.fdopen(os.dup(sys.stdin.fileno()), "rb") as asked, os.fdopen(os.dup(sys.stdout.fileno()), "wb") as told:
+        make_server(options.synthesis if options.synthesize else 0.0).start_io(asked, told)  # which closes them
+    return YES

@@ -1,0 +1,69 @@
+"""Giving something another name, everywhere."""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+from tumato_symbolic.diagnostics import Span
+from tumato_symbolic.diagnostics.wording import quoted
+from tumato_symbolic.editor.mentions import Index, Symbol
+from tumato_symbolic.syntax.tokens import HARD
+
+_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+
+
+class Edit(NamedTuple):
+    """A place in a text, and what is to stand there."""
+
+    span: Span
+    text: str
+
+
+class CannotRenameError(Exception):
+    """A name that cannot be changed to another; the message says why."""
+
+
+def renamable(known: Index, line: int, column: int) -> Span:
+    """The name at a line and column that may be changed. Raises `CannotRenameError`."""
+    symbol = _symbol(known, line, column)
+    _edits(known, symbol, symbol.name)
+    return next(each.span for each in known.at(line, column))
+
+
+def rename(known: Index, line: int, column: int, name: str) -> list[Edit]:
+    """The edits that give what is named at a line and column another name. Raises `CannotRenameError`."""
+    symbol = _symbol(known, line, column)
+    if not _NAME.fullmatch(name) or name in HARD:
+        raise CannotRenameError(f"{quoted(name)} is not a name")
+    taken = known.values(symbol.variable) if symbol.kind == "value" else [each.name for each in _declared(known)]
+    if name in taken and name != symbol.name:
+        raise CannotRenameError(f"{quoted(name)} is in use already")
+    return _edits(known, symbol, name)
+
+
+def _declared(known: Index) -> list[Symbol]:
+    return [symbol for symbol in known.of_symbol if symbol.kind != "value" and known.declarations(symbol)]
+
+
+def _symbol(known: Index, line: int, column: int) -> Symbol:
+    symbols = {each.symbol for each in known.at(line, column)}
+    if not symbols:
+        raise CannotRenameError("there is no name here")
+    if len(symbols) > 1:
+        raise CannotRenameError("this name is made of parameters, and stands for another one in each copy")
+    return next(iter(symbols))
+
+
+def _edits(known: Index, symbol: Symbol, name: str) -> list[Edit]:
+    """An edit at every mention; each of them has to be the name as it stands."""
+    if known.parsed.diagnostics:
+        raise CannotRenameError("first correct the mistakes in the syntax")
+    if not known.declarations(symbol):
+        raise CannotRenameError(f"{quoted(symbol.name)} is not declared here")
+    lines = known.source.text.split("\n")
+    spans = dict.fromkeys(each.span for each in known.of_symbol[symbol])
+    for span in spans:
+        if lines[span.line - 1][span.column - 1 : span.end_column - 1] != symbol.name:
+            raise CannotRenameError(f"in line {span.line}, {quoted(symbol.name)} is made of parameters, or in a range")
+    return [Edit(span, name) for span in spans]
