@@ -1,13 +1,14 @@
 """Looking up what to do."""
 
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 from unittest.mock import patch
 
 import pytest
 from hypothesis import given
 
 from tests.policy.strategies import QUICK, amr_like, policies, rows_of
+from tumato_symbolic import Realizable, parse, synthesize
 from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.policy import Policy, UndecidedState, dumps, parse_assignments, parse_state
 
@@ -49,7 +50,9 @@ WRONG = [
     ({"S_Place": "hall", "S_Load": "free", "X": "free"}, "TUM503", "no variable `X`"),
     ({"S_Place": "hall", "S_Laod": "free"}, "TUM503", "no variable `S_Laod`"),
     ({"S_Place": "hall", "S_Load": "fre"}, "TUM504", "`S_Load` has no value `fre`"),
-    ({"S_Place": "hall", "S_Load": 1}, "TUM504", "the value of `S_Load` is a number"),
+    ({"S_Place": "hall", "S_Load": 1}, "TUM504", "`S_Load` has no value `1`"),
+    ({"S_Place": "hall", "S_Load": True}, "TUM504", "the value of `S_Load` is true"),
+    ({"S_Place": "hall", "S_Load": 1.0}, "TUM504", "the value of `S_Load` is a number"),
     ({"S_Place": "hall", "S_Load": ["free"]}, "TUM504", "the value of `S_Load` is a list"),
     ({"S_Place": "hall", "S_Load": None}, "TUM504", "the value of `S_Load` is null"),
     ({"S_Place": "hall", 3: "free"}, "TUM503", "a number is not the name of a variable"),
@@ -112,7 +115,8 @@ def test_a_line_describes_a_state() -> None:
         "",
         "[]",
         "3",
-        '{"S_Load": 3}',
+        '{"S_Load": 3.0}',
+        '{"S_Load": true}',
         '{"S_Load": "free", "S_Load": "full"}',
         "{",
         "NaN",
@@ -121,10 +125,23 @@ def test_a_line_describes_a_state() -> None:
     ],
 )
 def test_a_wrong_line_is_a_user_error(line: str) -> None:
-    """What is no JSON object of strings is TUM509, whatever it is."""
+    """What is no JSON object of strings and whole numbers is TUM509, whatever it is."""
     with pytest.raises(UserError) as raised:
         parse_state(amr_like().vocabulary, line)
     assert raised.value.diagnostics[0].code.name == "TUM509"
+
+
+@pytest.mark.parametrize("form", ["table", "diagram"])
+def test_numbers_are_numbers_or_their_digits(form: Literal["table", "diagram"]) -> None:
+    """A value that is a number may be given as either; nothing else passes for a number."""
+    text = "BEGIN STATE VECTOR state N can be -1..1 state B can be 0, 1 END STATE VECTOR"
+    found = synthesize(parse(text), policy_format=form)
+    assert isinstance(found, Realizable)
+    assert found.policy.decide({"N": -1, "B": 0}) == found.policy.decide({"N": "-1", "B": "0"}) == ()
+    assert parse_state(found.policy.vocabulary, '{"N": 1, "B": "0"}') == {"N": "1", "B": "0"}
+    for wrong in (True, 1.0, "01", "+1", 2, None):
+        with pytest.raises(UserError):
+            found.policy.decide({"N": 0, "B": wrong})  # type: ignore[dict-item]
 
 
 def test_load_and_decide(tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ from tumato_symbolic.policy.formats import policy_fields
 from tumato_symbolic.policy.lookup import Decider, make_decider
 from tumato_symbolic.policy.records import Certificate, DecisionDiagram, PolicyFields, Table, Vocabulary
 from tumato_symbolic.policy.text import read_text
-from tumato_symbolic.spec import Ordering, Restoration
+from tumato_symbolic.spec import Ordering, Restoration, Value
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,8 +42,10 @@ class Policy:
         """What its file holds."""
         return PolicyFields(*(getattr(self, name) for name in PolicyFields._fields))
 
-    def decide(self, state: Mapping[str, str]) -> tuple[str, ...]:
+    def decide(self, state: Mapping[str, Value]) -> tuple[str, ...]:
         """The actions to execute in `state` (value by variable), in the order of declaration; `()` is: none.
+
+        A value that is a number may be given as a number, or as the specification writes it.
 
         Raises `UndecidedState` where the policy says nothing of the state, and `UserError` where `state` does not
         give every variable of the policy one of its values, and nothing else.

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TypeAlias
 
 from tumato_symbolic.diagnostics.wording import quoted
-from tumato_symbolic.spec import Spec
+from tumato_symbolic.spec import Spec, Value, value_of
 
 StateCube: TypeAlias = Sequence[Sequence[int]]
 """For every variable the values that it may have, ascending; all of them where it does not matter."""
@@ -51,10 +51,10 @@ def shown(name: str) -> str:
     return quoted(name)[1:-1]
 
 
-def cube_json(spec: Spec, cube: StateCube) -> dict[str, list[str]]:
+def cube_json(spec: Spec, cube: StateCube) -> dict[str, list[Value]]:
     """The values that each variable may have; a variable that is not there may have any."""
     return {
-        variable.name: [variable.values[value] for value in values]
+        variable.name: [value_of(variable.values[value]) for value in values]
         for variable, values in zip(spec.variables, cube, strict=True)
         if len(values) < len(variable.values)
     }

@@ -9,7 +9,7 @@ from tumato_symbolic.explain.decision import Decision, GoalNote, Other
 from tumato_symbolic.report.guaranteed import guarantee_json, guarantee_text, shortcoming_json, shortcoming_lines
 from tumato_symbolic.report.layout import count, enumeration
 from tumato_symbolic.report.objections import Place, broken_here, effects_text, objection_text
-from tumato_symbolic.semantics import Quality, Run, State, action_names, level, named
+from tumato_symbolic.semantics import Quality, Run, State, action_names, in_json, level
 from tumato_symbolic.spec import Spec
 
 _LISTED = 6
@@ -175,7 +175,7 @@ def as_json(done: Decided) -> dict[str, object]:
     place, decision = done.place, done.decision
     spec = place.spec
     return {
-        "state": named(spec, decision.state),
+        "state": in_json(spec, decision.state),
         "decision": list(action_names(spec, decision.chosen)),
         "duration": decision.duration,
         "safe": not decision.broken,
@@ -202,7 +202,7 @@ def _way_json(spec: Spec, decision: Decision) -> dict[str, object]:
     if way is None:
         return found
     steps = [
-        {"actions": list(action_names(spec, step.decision)), "state": named(spec, step.after)} for step in way.steps
+        {"actions": list(action_names(spec, step.decision)), "state": in_json(spec, step.after)} for step in way.steps
     ]
     return {**found, "bounded": way.bounded, "duration": way.effort[0], "steps": steps}
 
@@ -221,7 +221,7 @@ def _run_json(spec: Spec, run: Run) -> dict[str, object]:
         "end": run.end,
         "steps": run.steps,
         "decisions": [list(action_names(spec, chosen)) for chosen in run.decisions],
-        "states": [named(spec, state) for state in run.states],
+        "states": [in_json(spec, state) for state in run.states],
     }
 
 

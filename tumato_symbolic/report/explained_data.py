@@ -28,8 +28,8 @@ from tumato_symbolic.report.findings import Finding, finding_json, findings_of, 
 from tumato_symbolic.report.layout import count
 from tumato_symbolic.report.possible_changes import added_lines, controlled, environment_text, left_out_lines
 from tumato_symbolic.report.restorable import restorable_json
-from tumato_symbolic.semantics import action_names, active_goals, named
-from tumato_symbolic.spec import Spec
+from tumato_symbolic.semantics import action_names, active_goals, in_json
+from tumato_symbolic.spec import Spec, value_of
 
 
 def as_json(done: Explained) -> dict[str, object]:
@@ -83,7 +83,7 @@ def _group_json(spec: Spec, group: FailingGroup) -> dict[str, object]:
         "count": group.count,
         "cubes": [cube_json(spec, cube) for cube in group.cubes],
         "omitted": group.omitted,
-        "example": named(spec, group.example),
+        "example": in_json(spec, group.example),
     }
 
 
@@ -105,7 +105,7 @@ def _reason_json(done: Explained, reason: Reason) -> dict[str, object]:
         "count": reason.count,
         "cubes": [cube_json(spec, cube) for cube in reason.cubes],
         "omitted": reason.omitted,
-        "example": named(spec, reason.example),
+        "example": in_json(spec, reason.example),
         "core": [_in_core(done, element, reason.core, reason) for element in reason.core],
         "summary": None if reason.summary is None else summary_text(spec, reason.summary),
         "more_cores": [[_in_core(done, element, core, reason) for element in core] for core in reason.cores[1:]],
@@ -118,7 +118,7 @@ def _reason_json(done: Explained, reason: Reason) -> dict[str, object]:
             for near in reason.near
         ],
         "states": [
-            named(spec, state) | {"goals": [spec.bodies[body].text for body in sorted(active_goals(spec, state))]}
+            in_json(spec, state) | {"goals": [spec.bodies[body].text for body in sorted(active_goals(spec, state))]}
             for state in reason.together
         ]
         if reason.kind == "conflict"
@@ -193,8 +193,8 @@ def _restriction_json(spec: Spec, taken: Restriction) -> dict[str, object]:
     variable = spec.variables[taken.variable]
     return {
         "variable": variable.name,
-        "never": [variable.values[each] for each in taken.never],
-        "in_some_states_not": [variable.values[each] for each, _ in taken.partly],
+        "never": [value_of(variable.values[each]) for each in taken.never],
+        "in_some_states_not": [value_of(variable.values[each]) for each, _ in taken.partly],
     }
 
 

@@ -9,7 +9,7 @@ from typing import Final
 from tumato_symbolic.diagnostics import Code
 from tumato_symbolic.report.layout import count, enumeration
 from tumato_symbolic.report.objections import Place, broken_here, why_no_set
-from tumato_symbolic.semantics import named
+from tumato_symbolic.semantics import in_json
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.synthesis.result import DecidedPart, Failure, FailureKind
 
@@ -147,6 +147,6 @@ def failure_json(spec: Spec, failure: Failure) -> dict[str, object]:
         "kind": failure.kind,
         "code": FAILURE_CODES[failure.kind].name,
         "count": failure.count,
-        "example": named(spec, failure.example),
-        "states": [named(spec, state) for state in failure.states[:_STATES_IN_JSON]],
+        "example": in_json(spec, failure.example),
+        "states": [in_json(spec, state) for state in failure.states[:_STATES_IN_JSON]],
     }

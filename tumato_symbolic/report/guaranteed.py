@@ -8,7 +8,7 @@ from tumato_symbolic.report.cubes import cube_json, cube_text
 from tumato_symbolic.report.layout import Paint, count
 from tumato_symbolic.report.objections import Place
 from tumato_symbolic.report.traces import move_json, move_text
-from tumato_symbolic.semantics import Guarantee, Shortcoming, named
+from tumato_symbolic.semantics import Guarantee, Shortcoming, in_json
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.verify.guarantees.result import Guarantees, Level
 
@@ -110,8 +110,8 @@ def _level_json(spec: Spec, level: Level) -> dict[str, object]:
 def shortcoming_json(spec: Spec, found: Shortcoming) -> dict[str, object]:
     """Why a state is guaranteed no more; `loop` is where the moves begin that may recur, counted from 0."""
     return {
-        "state": named(spec, found.state),
+        "state": in_json(spec, found.state),
         "moves": [move_json(spec, move) for move in found.moves],
         "loop": found.loop,
-        "rest": None if found.loop is not None else [named(spec, state) for state in found.rest],
+        "rest": None if found.loop is not None else [in_json(spec, state) for state in found.rest],
     }

@@ -15,6 +15,7 @@ from tumato_symbolic.semantics import (
     action_names,
     active_goals,
     holds,
+    in_json,
     is_safe,
     named,
 )
@@ -65,7 +66,7 @@ def effects_text(place: Place, outcome: EffectSequence) -> str:
 
 def outcome_json(spec: Spec, outcome: EffectSequence) -> list[dict[str, object]]:
     """The same for a program."""
-    return [{"action": spec.actions[step.action].name, "after": named(spec, step.after)} for step in outcome]
+    return [{"action": spec.actions[step.action].name, "after": in_json(spec, step.after)} for step in outcome]
 
 
 def _effectuation(place: Place, step: EffectStep) -> str:

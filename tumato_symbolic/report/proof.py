@@ -7,7 +7,7 @@ from typing import Final
 
 from tumato_symbolic.report.layout import Paint, count, enumeration, every, seconds
 from tumato_symbolic.report.objections import Place, broken_here, effects_text, objection_text, outcome_json
-from tumato_symbolic.semantics import Quality, Run, action_names, duration, named
+from tumato_symbolic.semantics import Quality, Run, action_names, duration, in_json
 from tumato_symbolic.spec import Ordering, Restoration, Spec
 from tumato_symbolic.verify.result import PropertyName, PropertyResult, Refutation, Verification
 
@@ -253,7 +253,7 @@ def _refutation_json(spec: Spec, refutation: Refutation) -> dict[str, object]:
     state, decision, objection, run = refutation.state, refutation.decision, refutation.objection, refutation.run
     found: dict[str, object] = {
         "kind": refutation.kind,
-        "state": named(spec, state) if state is not None else None,
+        "state": in_json(spec, state) if state is not None else None,
         "decision": list(action_names(spec, decision)) if decision is not None else None,
     }
     if refutation.kind == "missing":
@@ -262,7 +262,7 @@ def _refutation_json(spec: Spec, refutation: Refutation) -> dict[str, object]:
         found["departure"] = None
         if departure is not None:
             found["departure"] = {
-                "state": named(spec, departure.state),
+                "state": in_json(spec, departure.state),
                 "decision": list(action_names(spec, departure.decision)),
                 "outcome": outcome_json(spec, departure.outcome),
             }
@@ -277,7 +277,7 @@ def _refutation_json(spec: Spec, refutation: Refutation) -> dict[str, object]:
     if run is not None:
         found["run"] = {
             "end": run.end,
-            "states": [named(spec, visited) for visited in run.states],
+            "states": [in_json(spec, visited) for visited in run.states],
             "decisions": [list(action_names(spec, chosen)) for chosen in run.decisions],
         }
     if refutation.cheaper is not None and decision is not None:

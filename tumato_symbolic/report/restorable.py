@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 from tumato_symbolic.report.layout import count, enumeration
 from tumato_symbolic.report.objections import Place
-from tumato_symbolic.semantics import named
+from tumato_symbolic.semantics import in_json
+from tumato_symbolic.spec import value_of
 
 if TYPE_CHECKING:
     from tumato_symbolic.synthesis.diagnosis import Cured, JointAction, Restorability
@@ -52,13 +53,16 @@ def restorable_json(place: Place, found: Restorability | None) -> dict[str, obje
     cured: dict[str, object] = {
         each.cure: {
             "count": each.count,
-            "example": named(place.spec, each.example),
+            "example": in_json(place.spec, each.example),
             "efforts": [{"duration": d, "steps": steps, "states": n} for (d, steps), n in each.efforts],
         }
         for each in found.cured
     }
     joint = [
-        {"effects": {variables[v].name: variables[v].values[value] for v, value in each.effects}, "left": each.left}
+        {
+            "effects": {variables[v].name: value_of(variables[v].values[value]) for v, value in each.effects},
+            "left": each.left,
+        }
         for each in found.joint
     ]
     return {"restorable": {**cured, "joint_actions": joint}}

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from tumato_symbolic.report.layout import count
 from tumato_symbolic.report.objections import Place, broken_here, effects_text, outcome_json
-from tumato_symbolic.semantics import Disturbance, Event, Move, State, Trace, action_names, named
+from tumato_symbolic.semantics import Disturbance, Event, Move, State, Trace, action_names, in_json
 from tumato_symbolic.spec import Spec
 
 _EXECUTED, _HAPPENED = "tumato::executed", "tumato::happened"
@@ -56,18 +56,18 @@ def move_json(spec: Spec, move: Move) -> dict[str, object]:
     return {
         "decision": list(action_names(spec, move.decision)),
         "deviation": None if move.deviation is None else outcome_json(spec, move.deviation),
-        "after": named(spec, move.after),
+        "after": in_json(spec, move.after),
     }
 
 
 def trace_json(spec: Spec, trace: Trace) -> dict[str, object]:
     """The same for a program; what has no `decision` is a disturbance. `loop` is an event, counted from 0."""
     return {
-        "start": named(spec, trace.start),
+        "start": in_json(spec, trace.start),
         "events": [
             move_json(spec, event)
             if isinstance(event, Move)
-            else {"decision": None, "deviation": None, "after": named(spec, event.after)}
+            else {"decision": None, "deviation": None, "after": in_json(spec, event.after)}
             for event in trace.events
         ],
         "end": trace.end,
@@ -92,7 +92,7 @@ def trace_itf(place: Place, trace: Trace) -> dict[str, object]:
         "states": [
             {
                 "#meta": {"index": index},
-                **named(spec, state),
+                **in_json(spec, state),
                 _EXECUTED: {"#set": list(action_names(spec, event.decision)) if isinstance(event, Move) else []},
                 _HAPPENED: text,
             }

@@ -10,7 +10,7 @@ from tumato_symbolic.diagnostics import Code, Diagnostic, Source
 from tumato_symbolic.report.findings import Finding, finding_json, findings_of
 from tumato_symbolic.report.layout import Paint, count, seconds
 from tumato_symbolic.report.proof import ORDERINGS
-from tumato_symbolic.semantics import action_names, named
+from tumato_symbolic.semantics import action_names, in_json
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.verify.result import UnrealizabilityKind, UnrealizabilityVerdict, Verdict
 
@@ -103,7 +103,10 @@ def verdict_json(spec: Spec, found: UnrealizabilityVerdict) -> dict[str, object]
     """The verdict for a program."""
     witness = None
     if found.state is not None:
-        witness = {"state": named(spec, found.state), "actions": list(action_names(spec, found.chosen or frozenset()))}
+        witness = {
+            "state": in_json(spec, found.state),
+            "actions": list(action_names(spec, found.chosen or frozenset())),
+        }
     return {
         "verdict": found.verdict,
         "kind": found.kind,

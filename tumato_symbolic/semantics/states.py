@@ -7,7 +7,7 @@ from itertools import product
 from math import prod
 from typing import TypeAlias
 
-from tumato_symbolic.spec import And, Assignment, Executing, Formula, Iff, Is, Not, Or, Rule, Spec
+from tumato_symbolic.spec import And, Assignment, Executing, Formula, Iff, Is, Not, Or, Rule, Spec, Value, value_of
 
 State: TypeAlias = tuple[int, ...]
 """One value number for every variable, in the order of declaration."""
@@ -96,6 +96,11 @@ def required_rules(spec: Spec, state: State) -> tuple[Rule, ...]:
     if spec.restoration != "one_step":
         rules = (rule for rule in rules if holds(rule.formula, state))
     return (*spec.assumptions, *rules, *spec.in_part)
+
+
+def in_json(spec: Spec, state: State) -> dict[str, Value]:
+    """A state as JSON and Python have it: value by variable, where numbers are numbers."""
+    return {name: value_of(value) for name, value in named(spec, state).items()}
 
 
 def named(spec: Spec, state: State) -> dict[str, str]:

@@ -37,6 +37,7 @@ from tumato_symbolic.spec.specification import (
     Spec,
     Variable,
 )
+from tumato_symbolic.spec.value_kinds import Value, text_of, value_of
 
 if TYPE_CHECKING:
     from tumato_symbolic.spec.loading import Loaded, load
@@ -69,6 +70,7 @@ __all__ = [
     "Rule",
     "SimpleGoal",
     "Spec",
+    "Value",
     "Variable",
     "active_bodies",
     "atoms",
@@ -82,6 +84,8 @@ __all__ = [
     "goal_parameters",
     "load",
     "subgoals",
+    "text_of",
+    "value_of",
     "variables_of",
 ]
 

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Mapping, Sequence
 
 from tumato_symbolic.diagnostics import Code
 from tumato_symbolic.diagnostics.wording import quoted
 from tumato_symbolic.spec.collector import Findings
+from tumato_symbolic.spec.value_kinds import value_of
 from tumato_symbolic.syntax import ast
-
-_NUMBER = re.compile(r"0|-?[1-9][0-9]*")
 
 
 def number_of(text: str) -> int | None:
     """The number that a value is, None where it is a name."""
-    return int(text) if _NUMBER.fullmatch(text) else None
+    value = value_of(text)
+    return value if isinstance(value, int) else None
 
 
 def numbers_of(values: Iterable[str]) -> list[int] | None:
@@ -28,7 +27,7 @@ def numbers_of(values: Iterable[str]) -> list[int] | None:
 def is_right(value: ast.Name, findings: Findings) -> bool:
     """Whether a value is a name, or a number as numbers are written; reports what is not."""
     text = value.text
-    if not text.lstrip("-").isdigit() or _NUMBER.fullmatch(text):
+    if not text.lstrip("-").isdigit() or number_of(text) is not None:
         return True
     message = f"{quoted(text)} is not how this number is written"
     findings.add(Code.TUM114, message, value.span, f"write `{int(text)}`")

@@ -10,6 +10,7 @@ from tumato_symbolic.diagrams import Reference
 from tumato_symbolic.policy.lookup.states import check_state
 from tumato_symbolic.policy.records import DecisionDiagram, Table, Vocabulary
 from tumato_symbolic.policy.text import described
+from tumato_symbolic.spec import Value
 
 _MOST_REMEMBERED = 20_000
 """After so many different places in the diagrams of a policy, they are forgotten."""
@@ -18,7 +19,7 @@ _MOST_REMEMBERED = 20_000
 class UndecidedState(ValueError):  # noqa: N818 - no error of the user: a state may be undecided rightly
     """The policy says nothing of a state: one that the assumptions exclude, or one that the policy forgot."""
 
-    def __init__(self, state: Mapping[str, str]) -> None:
+    def __init__(self, state: Mapping[str, Value]) -> None:
         super().__init__(f"the policy does not decide this state: {described(state)}")
         self.state = dict(state)
 
@@ -26,7 +27,7 @@ class UndecidedState(ValueError):  # noqa: N818 - no error of the user: a state 
 class Decider(Protocol):
     """A policy prepared for being asked many times."""
 
-    def decide(self, state: Mapping[str, str]) -> tuple[str, ...]:
+    def decide(self, state: Mapping[str, Value]) -> tuple[str, ...]:
         """See `Policy.decide`."""
 
 
@@ -41,21 +42,24 @@ def make_decider(vocabulary: Vocabulary, decisions: Table | DecisionDiagram) -> 
 class _TableDecider:
     vocabulary: Vocabulary
     names: tuple[str, ...]
-    answers: dict[tuple[str, ...], tuple[str, ...]]
+    answers: dict[tuple[Value, ...], tuple[str, ...]]
 
-    def decide(self, state: Mapping[str, str]) -> tuple[str, ...]:
+    def decide(self, state: Mapping[str, Value]) -> tuple[str, ...]:
         try:
             if len(state) == len(self.names):
                 return self.answers[tuple([state[name] for name in self.names])]
         except (KeyError, TypeError):
             pass
-        check_state(self.vocabulary, state)
-        raise UndecidedState(state)
+        named = check_state(self.vocabulary, state)
+        answer = self.answers.get(tuple([named[name] for name in self.names]))
+        if answer is None:
+            raise UndecidedState(named)
+        return answer
 
 
 def _by_table(vocabulary: Vocabulary, table: Table) -> _TableDecider:
     texts: dict[frozenset[int], tuple[str, ...]] = {}
-    answers = {}
+    answers: dict[tuple[Value, ...], tuple[str, ...]] = {}
     for state, chosen in table.rows.items():
         key = tuple([values[value] for (_, values), value in zip(vocabulary.variables, state, strict=True)])
         if chosen not in texts:
@@ -87,20 +91,20 @@ class _DiagramDecider:
     def __init__(self, vocabulary: Vocabulary, decisions: DecisionDiagram) -> None:
         self._vocabulary = vocabulary
         self._diagram = decisions.diagram
-        self._numbers = [
+        self._numbers: list[tuple[str, dict[Value, int]]] = [
             (name, {value: at for at, value in enumerate(values)}) for name, values in vocabulary.variables
         ]
         self._known: dict[tuple[Reference, ...], _Question | _Answer] = {}
         self._start = self._at((decisions.defined, *decisions.roots))
 
-    def decide(self, state: Mapping[str, str]) -> tuple[str, ...]:
+    def decide(self, state: Mapping[str, Value]) -> tuple[str, ...]:
         try:
             values = [known[state[name]] for name, known in self._numbers] if len(state) == len(self._numbers) else None
         except (KeyError, TypeError):
             values = None
         if values is None:
-            check_state(self._vocabulary, state)
-            raise UndecidedState(state)
+            named = check_state(self._vocabulary, state)
+            values = [known[named[name]] for name, known in self._numbers]
         here = self._start
         while isinstance(here, _Question):
             value = values[here.variable]

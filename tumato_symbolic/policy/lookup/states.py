@@ -5,25 +5,32 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import islice
+from typing import cast
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.diagnostics.wording import listed
 from tumato_symbolic.policy.records import Vocabulary
-from tumato_symbolic.policy.text import MOST, as_object, as_text, fault, parse_json, show, way_out
+from tumato_symbolic.policy.text import MOST, as_object, as_value, fault, parse_json, show, way_out
+from tumato_symbolic.spec import Value, text_of, value_of
 
 
-def check_state(vocabulary: Vocabulary, state: Mapping[str, str]) -> None:
-    """Raise `UserError` with what keeps `state` from being one of the policy's states (TUM503, TUM504, TUM509)."""
+def check_state(vocabulary: Vocabulary, state: Mapping[str, Value]) -> dict[str, str]:
+    """The values of a state as the policy names them; a number may be given as a number or as its digits.
+
+    Raises `UserError` with what keeps `state` from being one of the policy's states (TUM503, TUM504, TUM509).
+    """
     if not isinstance(state, Mapping):
         example = {name: values[0] for name, values in vocabulary.variables[:2]}
         message = f"a state maps every variable to its value, and is not of type {type(state).__name__}"
         raise fault(Code.TUM509, message, f"such as {example}")
-    problems = tuple(islice(_problems(vocabulary, state), MOST))
+    named = {name: text_of(value) for name, value in state.items()}
+    problems = tuple(islice(_problems(vocabulary, named), MOST))
     if problems:
         raise UserError(problems)
+    return cast("dict[str, str]", named)
 
 
-def _problems(vocabulary: Vocabulary, state: Mapping[str, str], whole: bool = True) -> Iterator[Diagnostic]:
+def _problems(vocabulary: Vocabulary, state: Mapping[str, object], whole: bool = True) -> Iterator[Diagnostic]:
     known = dict(vocabulary.variables)
     for name, value in state.items():
         if name not in known:
@@ -64,16 +71,15 @@ def parse_assignments(vocabulary: Vocabulary, words: Sequence[str], *, whole: bo
 
 
 def parse_state(vocabulary: Vocabulary, line: str) -> dict[str, str]:
-    """The state that one JSON object such as `{"S_Location": "corridor"}` describes.
+    """The state that one JSON object such as `{"S_Location": "corridor", "S_Level": 3}` describes.
 
     Raises `UserError` (TUM503, TUM504, TUM509) like `parse_assignments`.
     """
     try:
         section = as_object(parse_json(line, "state"), "the state")
-        state = {name: as_text(value, f"the value of {show(name)}") for name, value in section.items()}
+        state = {name: as_value(value, f"the value of {show(name)}") for name, value in section.items()}
     except UserError as error:
         message = error.diagnostics[0].message
-        example = json.dumps({name: values[0] for name, values in vocabulary.variables[:2]})
+        example = json.dumps({name: value_of(values[0]) for name, values in vocabulary.variables[:2]})
         raise fault(Code.TUM509, f"the line is not a state: {message}", f"write one like {example}") from None
-    check_state(vocabulary, state)
-    return state
+    return check_state(vocabulary, state)

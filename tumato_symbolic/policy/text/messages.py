@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source, UserError
 from tumato_symbolic.diagnostics.wording import listed, nearest, quoted
+from tumato_symbolic.spec import Value
 
 MOST = 20
 """So many mistakes in a policy or state are reported at once, and so many variables of a state are shown."""
@@ -29,9 +30,9 @@ def show(value: object) -> str:
     return "a list" if isinstance(value, list) else "an object"
 
 
-def described(state: Mapping[str, str]) -> str:
+def described(state: Mapping[str, Value]) -> str:
     """A state in words, cut where it has very many variables."""
-    parts = [f"{quoted(name)[1:-1]} is {quoted(value)[1:-1]}" for name, value in state.items()]
+    parts = [f"{quoted(name)[1:-1]} is {quoted(str(value))[1:-1]}" for name, value in state.items()]
     return ", ".join([*parts[:MOST], "…"] if len(parts) > MOST else parts)
 
 

@@ -8,6 +8,7 @@ from typing import Any
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source, Span, UserError
 from tumato_symbolic.policy.text.messages import fault, show
 from tumato_symbolic.policy.text.rows import Objects, RepeatedKeyError, Row
+from tumato_symbolic.spec import text_of
 
 MAX_BYTES = 256 * 1024 * 1024
 """The largest policy that is read or written: 256 MiB."""
@@ -119,6 +120,13 @@ def as_text(value: object, where: str) -> str:
     except UnicodeEncodeError:
         raise fault(Code.TUM502, f"{where} is {show(value)}, which is not valid Unicode text") from None
     return value
+
+
+def as_value(value: object, where: str) -> str:
+    """A value of a variable, as a specification writes it: a string, or a whole number."""
+    if not isinstance(value, str) and type(value) is not int:
+        raise wrong(where, "a string or a whole number", value)
+    return as_text(text_of(value), where)
 
 
 def as_names(value: object, where: str) -> tuple[str, ...]:
