@@ -1423,6 +1423,12 @@ class World:
 
     # Words for reports.
 
+    def steps_on(self, state: State) -> Iterator[tuple[ActionSet, State]]:
+        """Those steps; under `bounded` none that may leave an unsafe state as it is, which never restores it."""
+        for chosen, after in self.steps(state):
+            if self.restoration != "bounded" or self.is_safe(state) or state not in self.next_states(state, chosen):
+                yield chosen, after
+
     def show(self, state: State) -> str:
         return "(" + ", ".join(f"{name} {state[place]}" for place, name in enumerate(self.spec.variables)) + ")"
 
@@ -2328,15 +2334,16 @@ def judge_no(world: World, document: dict[str, Any]) -> str:
     reason: Any = document.get("Reason")
     need(isinstance(reason, dict), "`Reason` is an object")
     kind = reason.get("Kind")
-    if world.spec.starts and kind == "conflict":
-        raise NotKnown("where there are starts, it is not judged whether goals conflict")
     if kind == "no-allowed-set":
         return check_no_allowed_set(world, reason)
     if kind == "no-plan":
         return check_no_plan(world, reason, document["States"])
     if kind == "no-restoration":
         return check_no_restoration(world, reason, document["States"])
-    need(kind == "conflict", "`Kind` is `no-allowed-set`, `no-restoration`, `no-plan` or `conflict`")
+    if kind == "no-part":
+        count = check_no_part(world, reason, document["States"])
+        return f"no part that has all starts has a policy, by removing {counted(count, 'state')}"
+    need(kind == "conflict", "`Kind` is `no-allowed-set`, `no-restoration`, `no-plan`, `conflict` or `no-part`")
     return check_conflict(world, reason, document["States"])
 
 
@@ -2573,15 +2580,21 @@ def check_no_restoration(world: World, reason: dict[str, Any], states: Numbered)
     if world.restoration == "one_step":
         raise Refuted("safety is to be restored in one step, and a trap speaks of several")
     level = [state for state in world.valid if world.level(state) == world.level(start)]
-    trap = {state: None for state in level if diagram.value(root, state)}
+    trap = {state for state in level if diagram.value(root, state)}
     if world.is_safe(start) or start not in trap:
         raise Refuted(f"{world.show(start)} is safe, or not in the trap")
-    for state in trap:
-        for chosen, after in world.steps(state):
-            ends = {after} if world.restoration == "fair" else world.next_states(state, chosen)
-            if ends.isdisjoint(trap):
-                raise Refuted(f"{world.step(state, chosen)}, and surely out of the trap")
+    for state in level:
+        if state in trap:
+            check_trapped(world, state, trap)
     return f"safety is never surely restored from {world.show(start)}, by a trap of {counted(len(trap), 'state')}"
+
+
+def check_trapped(world: World, state: State, trap: set[State]) -> None:
+    """Whatever is executed in a state of a trap, some outcome is in it again."""
+    for chosen, after in world.steps(state):
+        ends = {after} if world.restoration == "fair" else world.next_states(state, chosen)
+        if ends.isdisjoint(trap):
+            raise Refuted(f"{world.step(state, chosen)}, and surely out of the trap")
 
 
 # No plan: whatever residual goal `State` can have, the layers R_1, …, R_n hold all runs of allowed steps that have it
@@ -2649,26 +2662,44 @@ Option = tuple[State, int]  # the successor, and the goal by its class
 Pick = tuple[int, int]  # a listed state and one of its options, by number
 
 
-class Conflict:
-    """The parts of a conflict. Goals with one root, or equal diagrams below it, are one class; its number is a root."""
+class Distances:
+    """Goals, and how far they are at least. Goals with one root, or equal diagrams below it, are one class: a root."""
+
+    def __init__(self, section: dict[str, Any], states: Numbered, spec: Specification) -> None:
+        self.bound = spec.bound
+        self.diagram = Diagram(section, states, spec)
+        need(self.diagram.is_of_numbers(), "`Leaves` are not different numbers")
+        same = self.diagram.same()
+        entries = read_objects(section, "Goals")
+        self.goals = [same[self.diagram.reference(entry.get("Root"))] for entry in entries]
+        self.members: dict[int, set[Residual]] = {number: set() for number in self.goals}
+        for place, entry in enumerate(entries):
+            self.members[self.goals[place]].add(read_goal(entry, spec))
+
+    def distance(self, goal: int, state: State) -> float:
+        """`D`: at least so many allowed steps are left to a goal of the class. From the bound on, all is too far."""
+        found = self.diagram.value(goal, state)
+        distance = math.inf if found is None else found
+        return distance if self.bound is None else min(distance, self.bound)
+
+    def near(self, goal: int, state: State, steps: int) -> bool:
+        """Whether a run that is here after so many steps may still reach the goal."""
+        distance = self.distance(goal, state)
+        return distance < math.inf if self.bound is None else steps + distance <= self.bound
+
+
+class Conflict(Distances):
+    """The parts of a conflict."""
 
     def __init__(self, world: World, reason: dict[str, Any], states: Numbered) -> None:
         spec = world.spec
-        self.bound = spec.bound
-        self.diagram = Diagram(reason, states, spec)
-        need(self.diagram.is_of_numbers(), "`Leaves` are not different numbers")
-        same = self.diagram.same()
-        entries = read_objects(reason, "Goals")
-        self.goals = [same[self.diagram.reference(entry.get("Root"))] for entry in entries]
+        super().__init__(reason, states, spec)
         self.choices: list[tuple[State, list[Option]]] = []
         for entry in read_objects(reason, "Choices"):
             options = [(read_state(o, "Successor", spec), self.goal(o)) for o in read_objects(entry, "Options")]
             self.choices.append((read_state(entry, "State", spec), options))
         self.starts = read_numbers(reason, "Starts", len(self.choices))
         self.cuts = [self.cut(entry, spec) for entry in read_objects(reason, "Cuts")]
-        self.members: dict[int, set[Residual]] = {number: set() for number in self.goals}
-        for place, entry in enumerate(entries):
-            self.members[self.goals[place]].add(read_goal(entry, spec))
 
     def goal(self, section: dict[str, Any]) -> int:
         """The class of the goal that an option or a cut names."""
@@ -2684,28 +2715,23 @@ class Conflict:
         need(run != [], "there is a cut without states")
         return self.goal(entry), run, read_state(entry, "End", spec) if "End" in entry else None
 
-    def distance(self, goal: int, state: State) -> float:
-        """`D`: at least so many allowed steps are left to a goal of the class. From the bound on, all is too far."""
-        found = self.diagram.value(goal, state)
-        distance = math.inf if found is None else found
-        return distance if self.bound is None else min(distance, self.bound)
 
-    def near(self, goal: int, state: State, steps: int) -> bool:
-        """Whether a run that is here after so many steps may still reach the goal."""
-        distance = self.distance(goal, state)
-        return distance < math.inf if self.bound is None else steps + distance <= self.bound
-
-
-def check_conflict(world: World, reason: dict[str, Any], states: Numbered) -> str:
-    """No policy serves all `Starts`."""
+def check_conflict(world: World, reason: dict[str, Any], states: Numbered, decided: Iterable[State] = ()) -> str:
+    """No policy serves all `Starts`, if it decides these states beside the starts."""
     conflict = Conflict(world, reason, states)
     for state, _ in conflict.choices:
+        if not world.is_valid(state):
+            raise Refuted(f"the state {world.show(state)} is not valid")
+    begun = {conflict.choices[start][0] for start in conflict.starts}
+    for state in begun.difference(decided):
         check_decides(world, state)
     with runs_from(world, [state for state, _ in conflict.choices]) as met:
         for state, options in conflict.choices:
             check_options(world, conflict, state, options)
         clauses = [clause_of(world, conflict, number) for number in range(len(conflict.cuts))]
-        if Choosing([len(options) for _, options in conflict.choices], clauses).succeeds():
+        undecided = int(bool(world.spec.starts))  # one more option, where there is none: not to decide
+        counts = [len(options) or (0 if state in begun else undecided) for state, options in conflict.choices]
+        if Choosing(counts, clauses).succeeds():
             raise Refuted("there is a choice of options that respects all cuts")
         for state in met:
             check_distances(world, conflict, state)
@@ -2723,15 +2749,15 @@ def check_options(world: World, conflict: Conflict, state: State, options: list[
             )
 
 
-def check_distances(world: World, conflict: Conflict, state: State) -> None:
+def check_distances(world: World, distances: Distances, state: State) -> None:
     """The distance is 0 where a goal is met, and no step makes it smaller by more than one."""
-    for goal, members in conflict.members.items():
+    for goal, members in distances.members.items():
         met = next((each for each in members if world.reached(each, state)), None)
-        if met is not None and conflict.distance(goal, state) != 0:
+        if met is not None and distances.distance(goal, state) != 0:
             raise Refuted(f"{world.show(state)} meets {goal_text(world, met)}, and its distance is not 0")
-    for chosen, after in world.steps(state):
-        for goal, members in conflict.members.items():
-            if conflict.distance(goal, state) > conflict.distance(goal, after) + 1:
+    for chosen, after in world.steps_on(state):
+        for goal, members in distances.members.items():
+            if distances.distance(goal, state) > distances.distance(goal, after) + 1:
                 nearer = f"from where {min(goal_text(world, each) for each in members)} is nearer by more than one step"
                 raise Refuted(f"{world.step(state, chosen)}, {nearer}")
 
@@ -2761,6 +2787,72 @@ def clause_of(world: World, conflict: Conflict, number: int) -> list[Pick]:
             if after != following and conflict.near(goal, after, steps):
                 picks.append((each, place))
     return picks
+
+
+# No part: states are removed that no policy decides which stays in what is left. Then a start is among them, or goals
+# conflict in what is left, and each case is looked at in which one of those states is left out that is no start.
+
+
+def check_no_part(world: World, reason: dict[str, Any], states: Numbered) -> int:
+    """No part of the valid states that has all starts has a policy; how many were removed.
+
+    Of the arguments in `Parts`, the first is about all valid states, every other one about a case of an earlier one.
+    """
+    parts, count = read_objects(reason, "Parts"), 0
+    left = {0: world}
+    for number, part in enumerate(parts):
+        need(part.get("Kind") in ("start", "conflict"), "a part is of kind `start` or `conflict`")
+        if number not in left:
+            raise Refuted(f"part {number} is no case of an earlier one")
+        here = left[number]
+        for place, entry in enumerate(read_objects(part, "Removals")):
+            gone = removed(here, entry, f"removal {place} of part {number}", states)
+            here, count = here.within(set(here.valid) - gone), count + len(gone)
+        if part["Kind"] == "start":
+            start = read_state(part, "State", world.spec)
+            check_decides(world, start)
+            if here.is_valid(start):
+                raise Refuted(f"the state {world.show(start)} is not removed")
+            continue
+        need(isinstance(part.get("Conflict"), dict), "`Conflict` is an object")
+        cases = read_objects(part, "Cases")
+        others = [read_state(case, "Without", world.spec) for case in cases]
+        check_conflict(here, part["Conflict"], states, others)
+        for place, case in enumerate(cases):
+            following: Any = case.get("Part")
+            need(is_number(following), "`Part` is a number")
+            if following <= number or following in left:
+                raise Refuted(f"a case of part {number} is not a part of its own")
+            left[following] = here.within(set(here.valid) - {others[place]})
+    if set(left) != set(range(len(parts))):
+        raise Refuted("there are cases without a part")
+    return count
+
+
+def removed(world: World, entry: dict[str, Any], name: str, states: Numbered) -> set[State]:
+    """The states that a removal removes: traps, or from where every step leads too far away from its goal."""
+    need(entry.get("Kind") in ("no-restoration", "no-plan"), "a removal is `no-restoration` or `no-plan`")
+    distances = Distances(entry, states, world.spec)
+    root = distances.diagram.reference(entry.get("Root"))
+    gone = [state for state in world.valid if distances.diagram.value(root, state) is not None]
+    if entry["Kind"] == "no-restoration":
+        if world.restoration == "one_step" or any(map(world.is_safe, gone)):
+            raise Refuted(f"{name} is of traps, but safe states and one step have none")
+        for level in range(len(world.tiers)):
+            trap = {state for state in gone if world.level(state) == level}
+            for state in sorted(trap):
+                check_trapped(world, state, trap)
+        return set(gone)
+    for state in world.valid if world.stepwise else world.safe:
+        check_distances(world, distances, state)
+    for state in gone:
+        for chosen, after in world.steps_on(state):
+            pending = world.residual_goal(state, chosen)
+            classes = [goal for goal, members in distances.members.items() if pending in members]
+            if all(distances.near(goal, after, 1) for goal in classes):
+                told = f"from where {goal_text(world, pending)} may be reached"
+                raise Refuted(f"{name}: {world.step(state, chosen)}, {told}")
+    return set(gone)
 
 
 class Choosing:

@@ -18,6 +18,7 @@ from tumato_symbolic.policy.unrealizability import (
     Cube,
     Cut,
     NoAllowedSet,
+    NoPart,
     NoPlan,
     NoRestoration,
     Unrealizability,
@@ -82,6 +83,8 @@ def claim_is_true(world: World, certificate: Unrealizability) -> bool:
             if not all(is_valid(world.spec, state) for state in states):
                 return False
             return any(not found for found in world.options.values()) or Together(world).serve(states) is None
+        case NoPart():
+            raise NotImplementedError("of starts `tests.starts` has the truth")
 
 
 def cubes_are_true(spec: Spec, ordering: Ordering, reason: NoAllowedSet) -> bool:
@@ -128,6 +131,8 @@ def changed(certificate: Unrealizability, dice: Random) -> Unrealizability:
             return replace(certificate, reason=_changed_layers(reason, certificate.vocabulary, dice))
         case Conflict() as reason:
             return replace(certificate, reason=_changed_conflict(reason, certificate.vocabulary, dice))
+        case NoPart():
+            raise NotImplementedError("`tests.starts` changes them as JSON")
 
 
 def _any_state(vocabulary: Vocabulary, dice: Random) -> State:

@@ -1,6 +1,7 @@
 """Whether advice trades safety away: `python -m tests.explain.advice N [FILE …]`.
 
-Explains the robots of `robots.py`, the files, and generated specifications until N of them have no policy. Counts state
+Explains the robots of `robots.py`, the files, and generated specifications until N of each form have no policy: plain
+ones, those with clauses of effects, and those with starts. Counts state
 rules that are given up before every other way was tried, exceptions that leave nothing of a rule or have nothing to do
 with it, and what is assumed of the environment and not said. Exits with 1 if there is any.
 """
@@ -16,20 +17,23 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from random import Random
+from typing import Literal, TypeAlias
 
+from tests.clauses.generate import RESTORATIONS, random_pair
 from tests.explain.oracle import read_predicate, realizable, repaired
 from tests.explain.robots import ROBOTS, battery
 from tests.generate import NOWHERE, PROFILES, random_spec
 from tests.printing import print_spec
+from tests.starts.campaign import with_starts as with_start_conditions
 from tumato_symbolic import Realizable, parse, synthesize
 from tumato_symbolic.diagnostics import Source, UserError
 from tumato_symbolic.explain.elements import elements_of, keep_only, rule_of
 from tumato_symbolic.explain.explain import explain
 from tumato_symbolic.explain.explanation import Change, Explanation, Repair
-from tumato_symbolic.explain.writing import with_assumption
+from tumato_symbolic.explain.writing import with_assumption, with_starts
 from tumato_symbolic.limits import Context, Limits
 from tumato_symbolic.report.explained import Explained, as_text
-from tumato_symbolic.semantics import State, all_states, count_states, holds, is_valid
+from tumato_symbolic.semantics import State, all_states, count_states, holds, is_start, is_valid
 from tumato_symbolic.semantics.lint import lint
 from tumato_symbolic.spec import (
     TRUE,
@@ -56,6 +60,11 @@ REMOVED = "removing a rule about the environment is advised"
 USELESS = "a repair gives no policy"
 KINDS = (GIVEN_UP, TAUTOLOGY, UNRELATED, UNSAID, REMOVED, USELESS)
 
+Form: TypeAlias = Literal["plain", "clauses", "starts"]
+"""What generated specifications have."""
+
+FORMS: tuple[Form, ...] = ("plain", "clauses", "starts")
+
 MOST_STATES = 20_000
 """Larger specifications are not looked at: their states are looked at one by one."""
 
@@ -80,7 +89,9 @@ def bad_advice(spec: Spec, text: str, found: Explanation, decide: Decide) -> Ite
         yield GIVEN_UP
     if ("Gives up safety" in report) != any(given_up):
         yield GIVEN_UP
-    if found.part is not None:
+    if found.part is not None and spec.starts:
+        yield from _bad_starts(spec, text, found.part.text, report, decide)
+    elif found.part is not None:
         yield from _bad_part(spec, text, found.part.text, report)
 
 
@@ -142,8 +153,7 @@ def _bad_part(spec: Spec, text: str, assumption: str, report: str) -> Iterator[s
     formula = read_predicate(spec, assumption)
     valid = [state for state in all_states(spec) if is_valid(spec, state)]
     kept = {state for state in valid if holds(formula, state)}
-    first = next(line for line in report.splitlines() if "realizable part" in line)
-    said = first.partition("no action controls ")[2]
+    said = _said_of_the_part(report)
     if any(spec.variables[variable].name not in said for variable in _taken(spec, valid, kept)):
         yield UNSAID
     guards = {rule.span for rule in spec.state_rules if spec.environment & variables_of(rule.formula)}
@@ -152,6 +162,23 @@ def _bad_part(spec: Spec, text: str, assumption: str, report: str) -> Iterator[s
     for warning in lint(written):
         if warning.span in guards - idle and warning.help is not None and "remove" in warning.help:
             yield REMOVED
+
+
+def _bad_starts(spec: Spec, text: str, condition: str, report: str, decide: Decide) -> Iterator[str]:
+    formula = read_predicate(spec, condition)
+    starts = [state for state in all_states(spec) if is_start(spec, state)]
+    kept = {state for state in starts if holds(formula, state)}
+    said = _said_of_the_part(report)
+    if any(spec.variables[variable].name not in said for variable in _taken(spec, starts, kept)):
+        yield UNSAID
+    written = parse(with_starts(Source("x.tum", text), condition))
+    if {state for state in all_states(spec) if is_start(written, state)} != kept or not decide(written):
+        yield USELESS
+
+
+def _said_of_the_part(report: str) -> str:
+    first = next(line for line in report.splitlines() if "realizable part" in line)
+    return first.partition("no action controls ")[2]
 
 
 def _taken(spec: Spec, valid: Sequence[State], kept: set[State]) -> set[int]:
@@ -191,15 +218,32 @@ def generated(seed: int) -> Spec:
     return with_environment(spec, Random(seed)) if seed % 3 else spec
 
 
-def examine_generated(seed: int) -> list[str] | None:
-    """What is wrong with the advice for a seed, by the explicit meaning; None where there is a policy."""
-    spec = generated(seed)
-    text = print_spec(spec, Random(seed))
-    spec = parse(text)
-    found = explain(spec)
+def generated_text(seed: int, form: Form) -> str:
+    """The text of a seed."""
+    if form == "clauses":
+        return random_pair(seed).text
+    spec, random = generated(seed), Random(seed)
+    if form == "plain":
+        return print_spec(spec, random)
+    spec = with_start_conditions(replace(spec, restoration=random.choice(RESTORATIONS)), random)
+    return print_spec(spec, random)
+
+
+def examine_generated(seed: int, form: Form = "plain") -> list[str] | None:
+    """What is wrong with the advice for a seed; None where there is a policy.
+
+    By the explicit meaning, or as synthesis decides, where there are clauses or starts.
+    """
+    text = generated_text(seed, form)
+    try:
+        spec = parse(text)
+        found = explain(spec)
+    except UserError:
+        return None
     if not isinstance(found, Explanation):
         return None
-    return list(bad_advice(spec, text, found, partial(realizable, ordering=spec.ordering)))
+    decide = partial(realizable, ordering=spec.ordering) if form == "plain" else _has_policy
+    return list(bad_advice(spec, text, found, decide))
 
 
 def examine_text(text: str, seconds: float = 60.0) -> list[str] | None:
@@ -226,9 +270,10 @@ def _texts(files: Sequence[str]) -> Iterator[tuple[str, str]]:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the campaign."""
     parser = argparse.ArgumentParser(prog="python -m tests.explain.advice", description=__doc__)
-    parser.add_argument("count", type=int, help="how many generated specifications without a policy")
+    parser.add_argument("count", type=int, help="how many generated specifications of each form without a policy")
     parser.add_argument("files", nargs="*", help="specifications beside these")
     parser.add_argument("--seed", type=int, default=0, help="the first seed (default 0)")
+    parser.add_argument("--forms", nargs="+", choices=FORMS, default=FORMS, help="what is generated (default: all)")
     options = parser.parse_args(arguments)
     started, totals, explained = time.monotonic(), Counter[str](), 0
     for name, text in _texts(options.files):
@@ -243,17 +288,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
             f"{name}: {'; '.join(wrong or ('no policy, and no bad advice',)) if wrong is not None else 'passed over'}",
             flush=True,
         )
-    told, seed = 0, options.seed
-    while told < options.count:
-        wrong = examine_generated(seed)
-        told += wrong is not None
-        totals.update(wrong or ())
-        for each in wrong or ():
-            print(f"seed {seed}: {each}", flush=True)
-        seed += 1
+    for form in options.forms:
+        told, seed = 0, options.seed
+        while told < options.count:
+            wrong = examine_generated(seed, form)
+            told += wrong is not None
+            totals.update(wrong or ())
+            for each in wrong or ():
+                print(f"seed {seed}, {form}: {each}", flush=True)
+            seed += 1
+        print(f"{told} generated without a policy: {form}", flush=True)
     for kind in KINDS:
         print(f"{kind:65}{totals[kind]:6}")
-    print(f"{told} generated and {explained} other specifications without a policy, {time.monotonic() - started:.0f} s")
+    print(f"and {explained} other specifications without a policy, {time.monotonic() - started:.0f} s")
     return 1 if any(totals.values()) else 0
 
 

@@ -13,7 +13,7 @@ from tests.oracle import Together, World, conflict_is_minimal, decide_world
 from tests.printing import print_spec
 from tests.restoration.oracle import decide_stepwise
 from tumato_symbolic import parse
-from tumato_symbolic.explain.additions import NewAction, NoGoalWhile, Setting
+from tumato_symbolic.explain.additions import NewAction, NoGoalWhile, Setting, with_additions
 from tumato_symbolic.explain.elements import Element, elements_of, keep_only, replace_rule, rule_of
 from tumato_symbolic.explain.explanation import Explanation, Reason, Repair
 from tumato_symbolic.report.possible_changes import added_lines
@@ -139,8 +139,10 @@ def _too_much(spec: Spec, ordering: Ordering, repair: Repair, everything: frozen
 
 
 def repaired(spec: Spec, repair: Repair) -> Spec:
-    """The specification that is read when a repair is made in the text of it."""
+    """The specification that is read when a repair is made in the text of it; with clauses, that is meant."""
     spec = edited(spec, repair)
+    if spec.has_cases:
+        return with_additions(spec, repair.additions)
     names = [f"act{number}" for number in range(len(spec.actions))]
     renamed = (replace(action, name=name) for action, name in zip(spec.actions, names, strict=True))
     text = print_spec(replace(spec, actions=tuple(renamed)), Random(0))
@@ -191,7 +193,7 @@ def edited(spec: Spec, repair: Repair) -> Spec:
 def read_predicate(spec: Spec, text: str) -> Formula:
     """What a predicate means among the names of a specification."""
     variables = " ".join(f"state {each.name} can be {', '.join(each.values)}" for each in spec.variables)
-    actions = " ".join(f"action {each.name} preconditions: none nominal effects: none" for each in spec.actions)
+    actions = " ".join(f"action {name} preconditions: none nominal effects: none" for name in spec.action_names)
     read = parse(
         f"BEGIN STATE VECTOR {variables} END STATE VECTOR BEGIN ACTIONS {actions} END ACTIONS "
         f"BEGIN REACTION RULES rule: {text} END REACTION RULES"

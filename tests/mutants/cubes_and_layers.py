@@ -21,6 +21,7 @@ from tests.mutants.changes import (
     some_reference,
 )
 from tests.mutants.conflicts import CONFLICT
+from tests.mutants.removals import REMOVALS
 
 
 def _ordering(document: Document, random: Random) -> None:
@@ -212,4 +213,5 @@ BY_KIND: dict[str, dict[str, Mutation]] = {
     "no-restoration": {**ANY, **TRAP},
     "no-plan": {**ANY, **LAYERS},
     "conflict": {**ANY, **CONFLICT},
+    "no-part": {**ANY, **REMOVALS},
 }

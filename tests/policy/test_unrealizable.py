@@ -2,11 +2,11 @@
 
 import json
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
 from random import Random
-from typing import get_args
+from typing import Literal, get_args
 
 import jsonschema
 import pytest
@@ -20,16 +20,22 @@ from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.diagrams import DiagramBuilder, rebuild
 from tumato_symbolic.policy import Policy, RankedGoal, Vocabulary, load_claim
 from tumato_symbolic.policy import load as load_policy
+from tumato_symbolic.policy.records import canonical
 from tumato_symbolic.policy.unrealizability import (
+    Case,
     Choice,
     Conflict,
     Cube,
     Cut,
+    Divided,
     Layers,
     NoAllowedSet,
+    NoPart,
     NoPlan,
     NoRestoration,
     Reason,
+    Removal,
+    StartRemoved,
     Unrealizability,
     Violation,
     ViolationKind,
@@ -39,6 +45,7 @@ from tumato_symbolic.policy.unrealizability import (
     loads,
     save,
 )
+from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Restoration, Spec
 
 SCHEMA = json.loads(Path(__file__).parents[2].joinpath("tumato_symbolic/policy/unrealizable.schema.json").read_text())
@@ -125,11 +132,32 @@ def conflicts(draw: st.DrawFn, vocabulary: Vocabulary) -> Conflict:
 
 
 @st.composite
+def removals(draw: st.DrawFn, vocabulary: Vocabulary) -> Removal:
+    """Any states, and distances from any goals."""
+    builder = DiagramBuilder(draw(st.permutations(range(len(vocabulary.sizes)))), (None, 0, 1))
+    tables = st.dictionaries(states(vocabulary), st.sampled_from([None, 0, 1]), max_size=4)
+    root, *roots = [builder.from_table(vocabulary.sizes, draw(tables), None) for _ in range(draw(st.integers(1, 3)))]
+    goals = tuple(RankedGoal((f"S is v{each}",), names(draw, vocabulary), each) for each in roots)
+    kinds: tuple[Literal["no-restoration", "no-plan"], ...] = ("no-restoration", "no-plan")
+    return canonical(Removal(draw(st.sampled_from(kinds)), builder.finish(), root, goals))
+
+
+@st.composite
+def parts(draw: st.DrawFn, vocabulary: Vocabulary) -> NoPart:
+    """No part with all starts, with any arguments."""
+    removed = st.lists(removals(vocabulary), max_size=2).map(tuple)
+    cases = st.lists(st.builds(Case, states(vocabulary), st.integers(0, 4)), max_size=2).map(tuple)
+    ended = st.builds(StartRemoved, removed, states(vocabulary))
+    divided = st.builds(Divided, removed, conflicts(vocabulary), cases)
+    return NoPart(draw(st.lists(ended | divided, max_size=3).map(tuple)))
+
+
+@st.composite
 def certificates(draw: st.DrawFn) -> Unrealizability:
     """A certificate of any kind, whatever it is worth."""
     vocabulary = draw(vocabularies())
     none = st.builds(NoAllowedSet, states(vocabulary), st.none() | st.lists(cubes(vocabulary), max_size=4).map(tuple))
-    reason = draw(none | layers(vocabulary) | conflicts(vocabulary) | traps(vocabulary))
+    reason = draw(none | layers(vocabulary) | conflicts(vocabulary) | traps(vocabulary) | parts(vocabulary))
     restoration = draw(st.sampled_from(get_args(Restoration)))
     return Unrealizability(vocabulary, draw(st.sampled_from(["any", "first"])), draw(NAMES), reason, restoration)
 
@@ -163,10 +191,13 @@ def example(kind: str) -> Unrealizability:
         cuts = (Cut("path", 0, (0, 1), (1, 1)), Cut("loop", 0, (0,), None))
         goals = (RankedGoal(("S_Load is full",), (), root),)
         reason = Conflict((0,), choices, cuts, ranks.finish(), goals)
+        if kind == "no-part":
+            removal = Removal("no-plan", ranks.finish(), root, goals)
+            reason = NoPart((Divided((removal,), reason, (Case((1, 0), 1),)), StartRemoved((removal, removal), (0, 0))))
     return loads(dumps(Unrealizability(vocabulary, "any", "0123abcd", reason)))
 
 
-KINDS = pytest.mark.parametrize("kind", ["no-allowed-set", "no-restoration", "no-plan", "conflict"])
+KINDS = pytest.mark.parametrize("kind", ["no-allowed-set", "no-restoration", "no-plan", "conflict", "no-part"])
 
 
 @QUICK
@@ -183,12 +214,13 @@ def test_the_schema_is_a_schema() -> None:
     jsonschema.Draft202012Validator.check_schema(SCHEMA)
 
 
-def test_the_example_in_the_document_is_one() -> None:
-    """The certificate shown in `docs/certificate.md` is read, and satisfies the schema."""
+def test_the_examples_in_the_document_are_some() -> None:
+    """The certificates shown in `docs/certificate.md` are read, and satisfy the schema."""
     document = Path(__file__).parents[2].joinpath("docs/certificate.md").read_text(encoding="utf-8")
-    (text,) = re.findall(r"```json\n(.*?)```", document, re.DOTALL)
-    assert isinstance(loads(text).reason, NoAllowedSet)
-    jsonschema.Draft202012Validator(SCHEMA).validate(json.loads(text))
+    texts = re.findall(r"```json\n(.*?)```", document, re.DOTALL)
+    assert [type(loads(text).reason) for text in texts] == [NoAllowedSet, NoPart]
+    for text in texts:
+        jsonschema.Draft202012Validator(SCHEMA).validate(json.loads(text))
 
 
 @QUICK
@@ -204,10 +236,23 @@ def test_order_of_declaration_never_matters(certificate: Unrealizability, random
 
 def named_states(certificate: Unrealizability) -> list[dict[str, str]]:
     """The states that a certificate lists, value by variable."""
-    reason = certificate.reason
-    states = [choice.state for choice in reason.choices] if isinstance(reason, Conflict) else [reason.state]
-    variables = certificate.vocabulary.variables
+    states, variables = _listed(certificate.reason), certificate.vocabulary.variables
     return [{name: values[value] for (name, values), value in zip(variables, state, strict=True)} for state in states]
+
+
+def _listed(reason: Reason) -> Iterator[State]:
+    match reason:
+        case Conflict():
+            yield from (choice.state for choice in reason.choices)
+        case NoPart(arguments):
+            for each in arguments:
+                if isinstance(each, StartRemoved):
+                    yield each.state
+                else:
+                    yield from _listed(each.conflict)
+                    yield from (case.state for case in each.cases)
+        case _:
+            yield reason.state
 
 
 @KINDS

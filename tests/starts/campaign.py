@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
+from copy import deepcopy
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from random import Random
@@ -11,13 +13,16 @@ from random import Random
 from tests.checker.agreement import failing
 from tests.checker.standalone import ask
 from tests.generate import NOWHERE, random_spec
+from tests.mutants import cubes_and_layers
 from tests.printing import formula_text, print_spec
 from tests.profiles import INTERACTING, MIXED, Profile
 from tests.restoration.truth import World
-from tests.starts.truth import greatest, parts, starts
+from tests.starts.truth import greatest, parts, starts, within
+from tests.unrealizability import CONFLICTS
 from tumato_symbolic import Realizable, Undecided, Unrealizable, synthesize
+from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.policy import Policy, as_diagram, as_table, dumps, loads, policy_from_rows, unrealizability
-from tumato_symbolic.policy.unrealizability import Conflict, Unrealizability
+from tumato_symbolic.policy.unrealizability import Conflict, NoPart, StartRemoved, Unrealizability
 from tumato_symbolic.semantics import (
     ActionSet,
     Judgement,
@@ -31,7 +36,24 @@ from tumato_symbolic.semantics import (
     next_states,
 )
 from tumato_symbolic.semantics.judge import one_of
-from tumato_symbolic.spec import And, Formula, Is, Not, Or, Ordering, Restoration, Rule, Spec
+from tumato_symbolic.spec import (
+    Action,
+    Alternative,
+    And,
+    Assignment,
+    ConditionalGoal,
+    Formula,
+    GoalList,
+    Is,
+    Not,
+    Or,
+    Ordering,
+    Restoration,
+    Rule,
+    SimpleGoal,
+    Spec,
+    Variable,
+)
 from tumato_symbolic.verify import ProverName, verify, verify_unrealizable
 from tumato_symbolic.verify.result import PropertyName
 
@@ -46,6 +68,20 @@ SMALL: dict[str, Profile] = {
     "unsafe": replace(
         INTERACTING, states=(4, 9), values=(2, 4), actions=(3, 5), state_rules=(1, 3), helpers=0.1, alternatives=0.3
     ),
+    "branching": replace(
+        INTERACTING,
+        variables=(1, 1),
+        values=(5, 8),
+        states=(5, 8),
+        actions=(6, 8),
+        preconditions=(1, 1),
+        resources=(0, 0),
+        helpers=0.0,
+        alternatives=0.35,
+        wide=0.0,
+        goals=(3, 5),
+        conditional=1.0,
+    ),
 }
 
 LARGER: dict[str, Profile] = {
@@ -53,6 +89,9 @@ LARGER: dict[str, Profile] = {
     "larger, interacting": replace(INTERACTING, states=(12, 48), alternatives=0.2, helpers=0.2),
 }
 """Too many states for trying every closed set; the greatest part is found state by state."""
+
+CHANGED = 4
+"""So many changes of every certificate are judged."""
 
 Decisions = Mapping[State, ActionSet]
 
@@ -65,7 +104,9 @@ class Tally:
     tried: int = 0
     parts: int = 0
     judged: int = 0
-    certificates: int = 0
+    certificates: Counter[str] = field(default_factory=Counter)
+    without: int = 0
+    changed: Counter[bool] = field(default_factory=Counter)
     rejected: Counter[str] = field(default_factory=Counter)
     complaints: list[str] = field(default_factory=list)
 
@@ -104,7 +145,59 @@ def specifications(seed: int) -> Iterator[tuple[str, Spec]]:
         if random.random() < 0.2:
             rules = (replace(rule, severity=random.choice((1, 2))) for rule in spec.state_rules)
             spec = replace(spec, state_rules=tuple(rules))
-        yield f"{name} {seed} {restoration}", replace(spec, restoration=restoration)
+        spec = replace(spec, restoration=restoration)
+        if name == "branching":
+            spec = begun_late(spec, random)
+        yield f"{name} {seed} {restoration}", spec
+    if seed % 4 == 0:
+        yield f"tied {seed}", tied(seed // 4)
+
+
+def begun_late(spec: Spec, random: Random) -> Spec:
+    """With a start that fails only because of what it leads to, or one that does not fail, where there is one."""
+    world = World(spec, "any")
+    part, failing = frozenset(world.valid), frozenset[State]()
+    stages = list[frozenset[State]]()
+    while part and (not stages or failing):
+        here = within(world, part)
+        failing = frozenset(state for state in here.valid if here.kind(state) is not None)
+        stages.append(failing)
+        part -= failing
+    late = sorted(frozenset[State]().union(*stages[1:]) or part)
+    return begun_in(spec, random.choice(late)) if late else spec
+
+
+def begun_in(spec: Spec, state: State) -> Spec:
+    """The specification with this one start."""
+    formula = one_of([state])
+    return replace(spec, starts=(Rule(formula, formula_text(formula, _names(spec)), NOWHERE),))
+
+
+def _together(effect: Assignment) -> Formula:
+    return And(tuple(Is(variable, value) for variable, value in effect))
+
+
+def tied(seed: int) -> Spec:
+    """States whose goals conflict, all of which may follow the one start."""
+    number, bound = CONFLICTS[seed % len(CONFLICTS)], (None, 9, 7, 5)[seed // len(CONFLICTS) % 4]
+    spec = replace(random_spec(number, INTERACTING), max_plan_length=bound)
+    outcome = synthesize(spec, "any")
+    assert isinstance(outcome, Unrealizable)
+    states, phase = outcome.failures[0].states[:3], len(spec.variables)
+    outside, inside = (Rule(Is(phase, value), f"S_Phase is v{value}", NOWHERE) for value in (0, 1))
+    led = [tuple(enumerate((*state, 1))) for state in states]
+    phases = Variable("S_Phase", ("v0", "v1"), NOWHERE)
+    spec = replace(spec, variables=(*spec.variables, phases))
+    names = _names(spec)
+    others = tuple(Alternative((effect,), formula_text(_together(effect), names), NOWHERE) for effect in led[1:])
+    begin = Action("begin", 0, frozenset(), (outside,), led[0], others, NOWHERE)
+    actions = (replace(each, preconditions=(*each.preconditions, inside)) for each in spec.actions)
+    assert spec.goals is not None
+    free = ConditionalGoal(outside, SimpleGoal(len(spec.bodies), NOWHERE), NOWHERE)
+    goals = GoalList("priority", (free, spec.goals), NOWHERE)
+    bodies = (*spec.bodies, inside)
+    spec = replace(spec, actions=(*actions, begin), goals=goals, bodies=bodies)
+    return begun_in(spec, (*states[0], 0))
 
 
 def examine(
@@ -127,9 +220,12 @@ def examine(
                 yield f"{answer}, but these parts have policies: {served}"
             yield from _wrong_failures(outcome, lost)
             if outcome.certificate is not None:
-                yield from _wrong_certificate(outcome.certificate, Asked(spec, ordering, folder), tally)
-            elif not spec.restores_stepwise and any(world.kind(state) == "no-allowed-set" for state in lost):
-                yield "there is no certificate for a start without an allowed set"
+                asked = Asked(spec, ordering, folder)
+                yield from _wrong_certificate(outcome.certificate, asked, tally, Random(seed))
+            elif lost or not spec.restores_stepwise:
+                yield "there is no certificate"
+            else:
+                tally.without += 1
         case Realizable():
             answer = "realizable"
             table = as_table(outcome.policy, count_states(spec))
@@ -148,23 +244,76 @@ def examine(
     tally.answers[answer] += 1
 
 
-def _wrong_certificate(certificate: Unrealizability, asked: Asked, tally: Tally) -> Iterator[str]:
-    """It is believed, but not where the state that it is about is no start."""
-    assert not isinstance(certificate.reason, Conflict)
-    spec, state = asked.spec, certificate.reason.state
-    tally.certificates += 1
-    elsewhere = Rule(Not(one_of([state])), formula_text(Not(one_of([state])), _names(spec)), NOWHERE)
-    if not any(is_valid(spec, other) and other != state for other in all_states(spec)):
+def _wrong_certificate(certificate: Unrealizability, asked: Asked, tally: Tally, random: Random) -> Iterator[str]:
+    """It is believed; not where nothing that it is about has to be decided; and changed, as the truth is."""
+    spec = asked.spec
+    tally.certificates[certificate_kind(certificate)] += 1
+    yield from _wrong_belief(certificate, asked, wanted=True)
+    concerned = set(begun(certificate))
+    others = [state for state in all_states(spec) if is_valid(spec, state) and state not in concerned]
+    if others:
+        elsewhere = one_of([random.choice(others)])
+        moved = replace(spec, starts=(Rule(elsewhere, formula_text(elsewhere, _names(spec)), NOWHERE),))
+        yield from _wrong_belief(certificate, replace(asked, spec=moved), wanted=False)
+    document = json.loads(unrealizability.dumps(certificate))
+    for _ in range(CHANGED):
+        other = deepcopy(document)
+        kind, change = random.choice([*cubes_and_layers.BY_KIND[document["Reason"]["Kind"]].items()])
+        change(other, random)
+        if other == document:
+            continue
+        try:
+            mutant = unrealizability.loads(json.dumps(other))
+        except UserError:
+            continue
+        yield from (f"{kind}: {each}" for each in _wrong_belief(mutant, asked, tally=tally))
+
+
+def certificate_kind(certificate: Unrealizability) -> str:
+    """The kind of a certificate; of one that removes states, also whether goals conflict in the end."""
+    match certificate.reason:
+        case NoPart(parts):
+            return "no-part" + ("" if isinstance(parts[0], StartRemoved) else f", conflict with {len(parts) - 1} cases")
+        case reason:
+            return type(reason).__name__
+
+
+def begun(certificate: Unrealizability) -> Iterator[State]:
+    """The states that have to be decided for a certificate to be a proof."""
+    match certificate.reason:
+        case Conflict() as conflict:
+            yield from _begun(conflict)
+        case NoPart(parts):
+            for part in parts:
+                yield from (part.state,) if isinstance(part, StartRemoved) else _begun(part.conflict)
+        case reason:
+            yield reason.state
+
+
+def _begun(conflict: Conflict) -> Iterator[State]:
+    return (conflict.choices[start].state for start in conflict.starts)
+
+
+def _wrong_belief(
+    certificate: Unrealizability, asked: Asked, *, wanted: bool | None = None, tally: Tally | None = None
+) -> Iterator[str]:
+    """Where `verify` and the stand-alone checker do not say what is wanted, or do not agree (None)."""
+    spec = asked.spec
+    try:
+        found = verify_unrealizable(certificate, spec, ordering=asked.ordering)
+    except UserError as error:
+        if wanted is not None:
+            yield f"of the certificate, verify says {error}"
         return
-    for meant, wanted in ((spec, True), (replace(spec, starts=(elsewhere,)), False)):
-        found = verify_unrealizable(certificate, meant, ordering=asked.ordering)
-        if (found.verdict == "proved") != wanted:
-            yield f"of the certificate, verify says {found}"
-        text = print_spec(meant, Random(0))
-        options = ("--effect-ordering", asked.ordering, "--restoration", spec.restoration)
-        answer = ask(asked.folder, unrealizability.dumps(certificate), text, *options)
-        if answer.code != (0 if wanted else 1):
-            yield f"of the certificate, the checker says {answer}"
+    options = ("--effect-ordering", asked.ordering, "--restoration", spec.restoration)
+    answer = ask(asked.folder, unrealizability.dumps(certificate), print_spec(spec, Random(0)), *options)
+    proved = found.verdict == "proved"
+    if tally is not None:
+        tally.changed[proved] += 1
+    if found.verdict == "undecided" or (wanted is not None and proved != wanted):
+        yield f"of the certificate, verify says {found}"
+    if answer.code != (0 if proved else 1):
+        yield f"of the certificate, verify says {found} and the checker {answer}"
 
 
 def _names(spec: Spec) -> list[tuple[str, tuple[str, ...]]]:

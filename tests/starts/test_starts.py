@@ -3,26 +3,31 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 from random import Random
 
 import pytest
 
 from tests.checker.standalone import ask
+from tests.explain.oracle import repaired
 from tests.printing import print_spec
 from tests.starts.campaign import LARGER, SMALL, Tally, examine, specifications
 from tumato_symbolic import Realizable, Undecided, Unrealizable, parse, synthesize
-from tumato_symbolic.diagnostics import Code, UserError
+from tumato_symbolic.diagnostics import Code, Source, UserError
+from tumato_symbolic.explain.additions import NewAction
 from tumato_symbolic.explain.explain import explain
-from tumato_symbolic.explain.explanation import Explanation, NothingToExplain
-from tumato_symbolic.policy import as_table, dumps, policy_from_rows
+from tumato_symbolic.explain.explanation import Explanation, NothingToExplain, Wanted
+from tumato_symbolic.explain.writing import with_starts
+from tumato_symbolic.policy import as_table, dumps, policy_from_rows, unrealizability
 from tumato_symbolic.policy.guarantees import dumps as guarantees_text
+from tumato_symbolic.policy.unrealizability import Case, Conflict, Divided, NoPart, StartRemoved, Unrealizability
 from tumato_symbolic.semantics import guarantees as explicit_guarantees
 from tumato_symbolic.semantics import holds
 from tumato_symbolic.semantics.judge import one_of
 from tumato_symbolic.simulation import Dice, NoStartError, Starts
 from tumato_symbolic.spec import digest
-from tumato_symbolic.synthesis import starts as synthesis_starts
+from tumato_symbolic.synthesis import no_part, parts
 from tumato_symbolic.synthesis.synthesize import PolicyFormat
 from tumato_symbolic.verify import verify, verify_unrealizable
 from tumato_symbolic.verify.guarantees.analyse import guarantees
@@ -45,7 +50,7 @@ def begun(*conditions: str) -> str:
     return CONFLICT + "BEGIN START " + " ".join(f"start: {each}" for each in conditions) + " END START"
 
 
-@pytest.mark.parametrize("seed", range(9000, 9003))
+@pytest.mark.parametrize("seed", range(9000, 9002))
 def test_generated_specifications_against_every_closed_set_and_policy(seed: int, tmp_path: Path) -> None:
     """Verdict, part and policy are those of brute force; every judge agrees, on mutated policies as well."""
     tally = Tally()
@@ -105,7 +110,7 @@ def test_an_environment_that_leads_out_is_warned_of() -> None:
 
 def test_too_many_parts_are_undecided(monkeypatch: pytest.MonkeyPatch) -> None:
     """Never a wrong answer: the limit is told."""
-    monkeypatch.setattr(synthesis_starts, "PARTS", 1)
+    monkeypatch.setattr(parts, "PARTS", 1)
     outcome = synthesize(parse(begun("x is l")))
     assert isinstance(outcome, Undecided) and "1 parts of the states" in outcome.limit
 
@@ -132,12 +137,90 @@ def test_a_policy_is_judged_by_the_part_that_it_decides() -> None:
             assert (found.valid_states, found.decided_states, found.certificate.status) == (5, 4, "used")
 
 
-def test_what_does_not_know_starts_refuses_them() -> None:
-    """Proofs that goals conflict."""
-    spec, plain = parse(begun("x is l")), synthesize(parse(CONFLICT))
-    assert isinstance(plain, Unrealizable) and plain.certificate is not None
-    with pytest.raises(UserError, match="does not support START"):
-        verify_unrealizable(plain.certificate, spec)
+LATE = """
+BEGIN STATE VECTOR state x can be a, b, c, d END STATE VECTOR
+BEGIN ACTIONS
+action ab preconditions: x is a nominal effects: x is b alternative effects: x is c
+action cd preconditions: x is c nominal effects: x is d
+END ACTIONS
+BEGIN GOALS goal type: priority when x is d then goal: x is a goal: x in {b, d} END GOALS
+BEGIN START start: x is a END START
+"""
+"""From a the robot may come to c, from there to d, and from d nothing leads to a."""
+
+TIED = """
+BEGIN STATE VECTOR state x can be s, l, m, r, L, R END STATE VECTOR
+BEGIN ACTIONS
+action begin preconditions: x is s nominal effects: x is l alternative effects: x is r
+action lm preconditions: x is l nominal effects: x is m
+action rm preconditions: x is r nominal effects: x is m
+action mL preconditions: x is m nominal effects: x is L
+action mR preconditions: x is m nominal effects: x is R
+END ACTIONS
+BEGIN GOALS
+goal type: priority when x is s then goal: x in {l, r} when x is l then goal: x is R when x is r then goal: x is L
+END GOALS
+BEGIN START start: x is s END START
+"""
+"""Both states that cannot be served together follow the start."""
+
+
+def believed(text: str, certificate: Unrealizability, folder: Path) -> tuple[str, str | None, int]:
+    """The verdict of `verify` with its reason, and the exit code of the stand-alone checker."""
+    found = verify_unrealizable(certificate, parse(text))
+    return found.verdict, found.reason, ask(folder, unrealizability.dumps(certificate), text).code
+
+
+def test_what_fails_later_is_removed_first(tmp_path: Path) -> None:
+    """Layer by layer, until a start is removed; each layer is needed, in its order."""
+    outcome = synthesize(parse(LATE))
+    assert isinstance(outcome, Unrealizable) and outcome.certificate is not None
+    assert isinstance(outcome.certificate.reason, NoPart)
+    (part,) = outcome.certificate.reason.parts
+    assert isinstance(part, StartRemoved) and part.state == (0,) and len(part.removals) == 3
+    assert believed(LATE, outcome.certificate, tmp_path) == ("proved", None, 0)
+    removals = part.removals
+    for others in (removals[1:], removals[:-1], removals[::-1], ()):
+        worse = replace(outcome.certificate, reason=NoPart((replace(part, removals=others),)))
+        assert believed(LATE, worse, tmp_path)[::2] == ("refuted", 1)
+    elsewhere = replace(outcome.certificate, reason=NoPart((replace(part, state=(3,)),)))
+    why = "the state x=d is no start, so it need not be decided"
+    assert believed(LATE, elsewhere, tmp_path) == ("refuted", why, 1)
+
+
+def test_goals_that_conflict_among_what_follows_have_a_case_for_each(tmp_path: Path) -> None:
+    """A policy leaves out one of the states, and then it cannot serve the start; no case may be missing or shared."""
+    outcome = synthesize(parse(TIED))
+    assert isinstance(outcome, Unrealizable) and outcome.certificate is not None
+    assert isinstance(outcome.certificate.reason, NoPart)
+    first, *others = outcome.certificate.reason.parts
+    assert isinstance(first, Divided) and not first.removals
+    assert first.cases == (Case((1,), 1), Case((3,), 2))
+    assert [part.state for part in others if isinstance(part, StartRemoved)] == [(0,), (0,)]
+    assert believed(TIED, outcome.certificate, tmp_path) == ("proved", None, 0)
+    for cases in (first.cases[:1], (), (Case((1,), 1), Case((3,), 1)), (Case((1,), 0), Case((3,), 2))):
+        worse = replace(outcome.certificate, reason=NoPart((replace(first, cases=cases), *others)))
+        assert believed(TIED, worse, tmp_path)[::2] == ("refuted", 1)
+    for reason in (first.conflict, NoPart((first, others[0])), NoPart(())):
+        assert believed(TIED, replace(outcome.certificate, reason=reason), tmp_path)[::2] == ("refuted", 1)
+
+
+def test_goals_of_starts_that_conflict_have_the_certificate_of_a_conflict(tmp_path: Path) -> None:
+    """Nothing is left out for it; where not all of its states are starts, it proves nothing."""
+    text = begun("x is l", "x is r")
+    outcome = synthesize(parse(text))
+    assert isinstance(outcome, Unrealizable) and outcome.certificate is not None
+    assert isinstance(outcome.certificate.reason, Conflict)
+    assert believed(text, outcome.certificate, tmp_path) == ("proved", None, 0)
+    assert believed(begun("x is l"), outcome.certificate, tmp_path)[::2] == ("refuted", 1)
+
+
+def test_a_certificate_that_would_be_too_large_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The answer stays."""
+    monkeypatch.setattr(no_part, "MOST_CASES", 1)
+    outcome = synthesize(parse(TIED))
+    assert isinstance(outcome, Unrealizable)
+    assert (outcome.failures[0].kind, outcome.certificate) == ("conflict", None)
 
 
 def test_what_is_guaranteed_is_guaranteed_of_decided_states(tmp_path: Path) -> None:
@@ -176,31 +259,62 @@ def test_executions_start_in_starts(policy_format: PolicyFormat) -> None:
         Starts(spec, outcome.policy, {0: 1}).draw(Dice(0))
 
 
+def explained(text: str, wanted: Wanted = 3) -> Explanation:
+    """Why a text has no policy."""
+    found = explain(parse(text), wanted_repairs=wanted)
+    assert isinstance(found, Explanation) and not found.left_out
+    return found
+
+
 def test_explain_names_the_starts_that_fail() -> None:
-    """The lines to blame are those of starts that fail at once; what is left out is said."""
+    """Reasons, repairs and the part are about starts; what fails beside them is not told."""
     stuck = CONFLICT.replace("nominal effects: x is L", "nominal effects: x is m")
-    found = explain(parse(stuck + "BEGIN START start: x is r start: x is m END START"))
-    assert isinstance(found, Explanation)
+    found = explained(stuck + "BEGIN START start: x is r start: x is m END START")
     assert [(group.kind, group.count, group.example) for group in found.groups] == [("no-plan", 1, (2,))]
-    assert [each.stage for each in found.left_out] == ["part", "repairs"]
-    assert [(reason.kind, reason.count) for reason in found.reasons] == [("no-plan", 1)] and not found.omitted
+    assert [(reason.kind, reason.count, reason.later) for reason in found.reasons] == [("no-plan", 1, False)]
+    assert found.part is not None and (found.part.states, found.part.given_up, found.part.text) == (1, 1, "x is m")
     assert isinstance(explain(parse(begun("x is r"))), NothingToExplain)
 
 
-def test_a_start_that_fails_for_what_it_leads_to_has_no_lines_to_blame() -> None:
-    """It is counted, and `synth` says which step is left out."""
-    asked = """
-    BEGIN STATE VECTOR state x can be a, b, c END STATE VECTOR
-    BEGIN ACTIONS action go preconditions: x is a nominal effects: x is b alternative effects: x is c END ACTIONS
+def test_a_start_that_fails_for_what_it_leads_to_has_lines_to_blame() -> None:
+    """The core holds what leads there, and what fails there; every repair is tried with the starts as they are."""
+    found, outcome = explained(LATE), synthesize(parse(LATE))
+    assert isinstance(outcome, Unrealizable)
+    (failure,), (reason,) = outcome.failures, found.reasons
+    assert (failure.kind, failure.states) == ("no-plan", ((0,),))
+    assert failure.within is not None
+    assert [holds(failure.within, (value,)) for value in range(4)] == [True, True, False, False]
+    assert (reason.later, found.omitted, found.part) == (True, 0, None)
+    assert [element.kind for element in reason.core] == ["alternative", "precondition"]
+    assert any(change.text is None for repair in found.repairs for change in repair.changes)
+    for repair in found.repairs:
+        changed = repaired(parse(LATE), repair)
+        assert changed.starts and isinstance(synthesize(changed), Realizable)
+
+
+def test_starts_whose_goals_conflict_are_told_which_may_stay() -> None:
+    """With a start condition that another text has in the place of its own."""
+    text = begun("x is l", "x is r")
+    found = explained(text)
+    assert found.part is not None
+    assert (found.part.states, found.part.given_up, found.part.unique, found.part.text) == (1, 1, False, "x is r")
+    narrowed = with_starts(Source("x.tum", text), found.part.text)
+    assert "start: x is l" not in narrowed and isinstance(synthesize(parse(narrowed)), Realizable)
+    assert found.reasons[0].core and found.repairs and not any(repair.gives_up_safety for repair in found.repairs)
+
+
+def test_what_is_added_helps_where_starts_lead() -> None:
+    """Not in states that fail too, but that no start comes to."""
+    text = """
+    BEGIN STATE VECTOR state x can be a, b state tyre can be good, flat, torn END STATE VECTOR
+    BEGIN ACTIONS
+    action go preconditions: x is a, tyre is good nominal effects: x is b alternative effects: tyre is flat
+    END ACTIONS
     BEGIN GOALS goal type: priority goal: x is b END GOALS
-    BEGIN START start: x is a END START
+    BEGIN START start: x is a AND tyre is good END START
     """
-    found, outcome = explain(parse(asked)), synthesize(parse(asked))
-    assert isinstance(found, Explanation) and isinstance(outcome, Unrealizable)
-    assert (found.failing_states, found.reasons, found.omitted) == (1, (), 1)
-    (failure,) = outcome.failures
-    assert (failure.kind, failure.states, outcome.certificate) == ("no-plan", ((0,),), None)
-    assert failure.within is not None and [holds(failure.within, (value,)) for value in range(3)] == [True, True, False]
+    repair = explained(text).repairs[0]
+    assert repair.additions == (NewAction(((0,), (1,)), ((1, 0),)),)
 
 
 def test_the_policy_of_a_part_is_a_table_with_its_states_only() -> None:
@@ -215,4 +329,4 @@ def test_the_generator_makes_what_is_asked() -> None:
     """Every profile has specifications with starts, in every restoration."""
     found = [spec for seed in range(12) for _, spec in specifications(seed)]
     assert {spec.restoration for spec in found} == {"one_step", "bounded", "fair"}
-    assert len(found) == 12 * len({**SMALL, **LARGER}) and all(spec.starts for spec in found)
+    assert len(found) == 12 * len({**SMALL, **LARGER}) + 3 and all(spec.starts for spec in found)

@@ -15,6 +15,7 @@ from tumato_symbolic.policy.unrealizability import (
     Cube,
     Cut,
     NoAllowedSet,
+    NoPart,
     NoPlan,
     NoRestoration,
     Unrealizability,
@@ -82,6 +83,8 @@ def is_proof(meaning: Meaning, certificate: Unrealizability) -> bool:
             return _conflict(meaning, reason)
         case NoRestoration():
             raise NotImplementedError("traps have an oracle of their own")
+        case NoPart():
+            raise NotImplementedError("of starts `tests.starts` has the truth")
 
 
 def _no_allowed_set(meaning: Meaning, reason: NoAllowedSet) -> bool:

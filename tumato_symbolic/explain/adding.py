@@ -45,8 +45,9 @@ class Trouble:
 
     @classmethod
     def of(cls, oracle: FailingStates) -> Trouble:
-        """What fails in the specification of an oracle."""
-        return cls(oracle.requirements, failing_states(oracle))
+        """What fails in the specification of an oracle; with starts, where these may lead."""
+        requirements, found = oracle.requirements, failing_states(oracle)
+        return cls(requirements, found.among(_following(requirements)) if requirements.spec.starts else found)
 
     @property
     def spec(self) -> Spec:
@@ -62,6 +63,24 @@ class Trouble:
     def states(self) -> Bdd:
         """All states that fail."""
         return self.unrestored | self.failing.no_plan
+
+
+def _following(requirements: Requirements) -> Bdd:
+    """The starts, and states to which single effects of what is allowed lead from there on."""
+    encoding, manager = requirements.encoding, requirements.manager
+    steps = requirements.steps(requirements.everything)
+    acting = [
+        (encoding.assignment_bits(effect), steps.states_of(steps.allowed & encoding.executing(number)))
+        for number, action in enumerate(requirements.spec.actions)
+        for effect in action.effects
+    ]
+    found = new = requirements.starts
+    while new != requirements.false:
+        manager.context.check()
+        led = (manager.exists([*bits], new & states) & manager.cube(bits) for bits, states in acting)
+        new = manager.union(led) & steps.valid & ~found
+        found = found | new
+    return found
 
 
 def settings(spec: Spec) -> tuple[Setting, ...]:

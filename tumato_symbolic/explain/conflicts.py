@@ -21,16 +21,18 @@ def conflict_core(requirements: Requirements, states: Sequence[State], among: El
     """A set of elements, out of some that suffice, because of which nothing serves the states together.
 
     It is minimal, but for elements of which it cannot be found out in time whether they are needed. Where dropping
-    assumptions makes more states valid, a run may end in those without an allowed set, but not go on.
+    assumptions makes more states valid, a run may end in those without an allowed set, but not go on. With starts
+    assumptions are kept: without them there might be more starts.
     """
     wanted = requirements.manager.union(map(requirements.encoding.state_cube, states))
-    items = [each for each in requirements.elements if each in among]
-    return minimal(items, lambda kept: conflicting(requirements, wanted, kept))
+    always = frozenset(each for each in among if requirements.spec.starts and each.kind == "assumption")
+    items = [each for each in requirements.elements if each in among - always]
+    return minimal(items, lambda kept: conflicting(requirements, wanted, kept | always))
 
 
 def conflicting(requirements: Requirements, wanted: Bdd, kept: Elements) -> bool:
     """Whether it is shown that no policy serves these states when only some elements are kept."""
-    if requirements.spec.restores_stepwise:
+    if requirements.spec.restores_stepwise or requirements.spec.starts:
         return isinstance(trial(requirements, keep_only(requirements.spec, kept)), Unrealizable)
     valid = requirements.steps(kept).valid
     problem = build_kept_problem(requirements, kept, regions(requirements.encoding, valid))

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from typing import Literal, TypeAlias
 
 from tumato_symbolic.explain.cubes import disjoint_cubes, set_of
@@ -16,28 +16,47 @@ from tumato_symbolic.symbolic import Bdd
 
 FailingKind: TypeAlias = Literal["no-allowed-set", "no-restoration", "no-plan"]
 
+Asked: TypeAlias = FailingKind | Literal["left-out"]
+"""What cores are asked about; `left-out`: whatever a policy decides, it leaves the state out."""
+
 
 @dataclass(frozen=True)
 class Cause:
-    """States that fail in one way and have one core in common. `example` is one of them."""
+    """States that fail in one way and have one core in common. `example` is one of them.
+
+    `later`: they are starts, and fail only because of what follows them.
+    """
 
     kind: FailingKind
     states: Bdd
     core: Elements
     example: State
+    later: bool = False
+
+    @property
+    def asked(self) -> Asked:
+        """What the core is about."""
+        return "left-out" if self.later else self.kind
 
 
 @dataclass(frozen=True)
 class Failing:
-    """The valid states that fail, by kind."""
+    """The valid states that fail, by kind; `later` are starts that fail only because of what follows them."""
 
     no_allowed_set: Bdd
     no_restoration: Bdd
     no_plan: Bdd
+    later: Mapping[FailingKind, Bdd] = field(default_factory=dict)
 
     def among(self, states: Bdd) -> Failing:
         """Those of some states."""
-        return Failing(self.no_allowed_set & states, self.no_restoration & states, self.no_plan & states)
+        later = {kind: found & states for kind, found in self.later.items()}
+        return Failing(self.no_allowed_set & states, self.no_restoration & states, self.no_plan & states, later)
+
+    @property
+    def at_once(self) -> Bdd:
+        """The states that fail whatever follows."""
+        return self.no_allowed_set | self.no_restoration | self.no_plan
 
 
 def failing_states(oracle: FailingStates) -> Failing:
@@ -56,6 +75,9 @@ def causes(oracle: FailingStates, states: Failing) -> Iterator[Cause]:
     yield from _by_core(oracle, "no-allowed-set", states.no_allowed_set)
     yield from _by_core(oracle, "no-restoration", states.no_restoration)
     yield from _no_plan(oracle, states.no_plan)
+    for kind, starts in states.later.items():
+        for cause in _by_core(oracle, "left-out", starts):
+            yield replace(cause, kind=kind, later=True)
 
 
 @dataclass(frozen=True)
@@ -66,7 +88,7 @@ class Question:
     failing: Callable[[Elements, Bdd], Bdd]
 
     @classmethod
-    def of(cls, oracle: FailingStates, kind: FailingKind) -> Question:
+    def of(cls, oracle: FailingStates, kind: Asked) -> Question:
         """The question about one way to fail."""
         requirements = oracle.requirements
         match kind:
@@ -80,15 +102,18 @@ class Question:
                 )
             case "no-plan":
                 return cls(oracle.fails, oracle.failing)
+            case "left-out":
+                cube, false = requirements.encoding.state_cube, requirements.false
+                return cls(lambda state, kept: oracle.left_out(kept, cube(state)) != false, oracle.left_out)
 
 
-def _by_core(oracle: FailingStates, kind: FailingKind, left: Bdd) -> Iterator[Cause]:
+def _by_core(oracle: FailingStates, kind: Asked, left: Bdd) -> Iterator[Cause]:
     requirements, question = oracle.requirements, Question.of(oracle, kind)
     while left != requirements.false:
         example = typical_state(requirements, left)
         core = core_of(oracle, kind, example, requirements.everything)
         alike = _having(core, left, question.failing)
-        yield Cause(kind, alike, core, example)
+        yield Cause("no-plan" if kind == "left-out" else kind, alike, core, example)
         left = left & ~alike
 
 
@@ -119,7 +144,7 @@ def _having(core: Elements, left: Bdd, fail: Callable[[Elements, Bdd], Bdd]) -> 
     return states
 
 
-def core_of(oracle: FailingStates, kind: FailingKind, state: State, among: Elements) -> Elements:
+def core_of(oracle: FailingStates, kind: Asked, state: State, among: Elements) -> Elements:
     """A minimal set of elements, out of some that suffice, because of which a state fails in one way."""
     question = Question.of(oracle, kind)
     items = [each for each in oracle.requirements.elements if each in among]
@@ -155,10 +180,10 @@ def more_cores(
 
 def core_finder(oracle: FailingStates, cause: Cause) -> Callable[[Elements], Elements | None]:
     """A core of a cause's example among some elements, None where these do not suffice."""
-    question, example = Question.of(oracle, cause.kind), cause.example
+    question, example = Question.of(oracle, cause.asked), cause.example
 
     def find(among: Elements) -> Elements | None:
-        return core_of(oracle, cause.kind, example, among) if question.fails(example, among) else None
+        return core_of(oracle, cause.asked, example, among) if question.fails(example, among) else None
 
     return find
 

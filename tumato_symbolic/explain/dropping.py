@@ -111,12 +111,22 @@ class Search:
         """A core without any dropped element; None where the specification without them is realizable."""
         requirements = self._oracle.requirements
         kept = requirements.everything - dropped
+        if requirements.spec.starts:
+            lost = self._oracle.left_out(kept, requirements.starts)
+            if lost != requirements.false:
+                return core_of(self._oracle, "left-out", typical_state(requirements, lost), kept)
+            return self._missed_in_trial(dropped, kept)
         stuck = requirements.stuck(kept)
         if stuck != requirements.false:
             return core_of(self._oracle, "no-allowed-set", typical_state(requirements, stuck), kept)
         failing = self._oracle.failing(kept, requirements.valid)
         if failing != requirements.false:
             return core_of(self._oracle, "no-plan", typical_state(requirements, failing), kept)
+        return self._missed_in_trial(dropped, kept)
+
+    def _missed_in_trial(self, dropped: Elements, kept: Elements) -> Elements | None:
+        """What synthesis says, where no state fails alone."""
+        requirements = self._oracle.requirements
         outcome = trial(requirements, without(requirements.spec, dropped))
         if isinstance(outcome, Realizable):
             return None

@@ -31,6 +31,7 @@ class Restriction:
 def restrictions(requirements: Requirements, states: Bdd) -> tuple[Restriction, ...]:
     """How the assumption that only these valid states occur restricts the environment, which may not keep to it.
 
+    With starts: that only these of them do.
     A value is taken away in a state that is left out although the environment, changing alone, leads into it.
     """
     variables = sorted(requirements.spec.environment)
@@ -46,13 +47,13 @@ def _restriction(
     """What is taken from one variable when some of them may change at once."""
     encoding, manager, false = requirements.encoding, requirements.manager, requirements.false
     bits = chain.from_iterable(encoding.state_bits[each] for each in changing)
-    taken = manager.exists(bits, states) & requirements.valid & ~states
+    taken = manager.exists(bits, states) & requirements.starts & ~states
     if taken == false:
         return None
     never, partly, left = [], [], []
     for value in range(len(requirements.spec.variables[variable].values)):
         here = encoding.value(variable, value)
-        if (requirements.valid & here) == false:
+        if (requirements.starts & here) == false:
             continue
         if (states & here) == false:
             never.append(value)

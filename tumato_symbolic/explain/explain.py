@@ -101,24 +101,10 @@ def explained(
         yield stopped(known, str(limit))
         return
     work = Work(requirements, context, outcome, max_cubes, cores, wanted_repairs)
-    left_out = _left_out(spec, outcome)
-    for stage in (each for each in STAGES if each not in left_out):
+    for stage in STAGES:
         for more in _within_its_share(work, known, stage):
             known = more
             yield known
-    if left_out:
-        unknown = (LeftOut(stage, so_far(known, stage), _NOT_OF_STARTS) for stage in left_out)
-        yield replace(known, left_out=(*known.left_out, *unknown))
-
-
-def _left_out(spec: Spec, outcome: Unrealizable) -> tuple[Stage, ...]:
-    """The stages that know nothing of starts yet."""
-    if not spec.starts:
-        return ()
-    return ("part", "repairs") if outcome.failures[0].kind != "conflict" else ("part", "reasons", "near", "repairs")
-
-
-_NOT_OF_STARTS = "not looked for yet where there are starts"
 
 
 def _verdict(spec: Spec, ordering: Ordering, outcome: Unrealizable) -> Explanation:
@@ -169,7 +155,7 @@ def _part(work: Work, found: Explanation) -> Iterator[Explanation]:
     work.context.tell("looking for the largest realizable part")
     part = largest_part(requirements)
     if part is not None:
-        given_up = work.count(requirements.valid) - part.count
+        given_up = work.count(requirements.starts) - part.count
         text = predicate_text(requirements.spec, part.formula)
         numbers = part.count, given_up
         known = RealizablePart(*numbers, part.formula, text, part.unique, part.largest, part.environment)
@@ -179,7 +165,7 @@ def _part(work: Work, found: Explanation) -> Iterator[Explanation]:
 def _near(work: Work, found: Explanation) -> Iterator[Explanation]:
     """What comes near in the examples of states without an allowed set."""
     reasons, passed_over = list(found.reasons), 0
-    stuck = [number for number, reason in enumerate(reasons) if reason.kind == "no-allowed-set"]
+    stuck = [n for n, reason in enumerate(reasons) if reason.kind == "no-allowed-set" and not reason.later]
     for place, number in enumerate(stuck):
         work.context.tell(f"looking for what comes near: reason {place + 1} of {len(stuck)}")
         work.requirements.manager.context.check()

@@ -36,8 +36,9 @@ class Reason:
 
     `count` is the exact number of these states. `cubes` are disjoint and hold exactly these valid states, but for the
     `omitted` ones of which no cube is listed. `cores`: the core that all of them share, then more cores of `example`.
-    `goals` are those of the example where it has no plan, `shortest_plan` the steps that it would need if only the plan
-    bound were gone. `together` are the states of a conflict. `summary` says what a long first core comes to.
+    `later`: they are starts that fail because of what follows them. `goals` are those of the example where it has no
+    plan, `shortest_plan` the steps that it would need if only the plan bound were gone. `together` are the states of a
+    conflict. `summary` says what a long first core comes to.
     """
 
     kind: FailureKind
@@ -51,6 +52,7 @@ class Reason:
     together: tuple[State, ...] = ()
     shortest_plan: int | None = None
     summary: Summary | None = None
+    later: bool = False
 
     @property
     def core(self) -> tuple[Element, ...]:
@@ -92,6 +94,7 @@ Wanted: TypeAlias = int | Literal["all"]
 class RealizablePart:
     """An assumption that makes the specification realizable, and how many states it keeps and gives up.
 
+    With starts, it is a start condition in the place of those that are there, and starts are counted.
     `unique`: every other such set of states is a part of this one; else goals conflict, and `largest` tells whether
     none has more states. `environment` is what it assumes of variables that no action controls.
     """

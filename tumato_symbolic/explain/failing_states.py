@@ -11,9 +11,11 @@ from tumato_symbolic.semantics import ActiveGoals, State
 from tumato_symbolic.symbolic import Bdd, Regions, targets
 
 
-def build_kept_problem(requirements: Requirements, kept: Elements, regions: Regions) -> Problem:
-    """The synthesis problem when only these elements are kept, for the states of `regions`."""
-    steps = requirements.steps(kept)
+def build_kept_problem(
+    requirements: Requirements, kept: Elements, regions: Regions, within: Bdd | None = None
+) -> Problem:
+    """The synthesis problem when only these elements are kept, for the states of `regions`; `within` as in `steps`."""
+    steps = requirements.steps(kept, within)
     bound = requirements.spec.max_plan_length if Element("plan-bound") in kept else None
     spec = replace(steps.encoding.spec, max_plan_length=bound)
     return Problem(spec, steps, regions, tuple(targets(steps, regions)))
@@ -36,6 +38,7 @@ class FailingStates:
         self.requirements = requirements
         self._known: dict[ActiveGoals, list[tuple[Elements, Bdd]]] = {}
         self._lost: dict[Elements, Bdd] = {}
+        self._parts: dict[Elements, Bdd] = {}
         self._monotone = len(requirements.spec.tiers) == 1
 
     def fails(self, state: State, kept: Elements) -> bool:
@@ -50,6 +53,28 @@ class FailingStates:
             restorable = problem.steps.valid if way is None else way.restorable
             self._lost[kept] = self.requirements.valid & problem.steps.unsafe & ~restorable
         return self._lost[kept]
+
+    def left_out(self, kept: Elements, states: Bdd) -> Bdd:
+        """Those of some valid states that no policy decides which never leaves what it decides, goals apart.
+
+        Without a policy from a state where a step may lead, that step is not allowed.
+        """
+        if kept not in self._parts:
+            self._parts[kept] = self._part(kept)
+        return states & ~self._parts[kept]
+
+    def _part(self, kept: Elements) -> Bdd:
+        """The greatest set of states that decisions need not leave, and in which none of the valid states fails."""
+        requirements = self.requirements
+        part = requirements.steps(kept).valid
+        while True:
+            requirements.manager.context.check()
+            inside = restricted(requirements.regions, part, requirements.false)
+            problem = build_kept_problem(requirements, kept, inside, part)
+            lost = part & requirements.valid & ~winning_alone(problem, requirements.compatible)
+            if lost == requirements.false:
+                return part
+            part = part & ~lost
 
     def failing(self, kept: Elements, states: Bdd) -> Bdd:
         """Those of some valid states that fail. What is not known is asked once, for all its regions."""

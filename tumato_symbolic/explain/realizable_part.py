@@ -24,11 +24,12 @@ CHOICES = 200
 
 @dataclass(frozen=True)
 class Part:
-    """States which, taken as an assumption, make the specification realizable.
+    """States which, taken as an assumption, or as the starts, make the specification realizable.
 
     `unique`: it is the greatest such set, and every other one is a part of it. Where goals conflict there may be
-    several maximal ones; `largest` then says that none has more states. `formula` is the assumption to add,
-    `environment` what it takes from variables that no action controls.
+    several maximal ones; `largest` then says that none has more states. `formula` is the assumption to add, or the
+    start condition to have instead of those that are there, `environment` what it takes from variables that no action
+    controls.
     """
 
     states: Bdd
@@ -43,10 +44,12 @@ def largest_part(requirements: Requirements) -> Part | None:
     """The largest realizable part, None where nothing remains.
 
     Every realizable part lies in the greatest set in which no state fails. Where goals conflict there, every one leaves
-    out a state of the conflict: the larger sets are tried first, so the first realizable one is the largest.
+    out a state of the conflict: the larger sets are tried first, so the first realizable one is the largest. With
+    starts it is they that are left out, and what a policy decides beside them is not told.
     """
-    count = requirements.encoding.count_states
+    count, spec = requirements.encoding.count_states, requirements.spec
     whole = _without_failing(requirements, requirements.valid)
+    whole = whole & requirements.starts if spec.starts else whole
     waiting: list[tuple[int, int, Bdd]] = [(-count(whole), 0, whole)]
     seen, tried, largest = {whole}, 0, True
     while waiting:
@@ -55,14 +58,15 @@ def largest_part(requirements: Requirements) -> Part | None:
             return None
         tried += 1
         formula = assumption(requirements, states)
-        blamed = _conflict(requirements, formula)
+        blamed = _conflict(requirements, starting(spec, formula) if spec.starts else assuming(spec, formula), states)
         if blamed is None:
             assumed = restrictions(requirements, states)
             return Part(states, count(states), formula, states == whole, largest, assumed)
         if tried >= CHOICES:
             waiting, largest = [], False
         for state in blamed:
-            smaller = _without_failing(requirements, states & ~requirements.encoding.state_cube(state))
+            smaller = states & ~requirements.encoding.state_cube(state)
+            smaller = smaller if spec.starts else _without_failing(requirements, smaller)
             if smaller not in seen:
                 seen.add(smaller)
                 heapq.heappush(waiting, (-count(smaller), len(seen), smaller))
@@ -88,17 +92,17 @@ def _within(requirements: Requirements, states: Bdd) -> Problem:
     return Problem(spec, steps, regions, tuple(targets(steps, regions)))
 
 
-def _conflict(requirements: Requirements, formula: Formula) -> tuple[State, ...] | None:
-    """States that no policy serves together under an assumption; None where it makes the specification realizable.
+def _conflict(requirements: Requirements, spec: Spec, states: Bdd) -> tuple[State, ...] | None:
+    """Those of some states that no policy serves together in a specification; None where it is realizable.
 
     Where synthesis gives up, any state may be to blame, and the first few are.
     """
-    outcome = trial(requirements, assuming(requirements.spec, formula))
+    outcome = trial(requirements, spec)
     if isinstance(outcome, Realizable):
         return None
     if isinstance(outcome, Unrealizable):
         return outcome.failures[0].states
-    return tuple(_first(requirements.encoding.states_in(requirements.formula(formula)), 3))
+    return tuple(_first(requirements.encoding.states_in(states), 3))
 
 
 def _first(states: Iterator[State], count: int) -> Iterator[State]:
@@ -119,3 +123,8 @@ def assuming(spec: Spec, formula: Formula) -> Spec:
     """The specification with one more assumption."""
     rule = Rule(formula, predicate_text(spec, formula), Span(1, 1, 1, 1))
     return replace(spec, assumptions=(*spec.assumptions, rule))
+
+
+def starting(spec: Spec, formula: Formula) -> Spec:
+    """The specification with other starts."""
+    return replace(spec, starts=(Rule(formula, predicate_text(spec, formula), Span(1, 1, 1, 1)),))

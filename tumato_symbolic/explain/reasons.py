@@ -45,7 +45,7 @@ def _tell(work: Work, found: Explanation) -> None:
 def _reason(work: Work, cause: Cause, limit: int) -> Reason:
     requirements, example = work.requirements, cause.example
     shown = more_cores(requirements, cause.core, work.cores, core_finder(work.oracle, cause))
-    bounded = Element("plan-bound") in cause.core
+    bounded = Element("plan-bound") in cause.core and not cause.later
     cover = work.cubes(cause.states, limit)
     return Reason(
         cause.kind,
@@ -56,7 +56,8 @@ def _reason(work: Work, cause: Cause, limit: int) -> Reason:
         tuple(element_list(requirements, core) for core in shown),
         () if cause.kind != "no-plan" else own_goals(requirements, example),
         shortest_plan=shortest_plan(requirements, requirements.encoding.state_cube(example)) if bounded else None,
-        summary=summary(requirements, cause.core, cause.states, example),
+        summary=None if cause.later else summary(requirements, cause.core, cause.states, example),
+        later=cause.later,
     )
 
 

@@ -73,8 +73,10 @@ class Requirements:
         """`Ok(s, A)` when only these elements are kept."""
         return self.manager.intersection([self.compatible, *map(self._relation, self._of(kept))])
 
-    def steps(self, kept: Elements) -> Steps:
-        """The step relation when only these elements are kept."""
+    def steps(self, kept: Elements, within: Bdd | None = None) -> Steps:
+        """The step relation when only these elements are kept; `within` is one more assumption, as a set of states."""
+        if within is not None:
+            return self._narrowed(self.steps(kept), kept, within)
         valid = self.encoding.domain() & self._all_of(kept, "assumption")
         allowed, encoding = self.allowed(kept), self.encoding
         if not self.spec.restores_stepwise:
@@ -83,6 +85,14 @@ class Requirements:
         encoding = replace(encoding, spec=keep_only(self.spec, kept))
         tiers = tiers_within(encoding, valid)
         return Steps(encoding, self.ordering, valid, tiers[-1], allowed, allowed, tiers)
+
+    def _narrowed(self, steps: Steps, kept: Elements, within: Bdd) -> Steps:
+        """Those of the steps that never leave some states."""
+        encoding = replace(self.encoding, spec=keep_only(self.spec, kept))
+        asked = steps.allowed & within
+        allowed = asked & staying_in(encoding, self.ordering, within, self.compatible, asked)
+        tiers = tuple(tier & within for tier in steps.tiers)
+        return replace(steps, valid=tiers[0], safe=tiers[-1], candidates=allowed, allowed=allowed, tiers=tiers)
 
     def changed(self, element: Element, rule: Rule) -> Requirements:
         """The same with another predicate in the place of a rule or a precondition; the rest is not computed again."""
@@ -113,6 +123,11 @@ class Requirements:
     def steps_within(self, states: Bdd) -> Steps:
         """The step relation of the whole specification when only these valid states may occur."""
         return build_steps(replace(self.encoding, spec=self.spec), self.ordering, states)
+
+    @property
+    def starts(self) -> Bdd:
+        """The valid states that are starts."""
+        return self.formula(self.spec.start)
 
     def stuck(self, kept: Elements) -> Bdd:
         """The valid states without an allowed set."""

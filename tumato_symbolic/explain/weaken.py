@@ -12,7 +12,7 @@ from tumato_symbolic.explain.additions import every_state
 from tumato_symbolic.explain.as_predicates import cube_formula, predicate_text
 from tumato_symbolic.explain.cubes import StateCube
 from tumato_symbolic.explain.elements import Element, Elements, rule_of, without
-from tumato_symbolic.explain.failing_states import failing
+from tumato_symbolic.explain.failing_states import FailingStates, failing
 from tumato_symbolic.explain.minimize import minimal
 from tumato_symbolic.explain.requirements import Requirements
 from tumato_symbolic.explain.trial import is_realizable, trial
@@ -175,6 +175,8 @@ def _is_realizable(requirements: Requirements, dropped: Elements) -> bool:
 
 def _no_state_fails(requirements: Requirements, dropped: Elements) -> bool:
     kept = requirements.everything - dropped
+    if requirements.spec.starts:
+        return FailingStates(requirements).left_out(kept, requirements.starts) == requirements.false
     stuck = requirements.stuck(kept)
     return stuck == requirements.false and failing(requirements, kept, requirements.valid) == requirements.false
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from tumato_symbolic.explain.cores import Failing, failing_states, typical_state
@@ -32,9 +32,13 @@ class Work:
 
     @cached_property
     def failing(self) -> Failing:
-        """The valid states that fail; with starts, those starts that fail at once, whatever may follow."""
+        """The valid states that fail; with starts, those of them that do."""
         found, spec = failing_states(self.oracle), self.requirements.spec
-        return found.among(self.requirements.formula(spec.start)) if spec.starts else found
+        if not spec.starts:
+            return found
+        found = found.among(self.requirements.starts)
+        kinds = (each.kind for each in self.outcome.failures if each.kind != "conflict")
+        return replace(found, later={kind: self.states_of(kind) & ~found.at_once for kind in kinds})
 
     @cached_property
     def oracle(self) -> FailingStates:

@@ -1,4 +1,4 @@
-"""A specification's text with one more assumption."""
+"""A specification's text with one more assumption, or other starts."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def with_assumption(source: Source, predicate: str) -> str:
 
     The text must be a specification without errors.
     """
-    lines = "\n".join(wrap(f"assume: {predicate}", _WIDTH, break_long_words=False, break_on_hyphens=False))
+    lines = _wrapped(f"assume: {predicate}")
     text, tree = source.text, parse(source).tree
     assert tree is not None, "a specification that was explained can be read"
     block = next((each for each in tree.blocks if isinstance(each, ast.Assumptions)), None)
@@ -27,6 +27,25 @@ def with_assumption(source: Source, predicate: str) -> str:
     before = text[:place]
     gap = "" if before.endswith("\n") else "\n"
     return f"{before}{gap}{lines}\n{text[place:]}"
+
+
+def with_starts(source: Source, predicate: str) -> str:
+    """The text with `start: predicate` in the place of all its start conditions; the rest stays as it is.
+
+    The text must be a specification without errors, and have a START block.
+    """
+    text, tree = source.text, parse(source).tree
+    assert tree is not None, "a specification that was explained can be read"
+    blocks = [each.span for each in tree.blocks if isinstance(each, ast.Start)]
+    places = [(_offset(text, s.line, s.column), _offset(text, s.end_line, s.end_column)) for s in blocks]
+    for number, (begin, end) in reversed(list(enumerate(places))):
+        block = "" if number else f"BEGIN START\n{_wrapped(f'start: {predicate}')}\nEND START"
+        text = f"{text[:begin]}{block}{text[end:]}"
+    return text
+
+
+def _wrapped(line: str) -> str:
+    return "\n".join(wrap(line, _WIDTH, break_long_words=False, break_on_hyphens=False))
 
 
 def _offset(text: str, line: int, column: int) -> int:

@@ -61,8 +61,6 @@ def reason_pieces(place: Place, found: Explanation, every_cube: bool) -> Iterato
         yield "\n".join(lines)
     if found.omitted and "reasons" in found.finished:
         why = "whose reasons were not analysed: there are too many"
-        if place.spec.starts:
-            why = "from where every way on may lead to states that cannot be decided; `synth` shows one"
         yield f"\n{count(found.omitted, 'failing state')} more, {why}."
 
 
@@ -113,6 +111,8 @@ def _reason(place: Place, found: Explanation, reason: Reason, number: int, every
         if core:
             yield _because(position, len(core))
             yield from _core(place, core, reason)
+    if reason.later:
+        yield "  A step is left out here if it may lead to a state from where there is no policy."
     if reason.core and reason.kind == "no-plan":
         yield f"  goal: {place.goals(reason.example)}"
     if reason.kind != "conflict" and reason.example != group.example:

@@ -182,7 +182,7 @@ def _part_json(spec: Spec, part: RealizablePart | None) -> dict[str, object]:
     return {
         "states": part.states,
         "given_up": part.given_up,
-        "assumption": part.text,
+        **({"assumption": None, "start": part.text} if spec.starts else {"assumption": part.text}),
         "environment": [_restriction_json(spec, each) for each in part.environment],
         "unique": part.unique,
         "largest": part.largest,
@@ -237,10 +237,13 @@ def _main_findings(done: Explained) -> Iterator[Finding]:
             yield undecided(str(limit), file)
         case Explanation() as found:
             if found.part is not None:
-                valid = count(found.statistics.valid, "valid state")
+                starts = bool(done.spec.starts)
+                whole = found.part.states + found.part.given_up
+                valid = count(whole, "start") if starts else count(found.statistics.valid, "valid state")
                 assumed = environment_text(done.spec, found.part)
                 message = f"{f'this {assumed}: ' if assumed else ''}realizable for {found.part.states:,} of {valid}"
-                yield Finding("notice", f"{message}, assuming: {found.part.text}", file)
+                how = "beginning nowhere else" if starts else "assuming"
+                yield Finding("notice", f"{message}, {how}: {found.part.text}", file)
             if found.left_out:
                 yield Finding("warning", "\n".join(left_out_lines(found)), file, title="incomplete")
 

@@ -139,25 +139,31 @@ def _change(place: Place, change: Change) -> Iterator[str]:
 def part_lines(spec: Spec, part: RealizablePart | None, written: str | None) -> Iterator[str]:
     """The largest realizable part, and first what it takes from the environment. `written` is the file with it."""
     if part is None:
-        yield "No part of the states is realizable: no assumption would help."
+        yield (
+            "No start could be kept: none is without others."
+            if spec.starts
+            else "No part of the states is realizable: no assumption would help."
+        )
         return
     kind = "The largest" if part.unique else "A largest" if part.largest else "A"
-    total = count(part.states + part.given_up, "valid state")
+    total = count(part.states + part.given_up, "start" if spec.starts else "valid state")
     head = f"{kind} realizable part: {part.states:,} of {total}"
     assumed = environment_text(spec, part)
-    yield f"{head}; it {assumed}:" if assumed else f"{head}, under this assumption:"
+    as_said = "if it never begins elsewhere" if spec.starts else "under this assumption"
+    yield f"{head}; it {assumed}:" if assumed else f"{head}, {as_said}:"
     text = part.text
     if len(text) > _LONGEST_ASSUMPTION and written is None:
         text = f"{text[:_LONGEST_ASSUMPTION]} … ({len(text):,} characters; --write FILE writes all of it)"
-    yield f"  assume: {text}"
+    yield f"  {'start' if spec.starts else 'assume'}: {text}"
     if not part.unique:
         yield "  (goals conflict: this is one choice among several)"
+    what = "with this start condition and no other" if spec.starts else "with this assumption"
     if written is None:
-        yield "`--write FILE` writes the specification with it."
+        yield f"`--write FILE` writes the specification {what if spec.starts else 'with it'}."
     elif written == "-":
-        yield "The specification with this assumption is on the standard output."
+        yield f"The specification {what} is on the standard output."
     else:
-        yield f"{written} is written: the specification with this assumption."
+        yield f"{written} is written: the specification {what}."
 
 
 def environment_text(spec: Spec, part: RealizablePart) -> str:

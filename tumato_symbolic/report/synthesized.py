@@ -213,7 +213,7 @@ def _unrealizable(done: Synthesized, outcome: Unrealizable, paint: Paint) -> lis
         shown = [failure_line(done.place, failure) for failure in outcome.failures]
         shown.append(f"The rest of the report is left out: {done.cut_short}.")
     written = "\n".join((f"No policy was written.{_kept(done)}", *_certified(done, outcome, paint)))
-    why = "says why, line by line, and which changes would give a policy" if part is None else "says why, line by line"
+    why = "says why, line by line, and which changes would give a policy"
     explain = f"`tumato-sym explain {shlex.quote(done.source.name)}` {why}."
     return ["\n".join(head), *shown, f"{written}\n{explain}"]
 

@@ -19,6 +19,7 @@ _REASONS: Final[dict[UnrealizabilityKind, str]] = {
     "no-restoration": "there is a state from which no decisions are sure to restore safety",
     "no-plan": "there is a state from which no run reaches the goal",
     "conflict": "there are states that each have a plan, but no policy works for all of them",
+    "no-part": "there is no policy from the starts that never leaves what it decides",
 }
 
 _PROVERS: Final = {"z3": "Z3", "walk": "the walk"}

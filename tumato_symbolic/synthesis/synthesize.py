@@ -16,6 +16,7 @@ from tumato_symbolic.game import (
     Problem,
     build_problem,
     closed_loop,
+    distances,
     in_time,
     own_region_policy,
     route,
@@ -111,7 +112,7 @@ def _solve(problem: Problem, policy_format: PolicyFormat, certify: bool) -> Synt
     if problem.spec.starts:
         from tumato_symbolic.synthesis.starts import solve_from_starts
 
-        solve = partial(_decide, policy_format=policy_format, certify=False)
+        solve = partial(_decide, policy_format=policy_format, certify=certify)
         return solve_from_starts(problem, so_far, solve, certify=certify)
     return _decide(problem, so_far, policy_format=policy_format, certify=certify)
 
@@ -130,13 +131,14 @@ def _decide(problem: Problem, so_far: Undecided, *, policy_format: PolicyFormat,
         context.tell("measuring distances")
         failing = failing_states(problem)
         if failing.kinds:
+            from tumato_symbolic.synthesis.no_part import failing_at_once
             from tumato_symbolic.synthesis.unrealizability import certified
 
             answer = _unrealizable(problem, failures_of(problem, failing.kinds), statistics, warnings)
-            reason = reason_of(problem, failing) if certify else None
-            if reason is None:
+            if not certify:
                 return answer
-            return replace(answer, certificate=certified(problem, reason))
+            reason = reason_of(problem, failing) or failing_at_once(problem, failing)
+            return answer if reason is None else replace(answer, certificate=certified(problem, reason))
         so_far = replace(so_far, statistics=statistics)
         resolved = _resolve(evaluator, policy, failing.apart, so_far, way=failing.way, certify=certify)
         if isinstance(resolved, Undecided | Unrealizable):
@@ -216,8 +218,11 @@ def _resolve(
             states = repaired.states
             failure = Failure("conflict", len(states), states[0], states)
             answer = _unrealizable(problem, (failure,), statistics, so_far.warnings)
-            if not certify or way is not None:
+            contains = problem.encoding.contains
+            if not certify or not all(contains(steps.safe, state) for state in repaired.options):
                 return answer
+            if way is not None:  # of safe states, which is all that the certificate is about then
+                apart = distances(problem)
             return replace(answer, certificate=certified(problem, conflict(problem, apart, repaired)))
         changed = repaired
     tell("reverting changes that are not needed")

@@ -20,6 +20,7 @@ from tumato_symbolic.policy.unrealizability import (
     NoAllowedSet,
     NoPlan,
     NoRestoration,
+    Reason,
     Unrealizability,
     Violation,
 )
@@ -53,7 +54,7 @@ FEW_NODES = 1000
 """Layers with so few nodes are taken as they are: Z3 is quick with them."""
 
 
-def certified(problem: Problem, reason: NoAllowedSet | NoRestoration | NoPlan | Conflict) -> Unrealizability:
+def certified(problem: Problem, reason: Reason) -> Unrealizability:
     """The certificate with this reason."""
     spec = problem.spec
     return Unrealizability(Vocabulary.of(spec), problem.steps.ordering, digest(spec), reason, spec.restoration)

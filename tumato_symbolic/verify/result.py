@@ -12,7 +12,7 @@ Verdict: TypeAlias = Literal["proved", "refuted", "undecided"]
 PropertyName: TypeAlias = Literal["total", "safe", "restoring", "goals", "minimal", "ordering", "restoration"]
 OrderingSource: TypeAlias = Literal["command line", "certificate", "specification", "default"]
 ProverName: TypeAlias = Literal["z3", "walk", "explicit", "both", "auto"]
-UnrealizabilityKind: TypeAlias = Literal["no-allowed-set", "no-restoration", "no-plan", "conflict"]
+UnrealizabilityKind: TypeAlias = Literal["no-allowed-set", "no-restoration", "no-plan", "conflict", "no-part"]
 
 PROPERTIES: tuple[PropertyName, ...] = ("total", "safe", "restoring", "goals", "minimal")
 """What is asked by default, in the order in which it is proved; see `properties_of`."""

@@ -18,7 +18,7 @@ from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.limits import Context
 
 if TYPE_CHECKING:
-    from tumato_symbolic.explain.explanation import Wanted
+    from tumato_symbolic.explain.explanation import Explanation, Wanted
     from tumato_symbolic.report.explained import Explained
     from tumato_symbolic.spec import Ordering, Restoration
 
@@ -113,7 +113,7 @@ def run(options: Options, context: Context) -> int:
         ):
             done = replace(known.done, found=found)
             if options.write and done.written is None and isinstance(found, Explanation) and found.part is not None:
-                _write(options.write, source, found.part.text)
+                _write(options.write, source, found)
                 done = replace(done, written=options.write)
             known = _learned(replace(known, done=done), options, context)
     return _ended(known, options)
@@ -174,12 +174,13 @@ def _code(known: _Known) -> int:
             return NO
 
 
-def _write(path: str, source: Source, assumption: str) -> None:
-    """Write the specification with the assumption of its realizable part."""
-    from tumato_symbolic.explain.writing import with_assumption
+def _write(path: str, source: Source, found: Explanation) -> None:
+    """Write the specification with the assumption of its realizable part, or with the starts of it."""
+    from tumato_symbolic.explain.writing import with_assumption, with_starts
     from tumato_symbolic.policy import save_text
 
-    text = with_assumption(source, assumption)
+    assert found.part is not None, "there is something to write"
+    text = (with_starts if found.spec.starts else with_assumption)(source, found.part.text)
     if path == STANDARD_OUTPUT:
         write(text)
     else:

@@ -54,6 +54,12 @@ class DiagramPart(Part):
         names.counts["reference"] = len(leaves) + len(nodes)
         return {self.name: Diagram(order, leaves, nodes)}
 
+    def written(self, record: Attributes, names: Names) -> dict[str, Any]:
+        """See `Part`."""
+        diagram: Diagram[Any] = getattr(record, self.name)
+        order = [names.vocabulary.variables[variable][0] for variable in diagram.order]
+        return {"Order": order, "Leaves": diagram.leaves, "Nodes": diagram.nodes}
+
     def blocks(self, record: Attributes, names: Names, indent: str) -> Iterator[Block]:
         """See `Part`."""
         diagram: Diagram[Any] = getattr(record, self.name)

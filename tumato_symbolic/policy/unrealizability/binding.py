@@ -10,9 +10,12 @@ from tumato_symbolic.policy.unrealizability.records import (
     Choice,
     Conflict,
     Cube,
+    Divided,
     NoAllowedSet,
+    NoPart,
     NoPlan,
     NoRestoration,
+    StartRemoved,
     Unrealizability,
 )
 from tumato_symbolic.spec import Spec
@@ -34,6 +37,9 @@ def bind(certificate: Unrealizability, spec: Spec) -> Unrealizability:
             return replace(certificate, vocabulary=target, reason=bound_reason)
         case Conflict() as conflict:
             return replace(certificate, vocabulary=target, reason=_bound_conflict(conflict, by))
+        case NoPart(parts):
+            bound_parts = tuple(_bound_part(part, by) for part in parts)
+            return replace(certificate, vocabulary=target, reason=NoPart(bound_parts))
 
 
 def _bound_cube(cube: Cube, by: Renumbering) -> Cube:
@@ -52,3 +58,11 @@ def _bound_conflict(reason: Conflict, by: Renumbering) -> Conflict:
     )
     cuts = tuple(replace(cut, end=None if cut.end is None else by.state(cut.end)) for cut in reason.cuts)
     return by.drawn(replace(reason, choices=choices, cuts=cuts))
+
+
+def _bound_part(part: StartRemoved | Divided, by: Renumbering) -> StartRemoved | Divided:
+    removals = tuple(map(by.drawn, part.removals))
+    if isinstance(part, StartRemoved):
+        return StartRemoved(removals, by.state(part.state))
+    cases = tuple(replace(case, state=by.state(case.state)) for case in part.cases)
+    return Divided(removals, _bound_conflict(part.conflict, by), cases)

@@ -15,15 +15,20 @@ from tumato_symbolic.policy.formats.tables import Entries, Field, Record, Tagged
 from tumato_symbolic.policy.records import RankedGoal, Vocabulary
 from tumato_symbolic.policy.text import MAX_BYTES, as_object, parse_json, read_text, save_text, too_large
 from tumato_symbolic.policy.unrealizability.records import (
+    Case,
     Choice,
     Conflict,
     Cube,
     Cut,
+    Divided,
     Layers,
     NoAllowedSet,
+    NoPart,
     NoPlan,
     NoRestoration,
     Reason,
+    Removal,
+    StartRemoved,
     Unrealizability,
     Violation,
 )
@@ -108,6 +113,33 @@ _CUTS = Entries("Cuts", _CUT, "cut")
 _DISTANCES = DiagramPart("distances", kinds.RANKS, "Numbers of steps; null is never, or not within the plan bound.")
 _GOALS = Entries("Goals", Record(RankedGoal, (*_NAMED, Field("Root", kinds.REFERENCE))), "goal")
 
+_CONFLICT = section(
+    Conflict,
+    (_STARTS, _CHOICES, _CUTS, _DISTANCES, _GOALS),
+    "No policy serves the starts together: every choice of options breaks a cut.",
+    first=(_DISTANCES, _GOALS, _CHOICES, _CUTS),
+)
+_KIND = Field("Kind", kinds.one_of("no-restoration", "no-plan"))
+_REMOVED = DiagramPart("diagram", kinds.RANKS, "Numbers of steps; null is never, and outside of what is removed.")
+_REMOVALS = Entries(
+    "Removals",
+    section(Removal, (_KIND, _REMOVED, Field("Root", kinds.REFERENCE), _GOALS)),
+    "removal",
+    "States that no policy decides which decides none that was removed before: where the root leads to a number.",
+)
+_CASE = Record(Case, (Field("Without", kinds.STATE, name="state"), Field("Part", kinds.whole())))
+_PART = Tagged[StartRemoved | Divided](
+    {
+        ("start",): Record(StartRemoved, (_REMOVALS, _STATE), "A start is removed."),
+        ("conflict",): Record(
+            Divided,
+            (_REMOVALS, Field("Conflict", _CONFLICT), Entries("Cases", _CASE, "case")),
+            "Goals conflict in what is left; a case for every state of the conflict that is no start.",
+        ),
+    },
+    told=False,
+)
+
 REASON = Tagged[Reason](
     {
         ("no-allowed-set",): Record(
@@ -127,11 +159,12 @@ REASON = Tagged[Reason](
             "No run from a state meets its residual goal: for each that it can have, layers of states that hold all "
             "runs.",
         ),
-        ("conflict",): section(
-            Conflict,
-            (_STARTS, _CHOICES, _CUTS, _DISTANCES, _GOALS),
-            "No policy serves the starts together: every choice of options breaks a cut.",
-            first=(_DISTANCES, _GOALS, _CHOICES, _CUTS),
+        ("conflict",): _CONFLICT,
+        ("no-part",): Record(
+            NoPart,
+            (Entries("Parts", _PART, "part"),),
+            "No part of the valid states that has all starts has a policy.",
+            dotted,
         ),
     },
     dotted,

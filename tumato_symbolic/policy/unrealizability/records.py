@@ -176,7 +176,72 @@ class Conflict:
         return replace(self, distances=diagram, goals=rooted(self.goals, roots))
 
 
-Reason: TypeAlias = NoAllowedSet | NoRestoration | NoPlan | Conflict
+@dataclass(frozen=True, slots=True)
+class Removal:
+    """Valid states that no policy decides which decides none of those that were removed before.
+
+    `root` leads to a number in them, and to None in others. `no-plan`: whatever is allowed in one of them leads where
+    its residual goal, one of `goals`, is too far away; their roots are distances, as in `Conflict`. `no-restoration`:
+    those of each level are a trap, as in `NoRestoration`.
+    """
+
+    kind: Literal["no-restoration", "no-plan"]
+    diagram: Diagram[int | None]
+    root: Reference
+    goals: tuple[RankedGoal, ...] = ()
+
+    @property
+    def drawing(self) -> Drawing:
+        """See `Drawn`: the set, then the distances of every goal."""
+        return self.diagram, (self.root, *(goal.root for goal in self.goals))
+
+    def drawn(self, diagram: Diagram[int | None], roots: tuple[Reference, ...]) -> Removal:
+        """See `Drawn`."""
+        return replace(self, diagram=diagram, root=roots[0], goals=rooted(self.goals, roots[1:]))
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """Without `state`, what is left has no policy, as the argument with the number `part` says."""
+
+    state: State
+    part: int
+
+
+@dataclass(frozen=True, slots=True)
+class StartRemoved:
+    """States are removed, one set after the other, and the start `state` is among them."""
+
+    kind: ClassVar = "start"
+    removals: tuple[Removal, ...]
+    state: State
+
+
+@dataclass(frozen=True, slots=True)
+class Divided:
+    """States are removed, and goals conflict in what is left: a policy leaves out one of the states of the conflict.
+
+    There is a case for each of these that is no start.
+    """
+
+    kind: ClassVar = "conflict"
+    removals: tuple[Removal, ...]
+    conflict: Conflict
+    cases: tuple[Case, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class NoPart:
+    """No part of the valid states that has all starts has a policy.
+
+    The first of the arguments in `parts` is about all valid states, every other one about a case of an earlier one.
+    """
+
+    kind: ClassVar = "no-part"
+    parts: tuple[StartRemoved | Divided, ...]
+
+
+Reason: TypeAlias = NoAllowedSet | NoRestoration | NoPlan | Conflict | NoPart
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,23 +10,24 @@ from tumato_symbolic.semantics import Residual
 from tumato_symbolic.spec import active_bodies, executing_atoms
 from tumato_symbolic.verify.by_diagrams.closed_loop import ClosedLoop
 from tumato_symbolic.verify.by_diagrams.functions import FALSE, TRUE, Function
+from tumato_symbolic.verify.by_diagrams.steps import Steps
 
 Aim: TypeAlias = Residual | None
 """What states are near to: a residual goal; None where these are many: that of which the parameters speak."""
 
 
-class WalkGoals:
-    """The goals of a model."""
+class StepGoals:
+    """The goals of a specification."""
 
-    def __init__(self, model: ClosedLoop) -> None:
-        self._model = model
-        self._spec = model.spec
-        self._walk = model.walk
+    def __init__(self, steps: Steps) -> None:
+        self._steps = steps
+        self._spec = steps.spec
+        self._walk = steps.walk
 
     @cached_property
     def active(self) -> dict[int, Function]:
         """Where every goal body is active; those not listed never are."""
-        return active_bodies(self._spec.goals, self._model.formula, self._model.connectives)
+        return active_bodies(self._spec.goals, self._steps.formula, self._steps.connectives)
 
     def residuals(self, region: Function, executed: Sequence[Function]) -> list[tuple[Residual, Function]]:
         """`region` by the residual goal that its states have when `executed` is the first set."""
@@ -51,13 +52,13 @@ class WalkGoals:
     @property
     def are_many(self) -> bool:
         """Whether there may be too many residual goals to look at each."""
-        return bool(self._model.active_variable)
+        return bool(self._steps.active_variable)
 
     def own(self, goal: Aim, function: Function, executed: Sequence[Function]) -> Function:
         """A function of states and goals, for the residual goal that a state has when `executed` is the first set."""
         if goal is not None:
             return function
-        model, spec, walk = self._model, self._spec, self._walk
+        model, spec, walk = self._steps, self._spec, self._walk
         meaning = {variable: self.active.get(body, FALSE) for body, variable in model.active_variable.items()}
         meaning |= {
             variable: walk.any_of(executed[case] for case in spec.cases_from(action))
@@ -72,19 +73,27 @@ class WalkGoals:
         else:
             executed = [int(action in goal.executed) for action in range(len(self._spec.actions))]
             bodies = [self._spec.bodies[body].formula for body in sorted(goal.bodies)]
-            holds = self._walk.all_of(self._model.formula(body, executed) for body in bodies)
-        return self._walk.all_of((holds, self._model.safe)) if self._spec.restores_stepwise else holds
+            holds = self._walk.all_of(self._steps.formula(body, executed) for body in bodies)
+        return self._walk.all_of((holds, self._steps.safe)) if self._spec.restores_stepwise else holds
 
     @property
     def _any_reached(self) -> Function:
         """Where all bodies that are active, as the parameters say, hold."""
-        model, spec, walk = self._model, self._spec, self._walk
+        model, spec, walk = self._steps, self._spec, self._walk
         first = model.first_variable
         executed = [walk.variable(first[a]) if a in first else FALSE for a in range(len(spec.actions))]
         return walk.all_of(
             walk.select(walk.variable(variable), (TRUE, model.formula(spec.bodies[body].formula, executed)))
             for body, variable in model.active_variable.items()
         )
+
+
+class WalkGoals(StepGoals):
+    """The goals of a specification, and where a policy reaches them."""
+
+    def __init__(self, model: ClosedLoop) -> None:
+        super().__init__(model)
+        self._model = model
 
     def within(self, goal: Aim) -> Function:
         """From where the run of the policy satisfies `goal` in at most `L - 1` steps, none included: layer by layer."""

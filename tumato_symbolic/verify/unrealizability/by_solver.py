@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from tumato_symbolic.limits import Budget
 from tumato_symbolic.policy.unrealizability import Conflict, NoAllowedSet, NoPlan
 from tumato_symbolic.spec import Ordering, Spec
@@ -11,14 +9,7 @@ from tumato_symbolic.verify.unrealizability.allowed_step import AllowedStep
 from tumato_symbolic.verify.unrealizability.conflict import check_conflict
 from tumato_symbolic.verify.unrealizability.no_allowed_set import check_no_allowed_set
 from tumato_symbolic.verify.unrealizability.no_plan import check_no_plan
-
-
-class Obligations(NamedTuple):
-    """How many were proved: by the explicit meaning, by Z3, and by the walk, to which some were left."""
-
-    by_meaning: int
-    by_solver: int
-    by_diagrams: int
+from tumato_symbolic.verify.unrealizability.obligations import Obligations
 
 
 def check_allowed_steps(

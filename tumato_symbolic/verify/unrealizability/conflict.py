@@ -153,8 +153,9 @@ def _refute(reason: Conflict, clauses: list[list[Pick]], step: AllowedStep) -> N
         [z3.Bool(f"p.{place}.{option}", solver.context) for option in range(len(choice.options))]
         for place, choice in enumerate(reason.choices)
     ]
-    for terms in picked:
-        solver.add(disjunction(terms), at_most_one(terms))
+    for place, terms in enumerate(picked):
+        if terms or place in reason.starts or not step.spec.starts:  # with starts, others need not be decided
+            solver.add(disjunction(terms), at_most_one(terms))
     for picks in clauses:
         solver.add(disjunction(picked[place][option] for place, option in picks))
     answer = solver.ask(deadline=step.deadline())

@@ -7,7 +7,7 @@ from typing import Final
 from tumato_symbolic.policy.unrealizability import NoRestoration
 from tumato_symbolic.semantics import is_safe, is_valid, level
 from tumato_symbolic.spec import Ordering, Spec
-from tumato_symbolic.verify.by_diagrams.functions import FALSE, BudgetError, given_up
+from tumato_symbolic.verify.by_diagrams.functions import FALSE, BudgetError, Function, given_up
 from tumato_symbolic.verify.by_diagrams.steps import Steps
 from tumato_symbolic.verify.undecided import UndecidedError
 from tumato_symbolic.verify.unrealizability.false_claim import FalseClaimError
@@ -35,13 +35,19 @@ def _check_trap(reason: NoRestoration, spec: Spec, ordering: Ordering, deadline:
     steps = Steps(spec, ordering, reason.diagram.order, deadline)
     walk, place = steps.walk, level(spec, reason.state)
     held = walk.all_of((steps.tiers[place], walk.import_diagram(reason.diagram, int)[reason.root]))
-    trap = walk.without(held, steps.tiers[place + 1])
-    outside = walk.negation(trap)
-    if spec.restoration == "fair":
-        leaving = walk.compose(outside, steps.successor(steps.chosen))
-    else:
-        leaving = steps.into(outside)
-    left = walk.all_of((trap, leaving, steps.allowed))
+    left = states_let_out(steps, held, place)
     if left != FALSE:
         state = state_text(spec, steps.first_state(left))
         raise FalseClaimError(f"something that may be executed in {state} leads out of the trap")
+
+
+def states_let_out(steps: Steps, held: Function, place: int) -> Function:
+    """The pairs that are sure to lead out of those of some states that have this level."""
+    walk = steps.walk
+    trap = walk.without(held, steps.tiers[place + 1])
+    outside = walk.negation(trap)
+    if steps.spec.restoration == "fair":
+        leaving = walk.compose(outside, steps.successor(steps.chosen))
+    else:
+        leaving = steps.into(outside)
+    return walk.all_of((trap, leaving, steps.allowed))

@@ -6,15 +6,26 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from tumato_symbolic.limits import Budget, Context, LimitReachedError, need_z3
-from tumato_symbolic.policy.unrealizability import Conflict, NoAllowedSet, NoPlan, NoRestoration, Unrealizability, bind
+from tumato_symbolic.policy.unrealizability import (
+    Conflict,
+    NoAllowedSet,
+    NoPart,
+    NoPlan,
+    NoRestoration,
+    Reason,
+    Unrealizability,
+    bind,
+)
 from tumato_symbolic.semantics import State, is_safe, is_start, is_valid
 from tumato_symbolic.spec import Ordering, Spec, digest
-from tumato_symbolic.spec.support import require_no_starts, require_one_step
+from tumato_symbolic.spec.support import require_one_step
 from tumato_symbolic.verify.result import UnrealizabilityKind, UnrealizabilityVerdict
 from tumato_symbolic.verify.undecided import UndecidedError
 from tumato_symbolic.verify.unrealizability.false_claim import FalseClaimError
 from tumato_symbolic.verify.unrealizability.named_goals import state_text
+from tumato_symbolic.verify.unrealizability.no_part import check_no_part, conflicts_of
 from tumato_symbolic.verify.unrealizability.no_restoration import check_no_restoration
+from tumato_symbolic.verify.unrealizability.obligations import Obligations
 
 OBLIGATION_BUDGET = 30.0
 """How many seconds Z3 may think about one obligation."""
@@ -43,9 +54,7 @@ def verify_unrealizable(
     """
     context = context or Context()
     reason = bind(certificate, spec).reason
-    if isinstance(reason, Conflict):
-        require_no_starts(spec, "the proof that goals conflict")
-    if not isinstance(reason, NoRestoration) and not all(is_safe(spec, state) for state in _states_of(reason)):
+    if not all(is_safe(spec, state) for state in _states_of(reason)):
         require_one_step(spec, "verify")
     used: Ordering = ordering or certificate.ordering
     found = UnrealizabilityVerdict(
@@ -60,14 +69,8 @@ def verify_unrealizable(
     context.learn(replace(found, verdict="undecided"))
     try:
         context.tell("checking the certificate of unrealizability")
-        _check_start(reason, spec)
-        if isinstance(reason, NoRestoration):
-            check_no_restoration(reason, spec, used, Budget(timeout, context).until())
-            return replace(found, obligations=2, by_diagrams=True)
-        need_z3("check this certificate")
-        from tumato_symbolic.verify.unrealizability.by_solver import check_allowed_steps
-
-        proved = check_allowed_steps(reason, spec, used, Budget(timeout, context))
+        _check_starts(reason, spec)
+        proved = _checked(reason, spec, used, Budget(timeout, context))
     except FalseClaimError as false:
         return replace(found, verdict="refuted", reason=false.reason, state=false.state, chosen=false.chosen)
     except UndecidedError as undecided:
@@ -78,18 +81,41 @@ def verify_unrealizable(
     return replace(found, obligations=sum(proved), by_solver=proved.by_solver > 0, by_diagrams=proved.by_diagrams > 0)
 
 
-def _check_start(reason: NoAllowedSet | NoPlan | NoRestoration | Conflict, spec: Spec) -> None:
-    """With starts, a state that fails has to be one: then no part of the states that has all of them has a policy."""
-    if not isinstance(reason, Conflict) and is_valid(spec, reason.state) and not is_start(spec, reason.state):
-        raise FalseClaimError(f"the state {state_text(spec, reason.state)} is no start, so it need not be decided")
+def _checked(reason: Reason, spec: Spec, ordering: Ordering, budget: Budget) -> Obligations:
+    """What was proved. Raises `FalseClaimError`, and `UndecidedError` where a claim is left open."""
+    if isinstance(reason, NoRestoration):
+        check_no_restoration(reason, spec, ordering, budget.until())
+        return Obligations(0, 0, 2)
+    if not isinstance(reason, NoPart) or any(True for _ in conflicts_of(reason)):
+        need_z3("check this certificate")
+    if isinstance(reason, NoPart):
+        return check_no_part(reason, spec, ordering, budget)
+    from tumato_symbolic.verify.unrealizability.by_solver import check_allowed_steps
+
+    return check_allowed_steps(reason, spec, ordering, budget)
 
 
-def _states_of(reason: NoAllowedSet | NoPlan | Conflict) -> Iterator[State]:
-    """The states that a reason is about: where they are safe, so is all that runs from there meet."""
-    if isinstance(reason, Conflict):
-        yield from (choice.state for choice in reason.choices)
-    else:
-        yield reason.state
+def _check_starts(reason: Reason, spec: Spec) -> None:
+    """With starts, the states that fail have to be starts: then no part of the states that has all of them will do."""
+    if isinstance(reason, NoPart):
+        return
+    states = [reason.state] if not isinstance(reason, Conflict) else [reason.choices[n].state for n in reason.starts]
+    for state in states:
+        if is_valid(spec, state) and not is_start(spec, state):
+            raise FalseClaimError(f"the state {state_text(spec, state)} is no start, so it need not be decided")
+
+
+def _states_of(reason: Reason) -> Iterator[State]:
+    """States that have to be safe, where safety may take several steps to restore: then so is all that runs meet."""
+    match reason:
+        case NoRestoration():
+            return
+        case Conflict():
+            yield from (choice.state for choice in reason.choices)
+        case NoPart():
+            yield from (choice.state for conflict in conflicts_of(reason) for choice in conflict.choices)
+        case _:
+            yield reason.state
 
 
 def _kind(certificate: Unrealizability) -> UnrealizabilityKind:
@@ -100,5 +126,7 @@ def _kind(certificate: Unrealizability) -> UnrealizabilityKind:
             return "no-restoration"
         case NoPlan():
             return "no-plan"
+        case NoPart():
+            return "no-part"
         case _:
             return "conflict"
