@@ -18,9 +18,11 @@ from tests.export.model_checkers import (
     needs_nusmv,
     needs_spin,
     needs_storm,
+    needs_tla,
     nusmv_verdicts,
     spin_accepts,
     storm_verdicts,
+    tla_verdicts,
 )
 from tests.export.policies import exported
 from tumato_symbolic.diagnostics import UserError
@@ -102,6 +104,7 @@ JUDGES: Final[Mapping[str, Judge]] = {
     "nusmv": Judge(_by_claims("nusmv", nusmv_verdicts), _is_right, needs_nusmv),
     "spin": Judge(_by_spin, _is_right, needs_spin),
     "storm": Judge(_by_claims("prism", storm_verdicts), _is_right, needs_storm),
+    "tla": Judge(_by_claims("tlaplus", tla_verdicts), _is_right, needs_tla),
     "c": Judge(_by_c, _is_right, needs_cc),
     "esbmc": Judge(_by_esbmc, _is_allowed, needs_esbmc),
     "coq": Judge(_by_coq, _is_minimal, needs_coq),

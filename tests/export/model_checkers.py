@@ -1,7 +1,8 @@
-"""NuSMV, SPIN and Storm, where they are installed."""
+"""NuSMV, SPIN, Storm and a checker of TLA+, where they are installed."""
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import shutil
@@ -9,7 +10,7 @@ import subprocess
 from collections.abc import Callable, Sequence
 from functools import cache
 from pathlib import Path
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import pytest
 
@@ -119,3 +120,38 @@ def storm_verdicts(models: Sequence[tuple[str, ...]], folder: Path) -> list[dict
         model = stormpy.build_model(program, claims)
         found.append({claim.get_name(): stormpy.model_checking(model, claim).forall_true() for claim in claims})
     return found
+
+
+TLA = shutil.which("tla")
+
+needs_tla = pytest.mark.skipif(
+    TLA is None, reason="tla is not installed (cargo install tla-checker): no module of TLA+ is checked"
+)
+
+
+def tla_verdicts(models: Sequence[tuple[str, ...]], folder: Path) -> list[dict[str, bool]]:
+    """What the checker of the crate `tla-checker` says of modules: of all invariants at once, and of each property."""
+    return [_tla_verdicts(module, configuration, folder) for module, configuration in models]
+
+
+def _tla_verdicts(module: str, configuration: str, folder: Path) -> dict[str, bool]:
+    (folder / "policy.tla").write_text(module, encoding="utf-8")
+    properties = re.findall(r"^PROPERTY (\w+)$", configuration, re.MULTILINE)
+    others = re.sub(r"^PROPERTY .*\n", "", configuration, flags=re.MULTILINE)
+    broken = {each["name"] for each in _tla(others, folder)["stats"].get("violations_by_invariant", [])}
+    without = re.sub(r"^INVARIANT .*\n", "", others, flags=re.MULTILINE)
+    broken |= {name for name in properties if _tla(f"{without}PROPERTY {name}\n", folder)["status"] != "ok"}
+    claims = [*re.findall(r"^INVARIANT (\w+)$", configuration, re.MULTILINE), *properties]
+    return {re.sub(r"\B(?=[A-Z])", "_", name).lower(): name not in broken for name in claims}
+
+
+def _tla(configuration: str, folder: Path) -> dict[str, Any]:
+    """The answer to one configuration; that something is wrong with the module itself is no answer."""
+    (folder / "policy.cfg").write_text(configuration, encoding="utf-8")
+    command = [str(TLA), "policy.tla", "--config", "policy.cfg", "--check-liveness", "--continue", "--json"]
+    ran = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    answers = [json.loads(line) for line in ran.stdout.splitlines() if line.startswith("{")]
+    assert len(answers) == 1, (ran.stdout, ran.stderr)
+    answer: dict[str, Any] = answers[0]
+    assert answer["status"] in {"ok", "invariant_violation", "liveness_violation"}, answer
+    return answer

@@ -1,4 +1,4 @@
-"""The closed loop for NuSMV and for Storm: right policies satisfy all claims, wrong ones break the one meant."""
+"""The closed loop for NuSMV, Storm and TLA+: right policies satisfy all claims, wrong ones break the one meant."""
 
 from __future__ import annotations
 
@@ -11,7 +11,15 @@ import pytest
 
 from tests.export.cases import generated, stepwise
 from tests.export.compiler import Case
-from tests.export.model_checkers import Verdicts, needs_nusmv, needs_storm, nusmv_verdicts, storm_verdicts
+from tests.export.model_checkers import (
+    Verdicts,
+    needs_nusmv,
+    needs_storm,
+    needs_tla,
+    nusmv_verdicts,
+    storm_verdicts,
+    tla_verdicts,
+)
 from tests.export.policies import EXAMPLES, example, random_request, request
 from tests.profiles import ALL_PROFILES
 from tumato_symbolic.export.request import Request
@@ -20,12 +28,14 @@ from tumato_symbolic.policy import Table
 from tumato_symbolic.semantics import count_states, judge
 from tumato_symbolic.spec import Restoration
 
-BY_STORM = 500
-"""Storm has to find the states in which runs begin by solving, which takes seconds for some thousands."""
+MOST_STATES = {"prism": 500, "tlaplus": 500}
+"""Storm has to find the states in which runs begin by solving, which takes seconds for some thousands; `tla` does some
+hundred states in a second."""
 
 CHECKERS = (
     pytest.param("nusmv", nusmv_verdicts, marks=needs_nusmv),
     pytest.param("prism", storm_verdicts, marks=needs_storm),
+    pytest.param("tlaplus", tla_verdicts, marks=needs_tla),
 )
 
 by_each = pytest.mark.parametrize(("target", "verdicts"), CHECKERS)
@@ -54,7 +64,7 @@ def test_every_example_satisfies_all_claims(target: str, verdicts: Verdicts, tmp
 
     def asked(number: int, name: str) -> Request | None:
         made = example(name, diagram=number % 2 == 0)
-        return None if target == "prism" and count_states(made.spec) > BY_STORM else made
+        return made if count_states(made.spec) <= MOST_STATES.get(target, 1_000_000) else None
 
     requests = [made for number, name in enumerate(EXAMPLES) if (made := asked(number, name)) is not None]
     assert len(requests) > 7

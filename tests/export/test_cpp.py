@@ -10,11 +10,13 @@ from pathlib import Path
 import pytest
 
 from tests.export.c_compiler import compile_cpp, needs_cxx
+from tests.export.mixed import FROM_STARTS, mixed
 from tests.export.policies import (
     EXAMPLES,
     decisions,
     example,
     expected_lines,
+    exported,
     random_request,
     request,
     write,
@@ -86,6 +88,14 @@ def _compare(made: Request, folder: Path) -> None:
 def test_every_example_decides_as_decide_does(name: str, tmp_path: Path) -> None:
     """In every state."""
     _compare(example(name), tmp_path)
+
+
+@needs_cxx
+def test_policies_from_starts(tmp_path: Path) -> None:
+    """Decided states have their actions, all others the status that says so."""
+    policy = exported(mixed(FROM_STARTS[0])[0])
+    assert "undecided" in expected_lines(policy)
+    _compare(policy, tmp_path)
 
 
 @needs_cxx

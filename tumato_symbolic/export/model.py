@@ -153,11 +153,15 @@ class Claims:
 
     def executed(self, entry: int) -> str:
         """Where an entry of the actions is executed."""
-        rules = self.model.rules_with(entry)
-        decided = self.language.rule_is(rules) if rules else self.language.by.constant(False)
-        if rules and self.model.has_cases(entry):
+        decided = self.decides(entry)
+        if self.model.rules_with(entry) and self.model.has_cases(entry):
             return self.all([decided, self.now(preconditions(self.model.loop.actions[entry]))])
         return decided
+
+    def decides(self, entry: int) -> str:
+        """Where the policy decides the action of an entry."""
+        rules = self.model.rules_with(entry)
+        return self.language.rule_is(rules) if rules else self.language.by.constant(False)
 
     def quiet(self) -> str:
         """Where nothing that is executed has effects."""
@@ -168,10 +172,9 @@ class Claims:
         """What holds of a decision before any effect: preconditions, what excludes each other, reaction rules."""
         loop, model, found = self.model.loop, self.model, []
         for cases in loop.cases:
-            rules = model.rules_with(cases[0])
-            if rules:
+            if model.rules_with(cases[0]):
                 possible = self.any(self.now(preconditions(loop.actions[case])) for case in cases)
-                found.append(self._implied(self.language.rule_is(rules), possible))
+                found.append(self.implied(self.decides(cases[0]), possible))
         for first, second in loop.excluded:
             both = self.all([f"executed_{model.actions[first]}", f"executed_{model.actions[second]}"])
             found.append(self.language.by.negation(both))
@@ -181,7 +184,7 @@ class Claims:
         """What holds after each effect; with starts, that the next decision is there, too."""
         rules = [self.now(each.rule) for each in self.model.loop.required]
         kept = [
-            self._implied(f"kept_{number}", rule) if number in self.kept else rule for number, rule in enumerate(rules)
+            self.implied(f"kept_{number}", rule) if number in self.kept else rule for number, rule in enumerate(rules)
         ]
         return kept if self.model.loop.starts is None else [*kept, self.language.decided]
 
@@ -190,12 +193,12 @@ class Claims:
         if not self.model.loop.preconditions_last:
             return []
         entries = zip(self.model.actions, self.model.loop.actions, strict=True)
-        return [self._implied(f"waiting_{name}", self.now(lasting(action))) for name, action in entries]
+        return [self.implied(f"waiting_{name}", self.now(lasting(action))) for name, action in entries]
 
     def met(self, safe: str) -> list[str]:
         """What holds where the goals of a run are reached; `safe` is the name for safe states."""
         goals = [
-            self._implied(f"active_{number}", self._printed(goal.body, "first"))
+            self.implied(f"active_{number}", self._printed(goal.body, "first"))
             for number, goal in enumerate(self.model.loop.goals)
         ]
         return [*goals, safe] if self.model.loop.several_steps else goals
@@ -204,7 +207,8 @@ class Claims:
         """Whether a nominal run has anything to reach."""
         return bool(self.model.loop.goals) or self.model.loop.several_steps
 
-    def _implied(self, condition: str, then: str) -> str:
+    def implied(self, condition: str, then: str) -> str:
+        """A condition and what follows from it."""
         return self.language.by.disjunction([self.language.by.negation(condition), then])
 
     def _printed(self, formula: Formula, executing: str) -> str:

@@ -35,6 +35,7 @@ TARGETS: Final = {
     "btcpp": Target("a tree for BehaviorTree.CPP 4", "amr.xml"),
     "nusmv": Target("a model for NuSMV, with its claims", "amr.smv"),
     "promela": Target("a model for SPIN, with its claims", "amr.pml"),
+    "tlaplus": Target("a module of TLA+, with its claims", "amr.tla", beside=(".cfg",)),
     "prism": Target("a model for PRISM and Storm, with its claims", "amr.prism", beside=(".props",)),
     "coq": Target("a theorem for Coq", "amr.v"),
 }
