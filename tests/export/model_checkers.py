@@ -7,7 +7,8 @@ import os
 import re
 import shutil
 import subprocess
-from collections.abc import Callable, Sequence
+import sys
+from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -31,31 +32,40 @@ with init_nusmv():
 """Commands of NuSMV through the Python package `pynusmv`, of which there are wheels for Python 3.6."""
 
 
+PYNUSMV = Path(sys.prefix) / "pynusmv"
+"""Where `tests.export.install` puts that package and what it needs; `TUMATO_PYNUSMV` names another folder."""
+
+
 @cache
 def nusmv() -> tuple[str, ...] | None:
     """How NuSMV is called with a file of commands."""
     for name in ("NuSMV", "nusmv"):
         if shutil.which(name):
             return name, "-source"
+    for python in pythons_for_nusmv():
+        asked = subprocess.run([python, "-c", "import pynusmv"], capture_output=True, check=False, env=_plain())
+        if asked.returncode == 0:
+            return python, "-c", _BY_PYTHON, "-source"
+    return None
+
+
+def pythons_for_nusmv() -> Iterator[str]:
+    """Every Python 3.6 that is found here and runs."""
     versions = Path(os.environ.get("PYENV_ROOT", Path.home() / ".pyenv")) / "versions"
     for python in (shutil.which("python3.6"), *map(str, versions.glob("3.6.*/bin/python"))):
-        if python is not None:
-            asked = subprocess.run([python, "-c", "import pynusmv"], capture_output=True, check=False, env=_plain())
-            if asked.returncode == 0:
-                return python, "-c", _BY_PYTHON, "-source"
-    return None
+        if python and subprocess.run([python, "-c", "pass"], capture_output=True, check=False).returncode == 0:
+            yield python
 
 
 def _plain() -> dict[str, str]:
     """The environment for another Python, which has its own packages."""
     kept = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
-    path = os.environ.get("TUMATO_PYNUSMV")
-    return kept if path is None else {**kept, "PYTHONPATH": path}
+    return {**kept, "PYTHONPATH": os.environ.get("TUMATO_PYNUSMV", str(PYNUSMV))}
 
 
 needs_nusmv = pytest.mark.skipif(
     nusmv() is None,
-    reason="there is no NuSMV, and no Python 3.6 with pynusmv (TUMATO_PYNUSMV is its folder): no model is checked",
+    reason="there is no NuSMV, and no Python 3.6 with pynusmv (`make tools`; TUMATO_PYNUSMV names its folder)",
 )
 
 
