@@ -1,0 +1,1 @@
+autocmd BufRead,BufNewFile *.tum,*.tmt setfiletype tumato
