@@ -6,7 +6,8 @@ from collections.abc import Hashable, Sequence
 from typing import Generic, TypeVar
 
 from tumato_symbolic.diagrams import DiagramBuilder, Reference
-from tumato_symbolic.symbolic.encoding import Encoding, number_bits
+from tumato_symbolic.symbolic.encoding import Encoding
+from tumato_symbolic.symbolic.layout import number_bits
 from tumato_symbolic.symbolic.manager import Bdd
 
 Value = TypeVar("Value", bound=Hashable)
