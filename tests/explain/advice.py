@@ -33,7 +33,7 @@ from tumato_symbolic.explain.explanation import Change, Explanation, Repair
 from tumato_symbolic.explain.writing import with_assumption, with_starts
 from tumato_symbolic.limits import Context, Limits
 from tumato_symbolic.report.explained import Explained, as_text
-from tumato_symbolic.semantics import State, all_states, count_states, holds, is_start, is_valid
+from tumato_symbolic.semantics import State, active_goals, all_states, count_states, holds, is_start, is_valid
 from tumato_symbolic.semantics.lint import lint
 from tumato_symbolic.spec import (
     TRUE,
@@ -142,11 +142,19 @@ def other_ways(spec: Spec) -> Iterator[Spec]:
         for value in range(len(declared.values)):
             new = Action("new", 0, frozenset(), (), ((variable, value),), (), NOWHERE)
             yield replace(spec, actions=(*spec.actions, new))
-            if variable in spec.environment and spec.goals is not None:
+            if variable in spec.environment and spec.goals is not None and not _silences(spec, variable, value):
                 condition = Rule(Is(variable, value), "", NOWHERE)
                 free = ConditionalGoal(condition, SimpleGoal(len(spec.bodies), NOWHERE), NOWHERE)
                 goals = GoalList("priority", (free, spec.goals), NOWHERE)
                 yield replace(spec, goals=goals, bodies=(*spec.bodies, Rule(TRUE, "true", NOWHERE)))
+
+
+def _silences(spec: Spec, variable: int, value: int) -> bool:
+    """Whether some goal is active only where a variable has a value: to have none there gives it up."""
+    valid = [state for state in all_states(spec) if is_valid(spec, state)]
+    asked = frozenset[int]().union(*(active_goals(spec, state) for state in valid))
+    left = frozenset[int]().union(*(active_goals(spec, state) for state in valid if state[variable] != value))
+    return left < asked
 
 
 def _bad_part(spec: Spec, text: str, assumption: str, report: str) -> Iterator[str]:

@@ -19,13 +19,16 @@ from tumato_symbolic.explain.explanation import Explanation, Reason, Repair
 from tumato_symbolic.report.possible_changes import added_lines
 from tumato_symbolic.semantics import State, all_states, allowed_sets, is_valid
 from tumato_symbolic.spec import (
+    FORMULAS,
     And,
+    Executing,
     Formula,
     Is,
     Or,
     Ordering,
     Rule,
     Spec,
+    fold,
 )
 
 SAMPLED = 4
@@ -198,7 +201,19 @@ def read_predicate(spec: Spec, text: str) -> Formula:
         f"BEGIN STATE VECTOR {variables} END STATE VECTOR BEGIN ACTIONS {actions} END ACTIONS "
         f"BEGIN REACTION RULES rule: {text} END REACTION RULES"
     )
-    return read.reaction_rules[0].formula
+    return _by_cases(spec, read.reaction_rules[0].formula)
+
+
+def _by_cases(spec: Spec, formula: Formula) -> Formula:
+    """A formula of a rule that numbers actions, with one of their cases instead."""
+
+    def atom(atom: Is | Executing) -> Formula:
+        if isinstance(atom, Is):
+            return atom
+        cases = tuple(map(Executing, spec.cases[atom.action]))
+        return Or(cases) if len(cases) > 1 else cases[0]
+
+    return fold(formula, atom, FORMULAS)
 
 
 def _wrong_part(explanation: Explanation) -> Iterator[str]:

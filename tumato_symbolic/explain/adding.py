@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import islice
+from itertools import combinations, islice
 
 from tumato_symbolic.explain.additions import (
     Addition,
@@ -28,6 +28,10 @@ MOST_ACTIONS = 8
 
 MOST_ADDED = 5
 """A repair that adds more is of no practical use."""
+
+PAIR = 2
+MOST_PAIRED = 5
+"""Where additions that are found one by one are none, or more than two, every two of so many actions are tried."""
 
 _SETTINGS: dict[Restoration, tuple[Setting, ...]] = {
     "one_step": (Setting("bounded"), Setting("fair")),
@@ -98,7 +102,7 @@ def single_additions(trouble: Trouble, joint: Iterable[Assignment]) -> Iterator[
     yield from _serving(trouble, map(_alone, settings(spec)))
     known = {action.nominal for action in spec.actions}
     actions = (_new_action(trouble, each, states) for each in joint)
-    tried = [*actions, *_robots_own(spec, missing_actions(trouble, states))]
+    tried = [*actions, *_robots_own(spec, (*missing_actions(trouble, states), *unhelpful_actions(trouble, states)))]
     tried = [action for action in tried if action.effects not in known][:MOST_ACTIONS]
     for additions in _serving(trouble, map(_alone, tried)):
         yield narrowed(trouble, additions)
@@ -120,6 +124,14 @@ def composed(trouble: Trouble, *, environment: bool) -> tuple[Addition, ...] | N
 
     `environment`: also actions for variables that no action controls.
     """
+    found = _needed_together(trouble, environment)
+    if found is None or len(found) > PAIR:
+        found = _pair(trouble, environment) or found
+    return None if found is None else narrowed(trouble, found)
+
+
+def _needed_together(trouble: Trouble, environment: bool) -> tuple[Addition, ...] | None:
+    """Additions that were found one after the other, without those that are not needed."""
     for start in ((), *map(_alone, settings(trouble.spec))):
         additions = _composed(trouble, start, environment)
         if additions is None:
@@ -128,8 +140,18 @@ def composed(trouble: Trouble, *, environment: bool) -> tuple[Addition, ...] | N
             fewer = tuple(other for other in additions if other is not each)
             if _serve(trouble, map(_anywhere, fewer)):
                 additions = fewer
-        return narrowed(trouble, additions)
+        return additions
     return None
+
+
+def _pair(trouble: Trouble, environment: bool) -> tuple[Addition, ...] | None:
+    """The first two of a few actions, and goals that give way, that serve together; None where none do."""
+    missing = missing_actions(trouble, trouble.states)
+    actions = islice(missing if environment else _robots_own(trouble.spec, missing), MOST_PAIRED)
+    free = goals_that_give_way(trouble)
+    candidates: list[Addition] = [*actions, *([] if free is None else [free])]
+    pairs = combinations(candidates, PAIR)
+    return next((each for each in pairs if _serve(trouble, map(_anywhere, each))), None)
 
 
 def _composed(trouble: Trouble, additions: tuple[Addition, ...], environment: bool) -> tuple[Addition, ...] | None:
@@ -160,7 +182,8 @@ def derived(requirements: Requirements, spec: Spec) -> Requirements:
 def missing_actions(trouble: Trouble, states: Bdd) -> Iterator[NewAction]:
     """For each variable an action that sets it to the value that leads most of some states to where these do not lead.
 
-    Those of the environment come last. Of values that do as much, one that some action sets alone comes first.
+    Those of the environment come last; then the other values. Of values that do as much, one that leads to safe states
+    comes first, then one that some action sets alone.
     """
     spec, encoding = trouble.spec, trouble.requirements.encoding
     alone = {action.nominal for action in spec.actions}
@@ -170,19 +193,35 @@ def missing_actions(trouble: Trouble, states: Bdd) -> Iterator[NewAction]:
             effects = ((variable, value),)
             count = encoding.count_states(_helped(trouble, effects, states))
             if count:
-                ranked.append((variable in spec.environment, -count, effects not in alone, variable, value))
-    seen = set()
+                safely = encoding.count_states(_helped(trouble, effects, states, safely=True))
+                ranked.append((variable in spec.environment, -count, -safely, effects not in alone, variable, value))
+    first, others = dict[int, int](), list[tuple[int, int]]()
     for *_, variable, value in sorted(ranked):
-        if variable not in seen:
-            seen.add(variable)
-            yield _new_action(trouble, ((variable, value),), states)
+        if variable in first:
+            others.append((variable, value))
+        else:
+            first[variable] = value
+    for effect in (*first.items(), *others):
+        yield _new_action(trouble, (effect,), states)
 
 
-def _helped(trouble: Trouble, effects: Assignment, states: Bdd) -> Bdd:
-    """Those of some states that effects lead to a state that none of them is, and that is safe where it has to be."""
+def unhelpful_actions(trouble: Trouble, states: Bdd) -> Iterator[NewAction]:
+    """The actions that set one variable and help none of some states at once: perhaps later, on the way to a goal."""
+    for variable, declared in enumerate(trouble.spec.variables):
+        for value in range(len(declared.values)):
+            effects = ((variable, value),)
+            if _helped(trouble, effects, states) == trouble.requirements.false:
+                yield NewAction(None, effects)
+
+
+def _helped(trouble: Trouble, effects: Assignment, states: Bdd, *, safely: bool = False) -> Bdd:
+    """Those of some states that effects lead to a state that none of them is, and that is safe where it has to be.
+
+    `safely`: to a safe one, be that needed or not.
+    """
     requirements = trouble.requirements
     steps = requirements.steps(requirements.everything)
-    good = (steps.valid if trouble.spec.restores_stepwise else steps.safe) & ~states
+    good = (steps.valid if trouble.spec.restores_stepwise and not safely else steps.safe) & ~states
     return states & requirements.manager.cofactor(good, requirements.encoding.assignment_bits(effects))
 
 
