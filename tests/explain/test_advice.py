@@ -13,9 +13,11 @@ from tests.explain.advice import (
     UNRELATED,
     UNSAID,
     USELESS,
+    Form,
     bad_advice,
     examine_generated,
     examine_text,
+    generated_text,
 )
 from tests.explain.oracle import repaired
 from tests.explain.robots import BRAKE, FORKLIFT, NEAR, ROBOTS, TAUT, battery
@@ -208,3 +210,44 @@ def test_a_long_core_has_few_repairs() -> None:
     found = _explained(battery(12))
     assert not any(repair.gives_up_safety for repair in found.repairs)
     assert all(len(repair.changes) <= 1 for repair in found.repairs)
+
+
+THREE_OBSTACLES = """\
+BEGIN STATE VECTOR
+state Human can be away, here
+state Door can be open, shut
+state Place can be dock, hall, rack, pit
+END STATE VECTOR
+BEGIN ACTIONS
+action out
+preconditions: Place is dock
+nominal effects: Place is hall
+action go
+preconditions: Human is away, Door is open, Place is hall
+nominal effects: Place is rack
+END ACTIONS
+BEGIN GOALS
+goal type: priority
+goal: Place is rack
+END GOALS
+"""
+
+
+def test_what_is_added_together_comes_before_many_lines_that_are_dropped() -> None:
+    """People and a door are waited for, and the robot gets out of the pit."""
+    first = _explained(THREE_OBSTACLES).repairs[0]
+    assert not first.changes
+    assert {type(each) for each in first.additions} == {NewAction, NoGoalWhile}
+
+
+def test_an_action_that_helps_only_later_is_tried() -> None:
+    """It serves the goal from where safety is restored, and leads from no failing state to one that does not fail."""
+    found = _explained(generated_text(7125, "clauses"))
+    assert not any(repair.gives_up_safety for repair in found.repairs)
+    assert found.repairs[0].additions == (NewAction(None, ((0, 1),)),)
+
+
+@pytest.mark.parametrize(("seed", "form"), [(7018, "clauses"), (7136, "clauses"), (7280, "starts")])
+def test_advice_on_clauses_and_starts(seed: int, form: Form) -> None:
+    """Seeds of the campaign on which something was wrong once, in the advice or in what judges it."""
+    assert examine_generated(seed, form) == []

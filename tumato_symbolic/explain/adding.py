@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations, islice
+from typing import TypeAlias
 
 from tumato_symbolic.explain.additions import (
     Addition,
@@ -32,6 +33,9 @@ MOST_ADDED = 5
 PAIR = 2
 MOST_PAIRED = 5
 """Where additions that are found one by one are none, or more than two, every two of so many actions are tried."""
+
+Among: TypeAlias = Callable[[Spec, Iterable[NewAction]], Iterator[NewAction]]
+"""Those of some actions that may be added to a specification."""
 
 _SETTINGS: dict[Restoration, tuple[Setting, ...]] = {
     "one_step": (Setting("bounded"), Setting("fair")),
@@ -100,10 +104,9 @@ def single_additions(trouble: Trouble, joint: Iterable[Assignment]) -> Iterator[
     """
     spec, states = trouble.spec, trouble.states
     yield from _serving(trouble, map(_alone, settings(spec)))
-    known = {action.nominal for action in spec.actions}
     actions = (_new_action(trouble, each, states) for each in joint)
-    tried = [*actions, *_robots_own(spec, (*missing_actions(trouble, states), *unhelpful_actions(trouble, states)))]
-    tried = [action for action in tried if action.effects not in known][:MOST_ACTIONS]
+    tried = [*actions, *robots_own(spec, (*missing_actions(trouble, states), *unhelpful_actions(trouble, states)))]
+    tried = [*_others_than(spec, tried)][:MOST_ACTIONS]
     for additions in _serving(trouble, map(_alone, tried)):
         yield narrowed(trouble, additions)
     free = goals_that_give_way(trouble)
@@ -119,21 +122,21 @@ def controlling_the_environment(trouble: Trouble) -> Iterator[tuple[Addition, ..
         yield narrowed(trouble, additions)
 
 
-def composed(trouble: Trouble, *, environment: bool) -> tuple[Addition, ...] | None:
+def composed(trouble: Trouble, among: Among) -> tuple[Addition, ...] | None:
     """Several additions that serve together, of which none can be left out; None where none are found.
 
-    `environment`: also actions for variables that no action controls.
+    `among` are the actions that may be added.
     """
-    found = _needed_together(trouble, environment)
+    found = _needed_together(trouble, among)
     if found is None or len(found) > PAIR:
-        found = _pair(trouble, environment) or found
+        found = _pair(trouble, among) or found
     return None if found is None else narrowed(trouble, found)
 
 
-def _needed_together(trouble: Trouble, environment: bool) -> tuple[Addition, ...] | None:
+def _needed_together(trouble: Trouble, among: Among) -> tuple[Addition, ...] | None:
     """Additions that were found one after the other, without those that are not needed."""
     for start in ((), *map(_alone, settings(trouble.spec))):
-        additions = _composed(trouble, start, environment)
+        additions = _composed(trouble, start, among)
         if additions is None:
             continue
         for each in reversed(additions):
@@ -144,17 +147,15 @@ def _needed_together(trouble: Trouble, environment: bool) -> tuple[Addition, ...
     return None
 
 
-def _pair(trouble: Trouble, environment: bool) -> tuple[Addition, ...] | None:
+def _pair(trouble: Trouble, among: Among) -> tuple[Addition, ...] | None:
     """The first two of a few actions, and goals that give way, that serve together; None where none do."""
-    missing = missing_actions(trouble, trouble.states)
-    actions = islice(missing if environment else _robots_own(trouble.spec, missing), MOST_PAIRED)
-    free = goals_that_give_way(trouble)
-    candidates: list[Addition] = [*actions, *([] if free is None else [free])]
+    actions = islice(among(trouble.spec, missing_actions(trouble, trouble.states)), MOST_PAIRED)
+    candidates: list[Addition] = [*values_that_take_goals(trouble), *actions]
     pairs = combinations(candidates, PAIR)
     return next((each for each in pairs if _serve(trouble, map(_anywhere, each))), None)
 
 
-def _composed(trouble: Trouble, additions: tuple[Addition, ...], environment: bool) -> tuple[Addition, ...] | None:
+def _composed(trouble: Trouble, additions: tuple[Addition, ...], among: Among) -> tuple[Addition, ...] | None:
     """Some additions and more that serve with them: first what restores safety, then what reaches the goals."""
     original = trouble.requirements
     while True:
@@ -168,7 +169,7 @@ def _composed(trouble: Trouble, additions: tuple[Addition, ...], environment: bo
         more: Addition | None = None if unrestored else goals_that_give_way(here)
         if more is None:
             missing = missing_actions(here, here.unrestored if unrestored else here.states)
-            more = next(missing if environment else _robots_own(spec, missing), None)
+            more = next(among(spec, missing), None)
         if more is None:
             return None
         additions = (*additions, more)
@@ -243,7 +244,24 @@ def _condition(trouble: Trouble, effects: Assignment, states: Bdd) -> StateCube 
     return None if condition == every_state(spec) else condition
 
 
-def _robots_own(spec: Spec, actions: Iterable[NewAction]) -> Iterator[NewAction]:
+def _others_than(spec: Spec, actions: Iterable[NewAction]) -> Iterator[NewAction]:
+    """The actions with other effects than all that are there: to change one of these would say the same."""
+    known = {action.nominal for action in spec.actions}
+    return (action for action in actions if action.effects not in known)
+
+
+def robots_new(spec: Spec, actions: Iterable[NewAction]) -> Iterator[NewAction]:
+    """Those of its own with other effects than all actions that it has."""
+    return _others_than(spec, robots_own(spec, actions))
+
+
+def any_action(_: Spec, actions: Iterable[NewAction]) -> Iterator[NewAction]:
+    """All of them, those for variables that no action controls too."""
+    return iter(actions)
+
+
+def robots_own(spec: Spec, actions: Iterable[NewAction]) -> Iterator[NewAction]:
+    """Those that set no variable that no action controls."""
     return (action for action in actions if not environment_of(spec, action))
 
 
@@ -267,12 +285,16 @@ def goals_that_give_way(trouble: Trouble) -> NoGoalWhile | None:
         for variable in sorted(spec.environment)
         for value in range(len(spec.variables[variable].values))
     }
+
+    def share(some: Bdd, states: Bdd) -> float:
+        return encoding.count_states(some) / encoding.count_states(states)
+
     chosen: list[tuple[int, int]] = []
     while left != false:
         shares = {
-            literal: encoding.count_states(covered) / encoding.count_states(states)
+            literal: (share(states & left, states), share(states & trouble.failing.no_plan, states))
             for literal, states in literals.items()
-            if (covered := left & states) != false
+            if states & left != false
         }
         if not shares:
             return None
@@ -283,6 +305,22 @@ def goals_that_give_way(trouble: Trouble) -> NoGoalWhile | None:
         return None
     variables = sorted({variable for variable, _ in chosen})
     return NoGoalWhile(tuple((each, tuple(sorted(value for v, value in chosen if v == each))) for each in variables))
+
+
+def values_that_take_goals(trouble: Trouble) -> Iterator[NoGoalWhile]:
+    """For each variable of the environment, the value of whose states most have no plan: no goal need be met then.
+
+    Not where some goal would never be active. Those that cover only some of the states without a plan are told too.
+    """
+    requirements, count = trouble.requirements, trouble.requirements.encoding.count_states
+    for variable in sorted(trouble.spec.environment):
+        shares = {}
+        for value in range(len(trouble.spec.variables[variable].values)):
+            states = requirements.encoding.value(variable, value) & requirements.valid
+            if states & trouble.failing.no_plan != requirements.false and not _silences_a_goal(requirements, states):
+                shares[value] = count(states & trouble.failing.no_plan) / count(states)
+        if shares:
+            yield NoGoalWhile(((variable, (max(shares, key=lambda value: (shares[value], -value)),)),))
 
 
 def _silences_a_goal(requirements: Requirements, states: Bdd) -> bool:

@@ -9,9 +9,12 @@ from typing import Literal, TypeAlias
 
 from tumato_symbolic.explain.adding import (
     Trouble,
+    any_action,
     composed,
     controlling_the_environment,
     derived,
+    robots_new,
+    robots_own,
     settings,
     single_additions,
 )
@@ -85,7 +88,12 @@ def _keeping_rules(work: Work, found: Explanation) -> Iterator[Explanation]:
         yield (found := _with(found, Repair(additions=additions)))
     if found.unavoidable is None and serves_without(requirements, harmless(requirements)):
         search = Search(work.oracle, (frozenset(each.core) for each in found.reasons), harmless(requirements))
-        for known in _searched(work, found, search, requirements):
+        dropped = search.next()
+        if not found.repairs and (dropped is None or len(dropped) > MOST_LINES):
+            work.context.tell("repairs: trying what could be added together")
+            if (together := composed(trouble, robots_new)) is not None:
+                yield (found := _with(found, Repair(additions=together)))
+        for known in _searched(work, found, search, requirements, first=dropped):
             yield (found := known)
     elif found.unavoidable is None:
         yield (found := replace(found, repairs_complete=True))
@@ -95,7 +103,7 @@ def _keeping_rules(work: Work, found: Explanation) -> Iterator[Explanation]:
     for additions in controlling_the_environment(trouble):
         yield (found := _with(found, Repair(additions=additions)))
         return
-    together = composed(trouble, environment=False)
+    together = composed(trouble, robots_own)
     if together is not None:
         yield _with(found, Repair(additions=together))
         return
@@ -105,7 +113,7 @@ def _keeping_rules(work: Work, found: Explanation) -> Iterator[Explanation]:
             search = Search(FailingStates(other), (), harmless(other))
             yield from _searched(work, found, search, other, (setting,))
             return
-    together = composed(trouble, environment=True)
+    together = composed(trouble, any_action)
     if together is not None:
         yield _with(found, Repair(additions=together))
 
@@ -128,13 +136,18 @@ def _searched(
     search: Search,
     requirements: Requirements,
     additions: tuple[Addition, ...] = (),
+    *,
+    first: Elements | None = None,
 ) -> Iterator[Explanation]:
-    """The repairs of a search beside some additions, as many as are wanted; one at least, where there is one."""
+    """The repairs of a search beside some additions, as many as are wanted; one at least, where there is one.
+
+    `first` is what the search has found by now.
+    """
     number, wanted = 0, work.wanted_repairs
     while wanted == "all" or number < wanted:
         number += 1
         work.context.tell(f"repairs: {number}" if wanted == "all" else f"repairs: {number} of {wanted}")
-        dropped = search.next()
+        dropped, first = (search.next(), None) if first is None else (first, None)
         if dropped is None and not found.repairs and not search.complete:
             dropped, number = search.any_repair(), ROUNDS
         if dropped is None:
