@@ -128,7 +128,13 @@ def storm_verdicts(models: Sequence[tuple[str, ...]], folder: Path) -> list[dict
         program = stormpy.parse_prism_program(str(folder / "model.prism"))
         claims = stormpy.parse_properties(properties, program)
         model = stormpy.build_model(program, claims)
-        found.append({claim.get_name(): stormpy.model_checking(model, claim).forall_true() for claim in claims})
+        first = stormpy.create_filter_initial_states(model)
+        verdicts = {}
+        for claim in claims:
+            result = stormpy.model_checking(model, claim)
+            result.filter(first)
+            verdicts[claim.get_name()] = result.forall_true()
+        found.append(verdicts)
     return found
 
 
