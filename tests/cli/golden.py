@@ -60,7 +60,7 @@ CASES = (
     Case("help", "tumato-sym --help"),
     *(Case(f"explain-{variant.name}", f"tumato-sym explain {variant.name}.tum") for variant in VARIANTS),
     Case("explain-two-robots", "tumato-sym explain two_robots.tum"),
-    Case("explain-grid5", "tumato-sym explain grid5.tum --write assumed.tum"),
+    Case("explain-grid5", "tumato-sym explain grid5.tum --write assumed.tum --timeout 1000"),
     Case("explain-conflict", "tumato-sym explain conflict.tum"),
     Case("explain-conflict-json", "tumato-sym explain conflict.tum --output-format json"),
     Case("explain-json", "tumato-sym explain alternative_too_many.tum --output-format json --cores 2"),
