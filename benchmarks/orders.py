@@ -73,7 +73,7 @@ def _declared(text: str, seed: int | None) -> Spec:
 
 def measured(spec: Spec, chosen: Order) -> str:
     """Processor seconds and nodes of one synthesis."""
-    with patch("tumato_symbolic.symbolic.encoding.variable_order", chosen):
+    with patch("tumato_symbolic.symbolic.layout.variable_order", chosen):
         began = time.process_time()
         outcome = synthesize(spec, policy_format="diagram", context=Context(Limits(LIMIT)))
         seconds = time.process_time() - began

@@ -114,9 +114,9 @@ def _policy(policy: Policy, text: str) -> dict[str, object]:
 
 def _allowed_sets(spec: Spec) -> int:
     """How many sets of actions are allowed in some state."""
-    from tumato_symbolic.symbolic import available_backend, build_steps, encode
+    from tumato_symbolic.symbolic import available_backend, build_steps, lay_out
 
-    steps = build_steps(encode(spec, available_backend()), spec.ordering)
+    steps = build_steps(lay_out(spec, available_backend()), spec, spec.ordering)
     encoding = steps.encoding
     sets = encoding.manager.exists(encoding.all_state_bits, steps.allowed)
     return encoding.manager.count(sets, encoding.all_choice_bits)

@@ -56,8 +56,8 @@ Effort = tuple[int, int]  # the duration and the number of steps of what it take
 LARGEST = 2_000_000  # so many states, sets or outcomes in one state, assignments of one set of effects are looked at
 
 # Limits of specifications (docs/language.md) and of the files beside them (docs/policy.md).
-MOST_BYTES, MOST_FILE_BYTES, MOST_DIGITS, MOST_LEVELS = 2_000_000, 256 * 2**20, 18, 100
-MOST_VARIABLES, MOST_VALUES, MOST_ACTIONS, LARGEST_NUMBER = 1_000, 10_000, 10_000, 1_000_000_000
+MOST_BYTES, MOST_FILE_BYTES, MOST_DIGITS, MOST_LEVELS = 500_000, 256 * 2**20, 18, 100
+MOST_VARIABLES, MOST_VALUES, MOST_ACTIONS, LARGEST_NUMBER = 1_000, 10_000, 1_000, 1_000_000_000
 MOST_TERMS, MOST_TERMS_IN_ALL, MOST_OUTCOMES = 100_000, 1_000_000, 10_000
 MOST_VALUES_IN_ALL, MOST_COMBINATIONS, MOST_ENTRIES = 1_000_000, 1_000_000, 100_000
 
@@ -1556,6 +1556,7 @@ def read_table(document: dict[str, Any], spec: Specification) -> dict[State, Act
         need(isinstance(row, dict), f"row {number} is not an object")
         need(set(row) == {*spec.variables, "Actions"}, f"row {number} does not hold just the variables and `Actions`")
         for variable, values in spec.variables.items():
+            row[variable] = as_written(row[variable])
             need(row[variable] in values, f"row {number}: `{variable}` has no value {row[variable]!r}")
         need(is_texts(row["Actions"]), f"row {number}: `Actions` is a list of names")
         need(set(row["Actions"]) <= set(actions), f"row {number} has an unknown action")
@@ -1663,6 +1664,11 @@ def distinct_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     """An object whose keys all differ."""
     need(len({key for key, _ in pairs}) == len(pairs), "a key comes twice in one object")
     return dict(pairs)
+
+
+def as_written(value: Any) -> Any:
+    """A value of a variable as the specification writes it; in JSON a number may be a number."""
+    return str(value) if type(value) is int else value
 
 
 def is_texts(value: Any) -> bool:
@@ -2314,6 +2320,7 @@ def check_cubes(world: World, cubes: Any, states: set[State], title: str) -> Non
         return
     need(isinstance(cubes, list) and all(isinstance(cube, dict) for cube in cubes), "`Cubes` is a list of objects")
     for cube in cubes:
+        cube.update((name, [*map(as_written, values)]) for name, values in cube.items() if isinstance(values, list))
         known = set(cube) <= set(world.spec.variables) and all(map(is_names, cube.values()))
         known = known and all(set(values) <= set(world.spec.variables[name]) for name, values in cube.items())
         need(known, "a cube has an unknown variable or value")
@@ -2401,9 +2408,10 @@ def read_effect(section: dict[str, Any], key: str, spec: Specification) -> Effec
     need(
         isinstance(value, dict) and set(value) <= set(spec.variables), f"`{key}` is an object from variables to values"
     )
-    for name, text in value.items():
+    texts = {name: as_written(each) for name, each in value.items()}
+    for name, text in texts.items():
         need(isinstance(text, str) and text in spec.variables[name], f"`{key}`: `{name}` has no value {text!r}")
-    return {list(spec.variables).index(name): text for name, text in value.items()}
+    return {list(spec.variables).index(name): text for name, text in texts.items()}
 
 
 def read_state(section: dict[str, Any], key: str, spec: Specification) -> State:

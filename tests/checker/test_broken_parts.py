@@ -24,7 +24,7 @@ BROKEN: list[tuple[str, str, object, str]] = [
     ("cubes", "State", {"P": "b", "Q": "b"}, "`State` is an object from variables to values"),
     ("cubes", "State", {}, "`State` has not a value for every variable"),
     ("cubes", "State P", "z", "`State`: `P` has no value 'z'"),
-    ("cubes", "State P", 1, "`State`: `P` has no value 1"),
+    ("cubes", "State P", 1, "`State`: `P` has no value '1'"),
     ("cubes", "State P", ["b"], "`State`: `P` has no value ['b']"),
     ("cubes", "Cubes 0 Executed", GONE, "`Executed` is a list of different names"),
     ("cubes", "Cubes 0 Executed", "bc", "`Executed` is a list of different names"),

@@ -111,7 +111,7 @@ def test_unreadable_certificates_are_2(cli: Cli, tmp_path: Path) -> None:
     (tmp_path / "broken.json").write_text('{"Type": "unrealizable"}')
     broken = cli("verify", "broken.json", "no_plan.tum")
     assert broken.code == 2
-    assert "the certificate has no `Actions`" in broken.err
+    assert "the certificate has no `SpecificationDigest`" in broken.err
 
 
 def test_github_shows_one_command(cli: Cli) -> None:

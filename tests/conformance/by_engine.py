@@ -224,7 +224,7 @@ class Bdd:
 
     @lru_cache(maxsize=REMEMBERED)  # noqa: B019 - there is one engine of each backend
     def _steps(self, spec: Spec, ordering: Ordering) -> Steps:
-        return build_steps(self._encoding(spec), ordering)
+        return build_steps(self._encoding(spec), spec, ordering)
 
     @lru_cache(maxsize=REMEMBERED)  # noqa: B019 - as above
     def _encoding(self, spec: Spec) -> Encoding:

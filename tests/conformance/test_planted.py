@@ -35,11 +35,12 @@ from tumato_symbolic.semantics import goals as explicit_goals
 from tumato_symbolic.semantics import step as explicit_step
 from tumato_symbolic.semantics.guarantees import Step as ExplicitStep
 from tumato_symbolic.spec import Action, GoalList, Spec
+from tumato_symbolic.symbolic import Encoding
 from tumato_symbolic.symbolic import goals as symbolic_goals
 from tumato_symbolic.symbolic import steps as symbolic_steps
-from tumato_symbolic.symbolic.encoding import Encoding, Group
+from tumato_symbolic.symbolic.layout import Group
 from tumato_symbolic.symbolic.manager import Bdd as Set
-from tumato_symbolic.synthesis import starts
+from tumato_symbolic.synthesis import parts
 from tumato_symbolic.verify.by_diagrams.closed_loop import ClosedLoop
 from tumato_symbolic.verify.by_diagrams.efforts import WalkEfforts
 from tumato_symbolic.verify.by_diagrams.goals import WalkGoals
@@ -279,7 +280,7 @@ BUGS = (
         lambda engine: starting.test_no_outcome_of_a_decision_is_undecided(engine, "any")),
     Bug("12.3", "invalid states may be decided", Checker, checker.World, "every_state", lambda _: _valid_states,
         lambda engine: starting.test_every_start_is_decided_and_only_valid_states_are(engine, "first")),
-    Bug("12.4", "steps may leave the part", lambda: Bdd("autoref"), starts, "_within", _open,
+    Bug("12.4", "steps may leave the part", lambda: Bdd("autoref"), parts, "_within", _open,
         lambda engine: starting.test_the_greatest_part_is_decided(engine, "any")),
 )  # fmt: skip
 

@@ -6,7 +6,7 @@ import pytest
 
 from tests.generate import random_text
 from tumato_symbolic.diagnostics import Source
-from tumato_symbolic.editor.checking import edited
+from tumato_symbolic.editor.edits import edited
 from tumato_symbolic.editor.hover import hover
 from tumato_symbolic.editor.mentions import Symbol, index
 from tumato_symbolic.editor.renaming import CannotRenameError, rename
@@ -88,6 +88,7 @@ def test_a_renamed_specification_means_the_same(seed: int) -> None:
         ("S_Wind can", "S_Tank", "in use already"),
         ("S_Wind can", "AND", "not a name"),
         ("S_Wind can", "a b", "not a name"),
+        ("S_Wind can", "true", "means something else"),
         ("BEGIN ACTIONS", "X", "no name here"),
     ],
 )

@@ -40,7 +40,7 @@ WRONG: Mapping[str, Mapping[State, ActionSet]] = {
     "a start is left out": {state: chosen for state, chosen in RIGHT.items() if state != (0, 0)},
     "an outcome is left out": {state: chosen for state, chosen in RIGHT.items() if state != (1, 1)},
     "a step leads out": {**RIGHT, (0, 0): SHORT},
-    "a state that is not valid is decided": {**RIGHT, (2, 1): frozenset()},
+    "a state that is not valid is decided": {**RIGHT, (2, 1): MEND},
     "a state that fails is decided as well": {**RIGHT, (0, 1): frozenset()},
     "a precondition does not hold": {**RIGHT, (1, 0): MEND},
     "a goal is missed": {**RIGHT, (1, 0): frozenset()},

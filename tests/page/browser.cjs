@@ -15,14 +15,14 @@ async function used(browser, { page: path, other }) {
   page.on("request", (request) => request.url().startsWith("file:") || seen.requests.push(request.url()));
   await page.goto(pathToFileURL(path).href);
   seen.painted = await page.evaluate(() => new Promise((done) => {
-    const paints = () => performance.getEntriesByType("paint").find((each) => each.name === "first-contentful-paint");
-    const look = () => (paints() ? done(paints().startTime) : setTimeout(look, 20));
+    const look = () => requestAnimationFrame(() => (document.querySelector("h1") ? done(performance.now()) : look()));
     look();
   }));
   seen.title = await page.textContent("h1");
   const text = (selector) => page.textContent(selector);
   if (!(await page.locator("#tab-table").count())) {
-    seen.check = await text("header > p:nth-of-type(2)");
+    await page.locator("header [role=status] p:not(:has-text('is looking'))").waitFor({ timeout: 60000 });
+    seen.check = await text("header [role=status]");
     seen.reasons = await text("#panel-reasons");
     const link = page.locator("#panel-reasons a.line").first();
     if (await link.count()) {
@@ -34,6 +34,7 @@ async function used(browser, { page: path, other }) {
   }
   await page.locator(".check p:not(:has-text('by now'))").first().waitFor({ timeout: 120000 });
   seen.check = await text(".check");
+  seen.decisions = await text(".decisions");
   seen.rows = await page.locator("#panel-table tbody tr").count();
   await page.locator(".variable .chip").first().click();
   seen.filtered = await text(".filter [role=status]");

@@ -8,6 +8,7 @@ import pytest
 
 from tests.cli.conftest import Cli, cli
 from tests.page.in_browser import missing, seen
+from tests.repo.documents import ROOT
 
 __all__ = ["cli"]
 
@@ -41,3 +42,16 @@ def test_pages_open_filter_step_and_compare(cli: Cli, tmp_path: Path) -> None:
     assert "tried all" in none["check"]
     assert "These lines together suffice" in none["reasons"]
     assert none["line"]
+
+
+@needs_browser
+def test_what_a_policy_leaves_out_is_shown(cli: Cli, tmp_path: Path) -> None:
+    """With starts: the states that are not decided are told from those where nothing is done."""
+    document = (ROOT / "docs" / "starts.md").read_text(encoding="utf-8")
+    (tmp_path / "tyre.tum").write_text(document.split("```tumato file=tyre.tum\n")[1].split("```")[0], encoding="utf-8")
+    assert cli("synth", "tyre.tum", "-o", "tyre.json", "--html", "tyre.html").code == 0
+    (tyre,) = seen([(tmp_path / "tyre.html", tmp_path / "tyre.json")])
+    assert (tyre["errors"], tyre["requests"]) == ([], [])
+    assert "checked 8 decisions" in tyre["check"]
+    assert "found nothing wrong" in tyre["check"]
+    assert "not decided 4" in tyre["decisions"]

@@ -57,13 +57,16 @@ def test_nesting_ends_at_a_hundred_levels(start: str, end: str) -> None:
 def test_rows_share_what_is_equal() -> None:
     """Equal names, texts and lists of rows are one object each; an object that is no row stays as it is."""
     rows: Any = parse_json(
-        '[{"S": "on", "Actions": ["a"]}, {"S": "on", "Actions": ["a"]}, {"S": 1, "Actions": ["a"]}]', "rows"
+        '[{"S": "on", "Actions": ["a"]}, {"S": "on", "Actions": ["a"]}, {"S": 1, "Actions": ["a"]},'
+        ' {"S": true, "Actions": ["a"]}, {"S": 1.0, "Actions": ["a"]}]',
+        "rows",
     )
-    one, other, odd = rows
+    one, other, number, *odd = rows
     assert one == other == Row(("S",), ("on",), ["a"])
     assert all(first is second for first, second in zip(one, other, strict=True) if type(first) is not tuple)
     assert one.names is other.names
-    assert odd == {"S": 1, "Actions": ["a"]}
+    assert number == Row(("S",), ("1",), ["a"])
+    assert [json.dumps(each) for each in odd] == ['{"S": true, "Actions": ["a"]}', '{"S": 1.0, "Actions": ["a"]}']
 
 
 @pytest.mark.parametrize("actions", ["", "a", {}, {"a": 1}, None, [["a"]], [1], 0])

@@ -12,7 +12,7 @@ from tumato_symbolic.symbolic import available_backend, build_steps, encode, reg
 def check_regions(spec: Spec) -> None:
     """Every valid state is in the region of its own `Γ`, and in no other."""
     encoding = encode(spec, available_backend())
-    found = regions(encoding, build_steps(encoding, "any").valid)
+    found = regions(encoding, build_steps(encoding, spec, "any").valid)
     for state in all_states(spec):
         homes = [active for active, states in found.items() if encoding.contains(states, state)]
         assert homes == ([active_goals(spec, state)] if is_valid(spec, state) else []), state

@@ -11,7 +11,7 @@ from tests.generate import ALL_PROFILES, random_spec
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.policy import Table
 from tumato_symbolic.spec import Spec, load
-from tumato_symbolic.symbolic import build_steps, encode, encoding
+from tumato_symbolic.symbolic import build_steps, encode, lay_out, layout
 from tumato_symbolic.symbolic.order import variable_order
 from tumato_symbolic.synthesis import Realizable, SynthesisResult, Undecided, Unrealizable, synthesize
 
@@ -50,7 +50,7 @@ def test_no_decision_depends_on_the_order(profile: str, monkeypatch: pytest.Monk
     specs = [random_spec(seed, ALL_PROFILES[profile]) for seed in range(15)]
     found = [answer(synthesize(spec)) for spec in specs]
     for shuffle in (1, 2):
-        monkeypatch.setattr(encoding, "variable_order", lambda spec, seed=shuffle: _shuffled(spec, seed))
+        monkeypatch.setattr(layout, "variable_order", lambda spec, seed=shuffle: _shuffled(spec, seed))
         assert [answer(synthesize(spec)) for spec in specs] == found
 
 
@@ -78,12 +78,12 @@ def test_the_order_pays(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of variables in a random order, the relation of allowed steps is many times larger."""
     spec = family("plant", 4)
     ours = _nodes(spec)
-    monkeypatch.setattr(encoding, "variable_order", lambda spec: _shuffled(spec, 2))
+    monkeypatch.setattr(layout, "variable_order", lambda spec: _shuffled(spec, 2))
     assert _nodes(spec) > 3 * ours
 
 
 def _nodes(spec: Spec) -> int:
-    steps = build_steps(encode(spec, "autoref"), "any")
+    steps = build_steps(lay_out(spec, "autoref"), spec, "any")
     return len(steps.encoding.manager.descending(steps.allowed))
 
 

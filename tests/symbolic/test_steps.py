@@ -32,13 +32,14 @@ from tumato_symbolic.symbolic import (
     build_steps,
     encode,
     lasting,
+    lay_out,
     preferred,
     regions,
     staying_in,
     targets,
 )
 from tumato_symbolic.symbolic import steps as module
-from tumato_symbolic.symbolic.encoding import Group
+from tumato_symbolic.symbolic.layout import Group
 from tumato_symbolic.symbolic.manager import Bdd
 
 BACKENDS: list[Backend] = sorted({"autoref", available_backend()})
@@ -74,7 +75,7 @@ def encodes(encoding: Encoding, chosen: ActionSet) -> bool:
 def test_allowed_pairs_are_those_of_the_semantics(seed: int, ordering: Ordering, backend: Backend) -> None:
     """`Ok(s, A)` of section 3, for every state and set of a generated specification."""
     spec = random_spec(seed, ALL_PROFILES["restoring" if seed % 2 else "mixed"])
-    steps = build_steps(encode(spec, backend), ordering)
+    steps = build_steps(lay_out(spec, backend), spec, ordering)
     valid = [state for state in all_states(spec) if is_valid(spec, state)]
     assert relation(steps) == {(state, chosen) for state in valid for chosen in allowed_sets(spec, state, ordering)}
     assert list(steps.encoding.states_in(steps.valid)) == valid
@@ -85,7 +86,7 @@ def test_allowed_pairs_are_those_of_the_semantics(seed: int, ordering: Ordering,
 def test_predecessors_and_successors_follow_all_nominal_effects_at_once(seed: int) -> None:
     """`before` and `successors` agree with `δ`."""
     spec = random_spec(seed, ALL_PROFILES["mixed"])
-    steps = build_steps(encode(spec, available_backend()), "any")
+    steps = build_steps(lay_out(spec, available_backend()), spec, "any")
     encoding, false = steps.encoding, steps.encoding.manager.false
     states = list(all_states(spec))
     goal = states[len(states) // 2]
@@ -103,7 +104,7 @@ def test_predecessors_and_successors_follow_all_nominal_effects_at_once(seed: in
 def test_regions_and_targets_are_the_active_and_residual_goals(seed: int) -> None:
     """Every valid state lies in the region of `Γ(s)` alone, every allowed pair has the target of its residual goal."""
     spec = random_spec(seed, ALL_PROFILES["interacting"])
-    steps = build_steps(encode(spec, available_backend()), "any")
+    steps = build_steps(lay_out(spec, available_backend()), spec, "any")
     encoding = steps.encoding
     active = regions(encoding, steps.valid)
     found = targets(steps, active)
@@ -125,7 +126,7 @@ def test_regions_and_targets_are_the_active_and_residual_goals(seed: int) -> Non
 def test_the_preferred_set_is_the_smallest_then_the_one_declared_first(seed: int) -> None:
     """Section 6: fewest actions, then the first in the order of sorted positions; `lasting` sums durations exactly."""
     spec = random_spec(seed, ALL_PROFILES["restoring"])
-    steps = build_steps(encode(spec, available_backend()), "any")
+    steps = build_steps(lay_out(spec, available_backend()), spec, "any")
     encoding = steps.encoding
     chosen = preferred(encoding, steps.allowed)
     for state in encoding.states_in(steps.valid):
@@ -143,7 +144,7 @@ def test_the_preferred_set_is_the_smallest_then_the_one_declared_first(seed: int
 def test_the_next_state_of_a_policy_and_its_moves(seed: int) -> None:
     """`next_state` is `δ(s, π(s))` bit by bit; `moves` splits a relation by all that its sets nominally write."""
     spec = random_spec(seed, ALL_PROFILES["restoring" if seed % 2 else "mixed"])
-    steps = build_steps(encode(spec, available_backend()), "any")
+    steps = build_steps(lay_out(spec, available_backend()), spec, "any")
     encoding, manager = steps.encoding, steps.encoding.manager
     states = list(all_states(spec))
     valid = [state for state in states if is_valid(spec, state)]
@@ -186,7 +187,7 @@ def test_an_order_in_which_one_action_hurts(turned: bool) -> None:
         build.action(nominal, alternatives)
     spec = build.spec(state_rules=[Not(And((build.atom("x=c"), build.atom("y=b"))))])
     for ordering in ("any", "first"):
-        steps = build_steps(encode(spec, available_backend()), ordering)
+        steps = build_steps(lay_out(spec, available_backend()), spec, ordering)
         expected = {(state, each) for state in all_states(spec) for each in allowed_sets(spec, state, ordering)}
         assert relation(steps) == expected
 
@@ -196,11 +197,11 @@ def test_one_more_assumption(ordering: Ordering) -> None:
     """Steps within a set of states: what is outside is neither valid nor safe, so nothing may lead there."""
     spec = random_spec(3, ALL_PROFILES["restoring"])
     encoding = encode(spec, available_backend())
-    whole = build_steps(encoding, ordering)
+    whole = build_steps(encoding, spec, ordering)
     valid = list(encoding.states_in(whole.valid))
     inside = valid[::2]
     within = encoding.manager.union([encoding.state_cube(state) for state in inside])
-    steps = build_steps(encoding, ordering, within)
+    steps = build_steps(encoding, spec, ordering, within)
     assert list(encoding.states_in(steps.valid)) == inside
     assert list(encoding.states_in(steps.safe)) == [state for state in inside if is_safe(spec, state)]
     safe = {state for state in inside if is_safe(spec, state)}
@@ -241,7 +242,7 @@ def test_groups_that_write_different_variables_are_taken_once(shared: bool, all_
     rules = [Not(And((build.atom("w=a"), build.atom("x=b"))))]
     spec = build.spec(state_rules=() if all_safe else rules, assumptions=rules if all_safe else ())
     encoding = encode(spec, available_backend())
-    steps = build_steps(encoding, "any")
+    steps = build_steps(encoding, spec, "any")
     assert (len(taken) > (4 if all_safe else 8)) is shared
     assert taken[:4] == sorted(encoding.groups, key=lambda each: encoding.manager.level(each.bits[0]), reverse=True)
     expected = {(state, each) for state in all_states(spec) for each in allowed_sets(spec, state, "any")}

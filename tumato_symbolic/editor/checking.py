@@ -6,8 +6,8 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from tumato_symbolic.diagnostics import Diagnostic, Source, Span, not_allowed
-from tumato_symbolic.editor.renaming import Edit
+from tumato_symbolic.diagnostics import Diagnostic, Source, not_allowed
+from tumato_symbolic.editor.edits import Edit, edited
 from tumato_symbolic.spec import load
 
 _MEANT = re.compile(r"`([^`]+)`")
@@ -57,22 +57,3 @@ def _mends(source: Source, edit: Edit, found: tuple[Diagnostic, ...]) -> bool:
 
 def _errors(found: tuple[Diagnostic, ...]) -> int:
     return sum(each.severity == "error" for each in found)
-
-
-def edited(source: Source, edits: tuple[Edit, ...]) -> str:
-    """The text with edits made, no two of which overlap."""
-    lines = source.text.split("\n")
-    starts = [0]
-    for line in lines:
-        starts.append(starts[-1] + len(line) + 1)
-    text = source.text
-    for span, new in sorted(edits, key=lambda each: (each.span.line, each.span.column), reverse=True):
-        begin, end = starts[span.line - 1] + span.column - 1, starts[span.end_line - 1] + span.end_column - 1
-        text = text[:begin] + new + text[end:]
-    return text
-
-
-def whole(source: Source) -> Span:
-    """The span of all text."""
-    lines = source.text.split("\n")
-    return Span(1, 1, len(lines), len(lines[-1]) + 1)

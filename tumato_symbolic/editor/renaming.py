@@ -3,21 +3,15 @@
 from __future__ import annotations
 
 import re
-from typing import NamedTuple
 
-from tumato_symbolic.diagnostics import Span
+from tumato_symbolic.diagnostics import Source, Span
 from tumato_symbolic.diagnostics.wording import quoted
-from tumato_symbolic.editor.mentions import Index, Symbol
+from tumato_symbolic.editor.edits import Edit, edited
+from tumato_symbolic.editor.mentions import Index, Symbol, index
+from tumato_symbolic.spec import load
 from tumato_symbolic.syntax.tokens import HARD
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
-
-
-class Edit(NamedTuple):
-    """A place in a text, and what is to stand there."""
-
-    span: Span
-    text: str
 
 
 class CannotRenameError(Exception):
@@ -39,7 +33,22 @@ def rename(known: Index, line: int, column: int, name: str) -> list[Edit]:
     taken = known.values(symbol.variable) if symbol.kind == "value" else [each.name for each in _declared(known)]
     if name in taken and name != symbol.name:
         raise CannotRenameError(f"{quoted(name)} is in use already")
-    return _edits(known, symbol, name)
+    edits = _edits(known, symbol, name)
+    if not _keeps_meaning(known, symbol, symbol._replace(name=name), edits):
+        raise CannotRenameError(f"{quoted(name)} means something else in some places")
+    return edits
+
+
+def _keeps_meaning(known: Index, old: Symbol, new: Symbol, edits: list[Edit]) -> bool:
+    """Whether a name that is a word of the language, say, is read as a name wherever the old one was."""
+    text = Source(known.source.name, edited(known.source, edits))
+    after = index(text)
+    uses = [[each.use for each in some.of_symbol.get(symbol, ())] for some, symbol in ((known, old), (after, new))]
+    return uses[0] == uses[1] and _errors(text) <= _errors(known.source)
+
+
+def _errors(source: Source) -> int:
+    return sum(each.severity == "error" for each in load(source).diagnostics)
 
 
 def _declared(known: Index) -> list[Symbol]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from tumato_symbolic.diagnostics import CopySpan, Source, Span
 from tumato_symbolic.editor.checking import Fix
-from tumato_symbolic.editor.renaming import Edit
+from tumato_symbolic.editor.edits import Edit
 from tumato_symbolic.explain.additions import Addition, NewAction, NoGoalWhile, Setting
 from tumato_symbolic.explain.elements import span_of
 from tumato_symbolic.explain.explanation import Change, Repair

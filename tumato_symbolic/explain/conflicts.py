@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from tumato_symbolic.explain.elements import Elements, keep_only
 from tumato_symbolic.explain.failing_states import build_kept_problem
@@ -36,13 +35,13 @@ def conflicting(requirements: Requirements, wanted: Bdd, kept: Elements) -> bool
         return isinstance(trial(requirements, keep_only(requirements.spec, kept)), Unrealizable)
     valid = requirements.steps(kept).valid
     problem = build_kept_problem(requirements, kept, regions(requirements.encoding, valid))
-    problem = replace(problem, steps=replace(problem.steps, valid=wanted))
     ranks = distances(problem)
     if (wanted & ~winning(problem, ranks, problem.steps.allowed)) != requirements.false:
         return True
     policy = shortest_decisions(problem, ranks, problem.steps.safe, problem.steps.allowed)
     try:
-        return isinstance(Repair(Evaluator(problem), _completed(problem, policy), ranks).run(), RepairConflict)
+        repair = Repair(Evaluator(problem), _completed(problem, policy), ranks)
+        return isinstance(repair.run(wanted), RepairConflict)
     except RoundsExhaustedError:
         return False
 

@@ -82,13 +82,13 @@ class Requirements:
         if not self.spec.restores_stepwise:
             safe = valid & self._all_of(kept, "state-rule")
             return Steps(encoding, self.ordering, valid, safe, allowed, allowed, (valid, safe))
-        encoding = replace(encoding, spec=keep_only(self.spec, kept))
+        encoding = Encoding.of(encoding, keep_only(self.spec, kept))
         tiers = tiers_within(encoding, valid)
         return Steps(encoding, self.ordering, valid, tiers[-1], allowed, allowed, tiers)
 
     def _narrowed(self, steps: Steps, kept: Elements, within: Bdd) -> Steps:
         """Those of the steps that never leave some states."""
-        encoding = replace(self.encoding, spec=keep_only(self.spec, kept))
+        encoding = Encoding.of(self.encoding, keep_only(self.spec, kept))
         asked = steps.allowed & within
         allowed = asked & staying_in(encoding, self.ordering, within, self.compatible, asked)
         tiers = tuple(tier & within for tier in steps.tiers)
@@ -122,7 +122,7 @@ class Requirements:
 
     def steps_within(self, states: Bdd) -> Steps:
         """The step relation of the whole specification when only these valid states may occur."""
-        return build_steps(replace(self.encoding, spec=self.spec), self.ordering, states)
+        return build_steps(self.encoding, self.spec, self.ordering, states)
 
     @property
     def starts(self) -> Bdd:
@@ -182,7 +182,7 @@ class Requirements:
             holds = ~self._executing(element.number) | holds
         if not self._is_lasting(element):
             return holds
-        encoding, domain = replace(self.encoding, spec=keep_only(self.spec, requirement.others)), self.encoding.domain()
+        encoding, domain = Encoding.of(self.encoding, keep_only(self.spec, requirement.others)), self.encoding.domain()
         if element.kind == "precondition":
             return holds & staying_in(encoding, self.ordering, domain, holds)
         kept = staying_in(encoding, self.ordering, domain & holds, self.manager.true)

@@ -12,7 +12,7 @@ from tumato_symbolic.explain.requirements import Requirements
 from tumato_symbolic.game import Problem, distances, winning
 from tumato_symbolic.semantics import State, active_goals
 from tumato_symbolic.spec import And, Formula, Not, Or, Rule
-from tumato_symbolic.symbolic import targets
+from tumato_symbolic.symbolic import Encoding, targets
 
 
 def own_goals(requirements: Requirements, state: State) -> tuple[OwnGoal, ...]:
@@ -55,7 +55,7 @@ def _conjuncts(formula: Formula) -> Iterator[Formula]:
 def _can_be_met(requirements: Requirements, state: State, rule: Rule, part: Formula) -> bool:
     """Whether some run from a state meets one part of a goal, with every element dropped."""
     spec = replace(requirements.encoding.spec, bodies=(replace(rule, formula=part),), max_plan_length=None)
-    steps = replace(requirements.steps(frozenset()), encoding=replace(requirements.encoding, spec=spec))
+    steps = replace(requirements.steps(frozenset()), encoding=Encoding.of(requirements.encoding, spec))
     region = {frozenset((0,)): requirements.encoding.state_cube(state)}
     problem = Problem(spec, steps, region, tuple(targets(steps, region)))
     return winning(problem, distances(problem), steps.allowed) != requirements.false

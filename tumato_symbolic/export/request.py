@@ -16,9 +16,9 @@ _PROMISE = (
 )
 
 _FROM_STARTS = (
-    " It decides the starts of the specification then, and all states that the robot's actions may lead to from any "
-    "decided one; what else changes the state may lead to one that is undecided, and no action is known to be safe "
-    "there."
+    " Such a policy decides the starts of the specification, and all states that the robot's actions may lead to from"
+    " any decided one; what else changes the state may lead to one that is undecided, and no action is known to be "
+    "safe there."
 )
 
 

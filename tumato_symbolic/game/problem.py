@@ -71,7 +71,7 @@ def build_problem(spec: Spec, ordering: Ordering, backend: Backend, context: Con
     encoding = encode(spec, backend, context)
     with encoding.manager.within_memory():
         context.tell("finding the allowed steps")
-        steps = build_steps(encoding, ordering)
+        steps = build_steps(encoding, spec, ordering)
         return with_goals(steps)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import time
 from collections.abc import AsyncIterator, Iterator
 from functools import partial
 from typing import Any
@@ -14,7 +15,7 @@ from pygls.lsp.server import LanguageServer
 
 import tumato_symbolic
 from tumato_symbolic.diagnostics import UserError
-from tumato_symbolic.editor import checking, completion, format, hover, mentions, outline, renaming
+from tumato_symbolic.editor import checking, completion, edits, format, hover, mentions, outline, renaming
 from tumato_symbolic.editor.answer import Answer
 from tumato_symbolic.lsp import translate
 from tumato_symbolic.lsp.answering import ask
@@ -22,6 +23,10 @@ from tumato_symbolic.lsp.document import Document
 
 TRIGGERS = (" ", ":", ",", "{")
 """Characters after which editors ask for completions by themselves."""
+
+
+PROMPT = 0.1
+"""A text that takes longer to check is checked when the user has paused for as long."""
 
 
 def make_server(seconds: float) -> Any:  # noqa: ANN401 - a `LanguageServer`; pygls may be missing where types are checked
@@ -59,17 +64,21 @@ class _Service:
         self._indexes: dict[str, mentions.Index] = {}
         self._answers: dict[str, Answer] = {}
         self._tasks: dict[str, asyncio.Task[None]] = {}
+        self._waiting: dict[str, asyncio.TimerHandle] = {}
+        self._took = 0.0
 
     # Documents.
 
     def opened(self, params: types.DidOpenTextDocumentParams) -> None:
         """Show what is wrong with a text."""
-        self._publish(params.text_document.uri, thorough=True)
+        self._publish(params.text_document.uri, True)
 
     def changed(self, params: types.DidChangeTextDocumentParams) -> None:
         """Show what is wrong now, as far as that is known at once."""
-        self._forget(params.text_document.uri)
-        self._publish(params.text_document.uri, thorough=False)
+        uri = params.text_document.uri
+        self._forget(uri)
+        delay = self._took if self._took > PROMPT else 0.0
+        self._waiting[uri] = asyncio.get_running_loop().call_later(delay, self._publish, uri, False)
 
     def closed(self, params: types.DidCloseTextDocumentParams) -> None:
         """Forget a text."""
@@ -83,7 +92,7 @@ class _Service:
         """Show all that is wrong, and begin to synthesize what is right."""
         uri = params.text_document.uri
         self._forget(uri)
-        if self._publish(uri, thorough=True) and self._seconds:
+        if self._publish(uri, True) and self._seconds:
             self._tasks[uri] = asyncio.ensure_future(self._synthesize(uri))
 
     async def _synthesize(self, uri: str) -> None:
@@ -93,7 +102,7 @@ class _Service:
             answer = await ask(asked.source.name, asked.source.text, self._seconds)
         if self._document(uri) is asked:
             self._answers[uri] = answer
-            self._publish(uri, thorough=True)
+            self._publish(uri, True)
             self._refresh()
             said = f"{asked.source.name}: {answer.summary}"
             self._server.window_log_message(types.LogMessageParams(types.MessageType.Info, said))
@@ -108,8 +117,9 @@ class _Service:
 
     def _publish(self, uri: str, thorough: bool) -> bool:
         """Show what is wrong with a text; whether it could be a specification all the same."""
-        shown = self._document(uri)
+        shown, began = self._document(uri), time.monotonic()
         found = checking.findings(shown.source, thorough)
+        self._took = time.monotonic() - began
         told = [translate.diagnostic(shown.positions, each, uri) for each in found]
         answer = self._answers.get(uri)
         if answer is not None:
@@ -118,7 +128,10 @@ class _Service:
         return not any(each.severity == "error" for each in found)
 
     def _forget(self, uri: str) -> None:
-        """An answer about an earlier text is not wanted any more."""
+        """Nothing more is wanted of an earlier text."""
+        waiting = self._waiting.pop(uri, None)
+        if waiting is not None:
+            waiting.cancel()
         task = self._tasks.pop(uri, None)
         if task is not None:
             task.cancel()
@@ -195,7 +208,7 @@ class _Service:
             text = format.format_text(shown.source)
         except UserError:
             return None
-        changed = [renaming.Edit(checking.whole(shown.source), text)] if text != shown.source.text else []
+        changed = [edits.Edit(edits.whole(shown.source), text)] if text != shown.source.text else []
         return translate.edits(shown.positions, changed)
 
     def hints(self, params: types.InlayHintParams) -> list[types.InlayHint]:

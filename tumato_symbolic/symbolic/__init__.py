@@ -14,6 +14,7 @@ from tumato_symbolic.symbolic.goals import (
     together,
     with_own_bits,
 )
+from tumato_symbolic.symbolic.layout import Layout, lay_out
 from tumato_symbolic.symbolic.manager import Backend, Bdd, Manager, available_backend
 from tumato_symbolic.symbolic.present import Leading
 from tumato_symbolic.symbolic.steps import (
@@ -31,6 +32,7 @@ __all__ = [
     "Bdd",
     "Encoding",
     "Extractor",
+    "Layout",
     "Leading",
     "Manager",
     "Regions",
@@ -42,6 +44,7 @@ __all__ = [
     "compatible_sets",
     "encode",
     "lasting",
+    "lay_out",
     "least_duration",
     "meant_sets",
     "never_entered",

@@ -11,8 +11,9 @@ from itertools import accumulate, pairwise
 from operator import and_
 
 from tumato_symbolic.semantics import contested_resources, contested_values
-from tumato_symbolic.spec import Assignment, Ordering
-from tumato_symbolic.symbolic.encoding import Encoding, Group
+from tumato_symbolic.spec import Assignment, Ordering, Spec
+from tumato_symbolic.symbolic.encoding import Encoding
+from tumato_symbolic.symbolic.layout import Group, Layout
 from tumato_symbolic.symbolic.manager import Bdd
 
 
@@ -101,12 +102,13 @@ class Steps:
         return {bit: up | (manager.cube({bit: True}) & ~down) for bit, (down, up) in written.items()}
 
 
-def build_steps(encoding: Encoding, ordering: Ordering, within: Bdd | None = None) -> Steps:
-    """The step relation of the encoding's specification under an effect ordering.
+def build_steps(layout: Layout, spec: Spec, ordering: Ordering, within: Bdd | None = None) -> Steps:
+    """The step relation of a specification in a layout, under an effect ordering.
 
     `within` is one more assumption, as a set of states.
     """
-    spec, domain = encoding.spec, encoding.domain()
+    encoding = Encoding.of(layout, spec)
+    domain = encoding.domain()
     valid = domain & encoding.all_of(rule.formula for rule in spec.assumptions)
     valid = valid if within is None else valid & within
     tiers = tiers_within(encoding, valid)

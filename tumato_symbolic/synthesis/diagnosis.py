@@ -10,7 +10,7 @@ from tumato_symbolic.diagrams import Diagram, DiagramBuilder, Reference
 from tumato_symbolic.game import Problem, Restorer, alone
 from tumato_symbolic.semantics import Effort, State
 from tumato_symbolic.spec import Action, Assignment, Spec
-from tumato_symbolic.symbolic import Bdd, Extractor, build_steps, encode
+from tumato_symbolic.symbolic import Bdd, Extractor, build_steps, lay_out
 
 Cure: TypeAlias = Literal["bounded", "fair", "nothing"]
 """The first way to restore safety that would do; `nothing` where none does."""
@@ -120,7 +120,7 @@ def _cured(
 def _several_steps(problem: Problem) -> Problem:
     """The problem with `fair` in place of what it asks, and without goals."""
     spec = replace(problem.spec, restoration="fair")
-    steps = build_steps(replace(problem.encoding, spec=spec), problem.steps.ordering)
+    steps = build_steps(problem.encoding, spec, problem.steps.ordering)
     return Problem(spec, steps, problem.regions, ())
 
 
@@ -150,9 +150,10 @@ def _left_by(problem: Problem, effects: Assignment) -> int:
     """How many unsafe states have no allowed set when there is one more action, with these effects."""
     spec = problem.spec
     joint = Action("joint action", 0, frozenset(), (), effects, (), spec.actions[0].span)
-    encoding = encode(_with(spec, joint), problem.encoding.manager.backend, problem.context)
-    steps = build_steps(encoding, problem.steps.ordering)
-    return encoding.count_states(steps.unsafe & ~steps.states_of(steps.allowed))
+    spec = _with(spec, joint)
+    layout = lay_out(spec, problem.encoding.manager.backend, problem.context)
+    steps = build_steps(layout, spec, problem.steps.ordering)
+    return layout.count_states(steps.unsafe & ~steps.states_of(steps.allowed))
 
 
 def _with(spec: Spec, action: Action) -> Spec:

@@ -82,7 +82,7 @@ def greatest(whole: Problem, problem: Problem, stages: tuple[Stage, ...]) -> Par
 
 def _within(whole: Problem, states: Bdd) -> Problem:
     """The problem where only these states are valid."""
-    return with_goals(build_steps(whole.encoding, whole.steps.ordering, states))
+    return with_goals(build_steps(whole.encoding, whole.encoding.spec, whole.steps.ordering, states))
 
 
 class Search:

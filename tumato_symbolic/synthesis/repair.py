@@ -96,9 +96,12 @@ class Repair:
         self._cut_off_in: dict[int, int] = {}
         self._distance: dict[tuple[int, State], int | None] = {}
 
-    def run(self) -> Bdd | RepairConflict:
-        """The repaired policy, or the conflict that proves that there is none. Raises `RoundsExhaustedError`."""
-        result = self._serve(self._problem.steps.valid, None)
+    def run(self, required: Bdd | None = None) -> Bdd | RepairConflict:
+        """A policy that serves the required states (None: all valid ones), or the conflict that proves there is none.
+
+        Raises `RoundsExhaustedError`.
+        """
+        result = self._serve(self._problem.steps.valid if required is None else required, None)
         if isinstance(result, frozenset):
             return self._impossible(self._minimal(result))
         return result

@@ -9,9 +9,20 @@ from typing import Any, Generic, TypeAlias, TypeVar
 from tumato_symbolic.diagnostics import Code
 from tumato_symbolic.diagnostics.wording import count
 from tumato_symbolic.policy.records import Vocabulary
-from tumato_symbolic.policy.text import as_list, as_names, as_object, as_text, as_whole, fault, show, way_out, wrong
+from tumato_symbolic.policy.text import (
+    as_list,
+    as_names,
+    as_object,
+    as_text,
+    as_value,
+    as_whole,
+    fault,
+    show,
+    way_out,
+    wrong,
+)
 from tumato_symbolic.semantics import ActionSet, Effort, State
-from tumato_symbolic.spec import Assignment
+from tumato_symbolic.spec import Assignment, value_of
 
 Value = TypeVar("Value")
 Schema: TypeAlias = dict[str, Any]
@@ -63,7 +74,7 @@ class Names:
             message = f"{where} has the unknown variable {show(name)}"
             raise fault(Code.TUM503, message, way_out(name, self._variables, "variables"))
         variable = self._variables[name]
-        text, known = as_text(value, f"{show(name)} in {where}"), self._values[variable]
+        text, known = as_value(value, f"{show(name)} in {where}"), self._values[variable]
         if text not in known:
             message = f"{where} gives {show(name)} the unknown value {show(text)}"
             raise fault(Code.TUM504, message, way_out(text, known, "values"))
@@ -73,10 +84,10 @@ class Names:
         """The names of actions, in the order given."""
         return [self.vocabulary.actions[number] for number in numbers]
 
-    def of_values(self, assignment: Iterable[tuple[int, int]]) -> dict[str, str]:
+    def of_values(self, assignment: Iterable[tuple[int, int]]) -> dict[str, str | int]:
         """Value by variable."""
         variables = self.vocabulary.variables
-        return {variables[number][0]: variables[number][1][value] for number, value in assignment}
+        return {variables[number][0]: value_of(variables[number][1][value]) for number, value in assignment}
 
 
 @dataclass(frozen=True)
@@ -93,11 +104,14 @@ def _as_it_is(value: Value, _: Names) -> Value:
 
 
 _NAMES: Schema = {"type": "array", "items": {"type": "string"}, "uniqueItems": True}
-_BY_VARIABLE: Schema = {
-    "description": "Value by variable.",
-    "type": "object",
-    "additionalProperties": {"type": "string"},
-}
+VALUE: Schema = {"type": ["string", "integer"]}
+_BY_VARIABLE: Schema = {"description": "Value by variable.", "type": "object", "additionalProperties": VALUE}
+
+
+def _as_values(value: object, where: str) -> tuple[str, ...]:
+    """A list of different values."""
+    return as_names([as_value(each, f"an entry of {where}") for each in as_list(value, where)], where)
+
 
 TEXT = Kind[str](lambda value, where, _: as_text(value, where), _as_it_is, {"type": "string"})
 TEXTS = Kind[tuple[str, ...]](lambda value, where, _: as_names(value, where), _as_it_is, _NAMES)
@@ -120,9 +134,9 @@ STATE = Kind[State](
     _BY_VARIABLE,
 )
 VALUE_SETS = Kind[dict[str, tuple[str, ...]]](
-    lambda value, where, _: {name: as_names(each, where) for name, each in as_object(value, where).items()},
-    _as_it_is,
-    {"type": "object", "additionalProperties": _NAMES},
+    lambda value, where, _: {name: _as_values(each, where) for name, each in as_object(value, where).items()},
+    lambda sets, _: {name: [value_of(value) for value in values] for name, values in sets.items()},
+    {"type": "object", "additionalProperties": {"type": "array", "items": VALUE, "uniqueItems": True}},
 )
 ASSIGNMENT = Kind[Assignment](
     lambda value, where, names: names.assignment(value, where),

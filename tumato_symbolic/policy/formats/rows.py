@@ -8,11 +8,24 @@ from typing import Any
 
 from tumato_symbolic.diagnostics import Code, UserError
 from tumato_symbolic.diagnostics.wording import listed
-from tumato_symbolic.policy.formats.kinds import Names, Schema
+from tumato_symbolic.policy.formats.kinds import VALUE, Names, Schema
 from tumato_symbolic.policy.formats.tables import Attributes, Block, Part, Place, block
 from tumato_symbolic.policy.records import Table, Vocabulary
-from tumato_symbolic.policy.text import Row, as_list, as_object, as_text, described, fault, member, show, way_out, wrong
+from tumato_symbolic.policy.text import (
+    Row,
+    as_list,
+    as_object,
+    as_text,
+    as_value,
+    described,
+    fault,
+    member,
+    show,
+    way_out,
+    wrong,
+)
 from tumato_symbolic.semantics import ActionSet, State
+from tumato_symbolic.spec import value_of
 
 ROWS: Schema = {
     "description": "One row for every state that is decided: value by variable, and the actions executed at the same "
@@ -23,7 +36,7 @@ ROWS: Schema = {
         "required": ["Actions"],
         "minProperties": 2,
         "properties": {"Actions": {"type": "array", "items": {"type": "string"}}},
-        "additionalProperties": {"type": "string"},
+        "additionalProperties": VALUE,
     },
 }
 
@@ -50,7 +63,7 @@ def fits_table(vocabulary: Vocabulary) -> bool:
 
 
 def _rows(table: Table, vocabulary: Vocabulary) -> Iterator[str]:
-    cells = [[f"{_json(name)}: {_json(value)}" for value in values] for name, values in vocabulary.variables]
+    cells = [[f"{_json(name)}: {_json(value_of(value))}" for value in values] for name, values in vocabulary.variables]
     names = {
         chosen: _json([vocabulary.actions[action] for action in sorted(chosen)]) for chosen in set(table.rows.values())
     }
@@ -124,7 +137,7 @@ def _bad_row(row: object, place: int, vocabulary: Vocabulary) -> UserError:
     for name, known in values.items():
         if name not in section:
             return fault(Code.TUM503, f"{where} has no value for {show(name)}", f"its values: {listed(known)}")
-        value = as_text(section[name], f"{show(name)} in {where}")
+        value = as_value(section[name], f"{show(name)} in {where}")
         if value not in known:
             message = f"{where} gives {show(name)} the unknown value {show(value)}"
             return fault(Code.TUM504, message, way_out(value, known, "values"))

@@ -11,6 +11,8 @@ ACTIONS = "Actions"
 class Row(NamedTuple):
     """An object that may be a row of a table: texts by name, in the order in which they stand, and a list of texts.
 
+    A number is kept as the text that a specification has for it.
+
     Equal rows share names, texts and lists, so that a table takes a small part of the space of its text.
     """
 
@@ -37,6 +39,7 @@ class Objects:
     def __init__(self) -> None:
         self._names: dict[tuple[str, ...], tuple[str, ...] | None] = {}
         self._texts: dict[str, str] = {}
+        self._numbers: dict[tuple[type, Any], str] = {}
         self._lists: dict[tuple[str, ...], list[str]] = {}
 
     def __call__(self, pairs: list[tuple[str, Any]]) -> dict[str, Any] | Row:
@@ -52,7 +55,9 @@ class Objects:
             texts, actions = values[:at] + values[at + 1 :], values[at]
             if type(actions) is list:
                 try:
-                    return Row(names, tuple([self._texts[text] for text in texts]), self._lists[tuple(actions)])
+                    known, numbers = self._texts, self._numbers
+                    row = [known[each] if type(each) is str else numbers[type(each), each] for each in texts]
+                    return Row(names, tuple(row), self._lists[tuple(actions)])
                 except (KeyError, TypeError):
                     if self._remember(texts, actions):
                         return self(pairs)
@@ -60,9 +65,10 @@ class Objects:
 
     def _remember(self, texts: tuple[object, ...], actions: list[Any]) -> bool:
         """Know the texts and the list of a row; False where they are not what a row holds."""
-        if not all(type(each) is str for each in (*texts, *actions)):
+        if not all(type(each) in (str, int) for each in texts) or not all(type(each) is str for each in actions):
             return False
         self._texts.update((text, text) for text in texts if type(text) is str)
+        self._numbers.update(((int, number), str(number)) for number in texts if type(number) is int)
         self._lists.setdefault(tuple(actions), actions)
         return True
 

@@ -51,5 +51,5 @@ export function start(app, { check, filter, parts, explain }) {
   }
   document.getElementById("page").replaceChildren(head, filter?.element ?? "",
     h("div.columns", h("div", h("div", { role: "tablist", "aria-label": "parts" }, tabs.map(({ tab }) => tab)), tabs.map(({ panel }) => panel)), state.element));
-  app.change();
+  setTimeout(app.change, 0);
 }

@@ -10,9 +10,10 @@ import { counted, grouped, stateText } from "./words.mjs";
 
 const MOST_CHECKED = 400_000;
 const DRAWN = 2_000;
-const MOST_WRONG = 20;
+const MOST_WRONG = 10;
 const MOST_LOOKED_AT = 20_000;
 const SLICE = 14;
+const BETWEEN = 250;
 
 export function checkView(app) {
   const element = h("div.check", { role: "status" });
@@ -21,6 +22,7 @@ export function checkView(app) {
   app.found = { checked: 0, wrong: [], faults: 0, done: false };
   app.decisions = new Decisions(app.model);
   const { found } = app;
+  let drawn = 0;
   const look = (state) => {
     const wrong = fault(app.model, state, app.judge);
     if (wrong) {
@@ -31,7 +33,7 @@ export function checkView(app) {
     app.decisions.note(state);
   };
   const draw = () => redraw(element, told(app, whole),
-    !whole && found.done ? button(`check ${grouped(DRAWN)} more`, () => { found.done = false; go(drawn(app, found.checked)); }, { "data-key": "more" }) : null,
+    !whole && found.done ? button(`check ${grouped(DRAWN)} more`, () => { found.done = false; go(chosenByChance(app, found.checked)); }, { "data-key": "more" }) : null,
     found.wrong.length ? h("ul", found.wrong.map(([state, wrong]) => h("li", link(app, stateText(app.spec, state), state), " ", faultText(app, wrong)))) : null);
   const go = (left) => {
     const until = performance.now() + SLICE;
@@ -40,16 +42,19 @@ export function checkView(app) {
       if (done) found.done = true;
       else look(value);
     }
-    draw();
+    if (found.done || until > drawn + BETWEEN) {
+      drawn = until;
+      draw();
+    }
     if (found.done) app.change();
     else setTimeout(() => go(left), 0);
   };
-  setTimeout(() => go(whole ? everyState(app.spec) : drawn(app, 1)), 50);
+  setTimeout(() => go(whole ? everyState(app.spec) : chosenByChance(app, 1)), 50);
   draw();
   return element;
 }
 
-function* drawn(app, seed) {
+function* chosenByChance(app, seed) {
   const { draw, count } = decided(app.spec, app.data.policy, app.spec.names.map(() => null));
   const chance = dice(seed);
   for (let n = 0; count && n < DRAWN; n++) yield draw(chance);

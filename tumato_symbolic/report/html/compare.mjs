@@ -96,13 +96,12 @@ function* differing(spec, ours, theirs) {
 
 function answer(app, name, { groups, complete, states }) {
   const { spec } = app;
-  const words = (chosen) => (chosen ? actionsText(spec, chosen) : "not decided");
   const drawn = complete ? "" : ` among ${states ? "those" : "the states"} that were looked at`;
   if (!groups.length) return h("p", { class: complete ? "good" : "doubt" }, `${name} decides the same${complete ? " everywhere" : drawn}.`);
   groups.sort((one, other) => other.count - one.count);
   const first = groups.length > MOST_ROWS ? `; the first ${MOST_ROWS} of ${grouped(groups.length)} groups` : "";
   return [h("p.doubt", `${name} decides otherwise in ${counted(states, "state")}${drawn}${first}:`),
     table(["here", "there", "states", "where"], groups.slice(0, MOST_ROWS).map((each) => h("tr",
-        h("td", link(app, words(each.chosen), each.values.map(([value]) => value))), h("td", words(each.theirs)),
+        h("td", link(app, actionsText(spec, each.chosen), each.values.map(([value]) => value))), h("td", actionsText(spec, each.theirs)),
         h("td.number", grouped(each.count)), h("td", conditions(conditionsOf(spec, each.values))))))];
 }

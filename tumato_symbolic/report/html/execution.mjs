@@ -26,7 +26,7 @@ export function executionView(app) {
   const update = () => {
     if (app.spec.key(here()) !== app.spec.key(app.selected)) trace = { start: app.selected, events: [] };
     redraw(element,
-      h("p.quiet", "From the state on the side: choose what happens. A change by hand on the side begins anew."),
+      h("p.quiet", "From the chosen state: choose what happens. To choose another one begins anew."),
       history(app, trace), h("h3", "Next"), choices(app, here(), add, chance), disturbances(app, here(), add),
       h("p",
         button("run to the goal", () => goOn(app, here, add), { "data-key": "run" }), " ",
@@ -90,7 +90,7 @@ function disturbances(app, state, add) {
 function many(app, settings, tell) {
   const option = (name, value, label) => h("label", h("input", { type: "checkbox", checked: value, "data-key": name, onchange: (event) => { settings[name] = name === "disturb" ? (event.target.checked ? 0.05 : 0) : event.target.checked; } }), ` ${label} `);
   const from = h("select", { "aria-label": "where they start", "data-key": "from", onchange: () => { settings.from = from.value; } },
-    h("option", { value: "here", selected: settings.from === "here" }, "the state on the side"),
+    h("option", { value: "here", selected: settings.from === "here" }, "the chosen state"),
     h("option", { value: "filter", selected: settings.from === "filter" }, "the states chosen above, by chance"));
   return h("p", option("faults", settings.faults, "effects by chance"), option("disturb", settings.disturb > 0, "disturbances (1 in 20 steps)"), " from ", from, " ",
     button("execute", () => tell(counts(app, settings)), { "data-key": "execute" }));

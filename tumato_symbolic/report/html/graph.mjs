@@ -1,11 +1,13 @@
 // The graph of decisions: what follows what, along nominal runs.
 import { h, redraw, svg } from "./dom.mjs";
+import { upTo } from "./spec.mjs";
 import { actionsText, counted, grouped } from "./words.mjs";
 
 const MOST_BOXES = 20;
-const WIDTH = 190;
+const MOST_BELOW = 7;
+const WIDTH = 180;
 const LINE = 17;
-const GAP = { across: 110, down: 22 };
+const GAP = { across: 64, down: 18 };
 
 export function graphView(app) {
   const element = h("div");
@@ -13,15 +15,15 @@ export function graphView(app) {
     const chosen = app.model.decide(app.selected);
     const { nodes, edges } = app.decisions;
     if (chosen === null || !nodes.has(chosen.join())) {
-      return redraw(element, h("p", "The state on the side is not decided, or its decision was not met yet."));
+      return redraw(element, h("p", "The chosen state is not decided, or its decision was not met yet."));
     }
     const selected = chosen.join();
     const { columns, left } = placed(app, selected);
-    const said = nodes.size <= MOST_BOXES ? `All ${nodes.size} decisions` : `The neighbourhood of the decision for the state on the side, out of ${nodes.size} decisions`;
+    const said = nodes.size <= MOST_BOXES ? `All ${nodes.size} decisions` : `The neighbourhood of the decision for the chosen state, out of ${nodes.size} decisions`;
     return redraw(element,
       h("p.quiet", `${said}, with what follows them if effects are as intended. `,
         app.found.done ? "" : "More may come: states are still being looked at. ",
-        left ? `${counted(left, "neighbour")} more are left out. ` : "", "A box can be chosen."),
+        left ? `${counted(left, "more neighbour")} ${left > 1 ? "are" : "is"} left out. ` : "", "A box can be chosen."),
       h("div", { class: "wide graph" }, picture(app, columns, edges, selected)));
   };
   return { element, update };
@@ -45,8 +47,15 @@ function placed(app, selected) {
   const leftSide = earlier.slice(0, room - right.length);
   const shown = new Set([selected, ...right, ...leftSide]);
   const others = all ? [...nodes.keys()].filter((name) => !shown.has(name)) : [];
-  const columns = [leftSide, [selected], right, others].filter((column) => column.length);
+  const columns = [leftSide, [selected], right, others].flatMap(inColumns);
   return { columns, left: after.length + earlier.length - right.length - leftSide.length };
+}
+
+// Columns that are not too high.
+function inColumns(names) {
+  const number = Math.ceil(names.length / MOST_BELOW);
+  const high = Math.ceil(names.length / number);
+  return upTo(number).map((n) => names.slice(n * high, (n + 1) * high));
 }
 
 function linesOf(app, name) {
@@ -66,7 +75,7 @@ function picture(app, columns, edges, selected) {
       y += boxHeight(app, name) + GAP.down;
     }
   });
-  const width = columns.length * (WIDTH + GAP.across) - GAP.across + 20;
+  const width = columns.length * (WIDTH + GAP.across) + 20;
   const arrows = [...edges].flatMap(([edge, count]) => {
     const [from, to] = edge.split(">");
     return from !== to && boxes.has(from) && boxes.has(to) ? [arrow(boxes.get(from), boxes.get(to), count, from === selected || to === selected)] : [];

@@ -4,8 +4,9 @@ import { Restorations, smaller } from "./restoring.mjs";
 import { everyState } from "./spec.mjs";
 import { agree, allowedSets, duration, isSafe, objection, successor } from "./steps.mjs";
 
-// What is wrong with the decision in a valid state, as [property, detail]; null where nothing is.
+// What is wrong with what is decided in a state, as [property, detail]; null where nothing is.
 export function fault(model, state, judge) {
+  if (!model.assumed(state)) return model.spec.starts.length && model.given(state) !== null ? ["invalid", null] : null;
   const chosen = model.decide(state);
   if (chosen === null) return model.isStart(state) ? ["total", null] : null;
   const found = objection(model, state, chosen);

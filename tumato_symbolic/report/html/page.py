@@ -41,7 +41,7 @@ MODULES: Final = {PolicyPage: (*_SHARED, *_OF_A_POLICY), NoPolicyPage: (*_SHARED
 
 def page(of: PolicyPage | NoPolicyPage) -> str:
     """The page as HTML."""
-    program, style = bundle(type(of)), _plain((_FOLDER / "page.css").read_text(encoding="utf-8"))
+    program, style = bundle(type(of)), _tight_style((_FOLDER / "page.css").read_text(encoding="utf-8"))
     allowed = (f"script-src {_hash(program)}", f"style-src {_hash(style)}")
     parts = {
         "title": escape(f"{Path(of.source.name).name} · tumato-sym"),
@@ -75,7 +75,7 @@ def _alone(text: str) -> str:
 
 def _plain(text: str) -> str:
     """Without indentation, and without lines that are comments."""
-    lines = (line.strip() for line in re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL).splitlines())
+    lines = (line.strip() for line in text.splitlines())
     return "".join(f"{line}\n" for line in lines if line and not line.startswith("//"))
 
 
@@ -88,6 +88,11 @@ def _tight(program: str) -> str:
     parts = _PIECES.split(program)
     parts[::2] = [re.sub(r"(?<=[{(\[,;]) *\n| *([{}()\[\],;:?<>=|&!+*]) *", r"\1", part) for part in parts[::2]]
     return "".join(parts)
+
+
+def _tight_style(style: str) -> str:
+    """The same for a style sheet."""
+    return re.sub(r"\s*([{};:,])\s*", r"\1", style)
 
 
 def _hash(text: str) -> str:

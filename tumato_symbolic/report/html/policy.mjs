@@ -42,21 +42,27 @@ export function decisionsFrom(spec, diagram) {
 const free = (spec, filter, n) => (filter[n] ? [...filter[n]].sort((a, b) => a - b) : upTo(spec.sizes[n]));
 
 // Disjoint cubes of the decided states that a filter leaves, each with its decision and its number of states; those where
-// an action is executed, if one is named.
+// an action is executed, if one is named. Large ones tend to come first: what may hold many states is looked at first.
 export function* cubes(spec, diagram, filter, executed = null) {
   const levels = diagram.order.length;
   const level = (root) => (root > 1 ? diagram.nodes[root - 2][0] : levels);
   const sizes = spec.sizes.map((_, n) => free(spec, filter, n));
-  const pending = [[[diagram.defined, ...diagram.roots], []]];
+  const pending = [];
+  const add = (roots, fixed, count) => (pending[Math.floor(Math.log2(count))] ??= []).push([roots, fixed, count]);
+  add([diagram.defined, ...diagram.roots], [], sizes.reduce((all, some) => all * some.length, 1));
   while (pending.length) {
-    const [roots, fixed] = pending.pop();
+    if (!pending.at(-1)?.length) {
+      pending.pop();
+      continue;
+    }
+    const [roots, fixed, count] = pending.at(-1).pop();
     if (roots[0] === 0 || (executed !== null && roots[executed + 1] === 0)) continue;
     const first = Math.min(...roots.map(level));
     if (first === levels) {
       const chosen = roots.slice(1).flatMap((root, number) => (root ? [number] : []));
       const values = sizes.slice();
       for (const [n, some] of fixed) values[n] = some;
-      yield { values, chosen, count: values.reduce((all, some) => all * some.length, 1) };
+      yield { values, chosen, count };
       continue;
     }
     const variable = diagram.order[first];
@@ -67,7 +73,9 @@ export function* cubes(spec, diagram, filter, executed = null) {
       if (!parts.has(name)) parts.set(name, [below, []]);
       parts.get(name)[1].push(value);
     }
-    for (const [below, some] of [...parts.values()].reverse()) pending.push([below, [...fixed, [variable, some]]]);
+    for (const [below, some] of parts.values()) {
+      add(below, [...fixed, [variable, some]], (count / sizes[variable].length) * some.length);
+    }
   }
 }
 
@@ -115,22 +123,40 @@ export function decided(spec, diagram, filter) {
   return { count: untested * from(diagram.defined, 0), draw };
 }
 
-// The same states in fewer cubes: those of one decision that differ in a single variable become one.
+// The same states in fewer cubes: those of one decision that differ in a single variable become one. For each variable,
+// cubes are compared by a sum of numbers that stand for the values of all others, and then by these.
 export function merged(found) {
-  let list = found;
+  const numbers = new Map();
+  const numberOf = (some) => {
+    const text = some.join();
+    if (!numbers.has(text)) numbers.set(text, numbers.size + 1);
+    return numbers.get(text);
+  };
+  const share = (cube, n) => Math.imul(cube.ids[n], Math.imul(n + 1, 0x9e3779b1) | 1);
+  let list = found.map((each) => {
+    const cube = { ...each, values: each.values.slice(), ids: each.values.map(numberOf) };
+    return { ...cube, sum: cube.ids.reduce((all, _, n) => (all + share(cube, n)) | 0, 0) };
+  });
   for (let before = Infinity; list.length < before;) {
     before = list.length;
     for (let n = 0; list.length && n < list[0].values.length; n++) {
       const together = new Map();
+      const left = [];
       for (const cube of list) {
-        const name = `${cube.name ?? cube.chosen};${cube.values.map((some, at) => (at === n ? "" : some.join())).join(";")}`;
+        const name = `${(cube.sum - share(cube, n)) | 0};${cube.name ?? cube.chosen}`;
         const other = together.get(name);
-        if (other) {
+        if (other && cube.ids.every((id, at) => at === n || id === other.ids[at])) {
+          other.sum -= share(other, n);
           other.values[n] = [...other.values[n], ...cube.values[n]].sort((a, b) => a - b);
+          other.ids[n] = numberOf(other.values[n]);
+          other.sum = (other.sum + share(other, n)) | 0;
           other.count += cube.count;
-        } else together.set(name, { ...cube, values: cube.values.slice() });
+        } else {
+          if (!other) together.set(name, cube);
+          left.push(cube);
+        }
       }
-      list = [...together.values()];
+      list = left;
     }
   }
   return list;

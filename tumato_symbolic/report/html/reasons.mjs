@@ -1,5 +1,5 @@
 // Why there is no policy: failing states, the lines to blame, and what could be changed.
-import { button, conditions, h, lineLink, link } from "./dom.mjs";
+import { button, conditions, h, lineLink, link, redraw } from "./dom.mjs";
 import { reached, residual } from "./runs.mjs";
 import { goalsIn, others, section } from "./state.mjs";
 import { allowedSets, isValid, successor } from "./steps.mjs";
@@ -13,10 +13,10 @@ const KINDS = {
 };
 
 const MOST_SHOWN = 12;
-const MOST_SETS = 20_000;
+const MOST_SETS = 2_000;
 const MOST_VISITED = 2_000;
 
-const stateOf = (app, named) => app.spec.names.map((name, n) => app.spec.values[n].indexOf(named[name]));
+const stateOf = (app, named) => app.spec.names.map((name, n) => app.spec.values[n].indexOf(String(named[name])));
 
 const firstFailure = ({ no }) => no.failures[0] ?? no.groups[0];
 
@@ -25,8 +25,14 @@ export function exampleOf(app) {
   return failure && stateOf(app, failure.example);
 }
 
-// What the page finds itself in a state that fails.
+// What the page finds itself in a state that fails; it is found once the page is shown.
 export function triedView(app) {
+  const element = h("div", { role: "status" }, h("p", "This page is looking at a state that fails …"));
+  setTimeout(() => redraw(element, foundIn(app)), 50);
+  return element;
+}
+
+function foundIn(app) {
   const failure = firstFailure(app.data);
   const state = exampleOf(app);
   if (failure?.kind === "no-allowed-set") {

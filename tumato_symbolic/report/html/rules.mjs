@@ -20,10 +20,10 @@ export function rulesView(app) {
     const some = app.filter.some((each) => each) || app.executed !== null;
     const used = some ? deciding(app, rules) : null;
     const shown = rules.list.map((each, number) => [each, number]).filter(([[, actions], number]) => (!used || used.has(number)) && (app.executed === null || actions.includes(app.executed)));
-    const head = some ? `${counted(shown.length, "rule")} of ${rules.list.length + rules.more} decide${shown.length === 1 ? "s" : ""} in these states.` : `${counted(rules.list.length + rules.more, "rule")}; the first that matches decides. The one for the state on the side is lit.`;
+    const head = some ? `${counted(shown.length, "rule")} of ${rules.list.length + rules.more} decide${shown.length === 1 ? "s" : ""} in these states.` : `${counted(rules.list.length + rules.more, "rule")}; the first that matches decides. The one for the chosen state is lit.`;
     return redraw(element, h("p.quiet", head),
       h("ol.rules", shown.map(([rule, number]) => item(app, rule, number, number === lit))),
-      rules.more ? h("p.quiet", `and ${counted(rules.more, "more rule")}, which \`tumato-sym rules\` lists`) : null,
+      rules.more ? h("p.quiet", `and ${counted(rules.more, "more rule")}, which \`tumato-sym show --format rules\` lists`) : null,
       rules.left ? h("p.doubt", `They leave out ${counted(rules.left, "state")}: ${rules.limit}.`) : null);
   };
   return { element, update };

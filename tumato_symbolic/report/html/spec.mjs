@@ -83,6 +83,8 @@ export function* inside(values) {
 
 export const everyState = (spec) => inside(spec.sizes.map(upTo));
 
+// A state by name, as files and traces have it: what is a whole number is a number there.
 export function valuesOf(spec, state) {
-  return Object.fromEntries(spec.names.map((name, n) => [name, spec.values[n][state[n]]]));
+  const written = (text) => (Number.isSafeInteger(Number(text)) && String(Number(text)) === text ? Number(text) : text);
+  return Object.fromEntries(spec.names.map((name, n) => [name, written(spec.values[n][state[n]])]));
 }

@@ -45,6 +45,7 @@ export function goalsIn(app, state) {
 export function faultText(app, [property, detail]) {
   const { spec } = app;
   if (property === "total") return "is not decided";
+  if (property === "invalid") return "is decided, although it is not valid";
   if (property === "restoring") return "is not surely restored to safety";
   if (property === "goals") return `misses its goal: ${ENDS[detail.end]}`;
   if (property === "minimal") return `would be restored better by ${detail.map((number) => spec.actions[number].name).join(", ") || "doing nothing"}`;

@@ -9,6 +9,17 @@ const MOST_GROUPS = 3_000;
 const MOST_LINES = 10_000;
 const ROWS = 60;
 const MOST_DECISIONS = 12;
+const UNDECIDED = "-";
+
+const nameOf = (chosen) => (chosen ? chosen.join() : UNDECIDED);
+
+// With starts, the valid states that the policy leaves out, where these can be listed.
+function* undecidedUnder({ spec, model, filter, executed }) {
+  if (!spec.starts.length || spec.total > MOST_LINES || executed !== null) return;
+  for (const state of inside(spec.sizes.map((size, n) => (filter[n] ? [...filter[n]] : upTo(size))))) {
+    if (model.assumed(state) && model.decide(state) === null) yield { values: state.map((value) => [value]), chosen: null, name: UNDECIDED, count: 1 };
+  }
+}
 
 // Groups of states under the filter, those of the commonest decision first, and whether there are more.
 export function groupsUnder(app) {
@@ -21,12 +32,11 @@ export function groupsUnder(app) {
     }
     found.push(cube);
   }
-  const groups = merged(found);
+  const groups = merged([...found, ...undecidedUnder(app)]).map((each) => ({ ...each, name: nameOf(each.chosen) }));
   const totals = new Map();
-  for (const each of groups) totals.set(each.chosen.join(), (totals.get(each.chosen.join()) ?? 0) + each.count);
-  groups.sort((one, other) => totals.get(other.chosen.join()) - totals.get(one.chosen.join())
-    || (one.chosen.join() < other.chosen.join() ? -1 : one.chosen.join() > other.chosen.join() ? 1 : other.count - one.count));
-  return { groups, totals, more };
+  for (const { name, count } of groups) totals.set(name, (totals.get(name) ?? 0) + count);
+  groups.sort((one, other) => totals.get(other.name) - totals.get(one.name) || one.name.localeCompare(other.name) || other.count - one.count);
+  return { groups, totals, more, states: groups.reduce((all, each) => all + each.count, 0) };
 }
 
 export function tableView(app) {
@@ -36,13 +46,13 @@ export function tableView(app) {
   const update = () => {
     const name = `${app.executed};${app.filter.map((each) => (each ? [...each].sort() : "")).join(";")}`;
     if (known?.name !== name) known = { name, ...groupsUnder(app) };
-    const groups = known.groups.filter((each) => app.wanted === null || each.chosen.join() === app.wanted);
+    const groups = known.groups.filter((each) => app.wanted === null || each.name === app.wanted);
     const states = groups.reduce((all, each) => all + each.count, 0);
     const each = app.everyState && states <= MOST_LINES && !known.more;
     const go = (page) => { app.page = page; app.change(); };
     const list = each ? groups.flatMap(({ chosen, values }) => [...inside(values)].map((state) => ({ chosen, state }))) : groups;
     const [rows, turn] = paged(list, app.page, ROWS, go);
-    redraw(element, summary(app, known), known.more ? h("p.quiet", `The first ${grouped(MOST_GROUPS)} groups; choose values above to see others.`) : null,
+    redraw(element, summary(app, known), known.more ? h("p.quiet", `There are more groups than these, which hold ${grouped(known.states)} states; choose values above to see others.`) : null,
       states <= MOST_LINES && !known.more ? h("label", h("input", { type: "checkbox", "data-key": "every", checked: app.everyState, onchange: (event) => { app.everyState = event.target.checked; app.page = 0; app.change(); } }), " every state on a line of its own") : null,
       each ? stateTable(app, rows) : groupTable(app, rows), turn);
   };
@@ -53,7 +63,7 @@ export function tableView(app) {
 function summary(app, { totals, more }) {
   const list = [...totals].sort((one, other) => other[1] - one[1]).slice(0, MOST_DECISIONS);
   return h("div.decisions", { role: "group", "aria-label": "decisions" }, list.map(([name, count]) => {
-    const chosen = name === "" ? [] : name.split(",").map(Number);
+    const chosen = name === UNDECIDED ? null : name === "" ? [] : name.split(",").map(Number);
     return chip([h("b", shortText(app.spec, chosen)), ` ${grouped(count)}${more ? "+" : ""}`], app.wanted === name,
       () => { app.wanted = app.wanted === name ? null : name; app.page = 0; app.change(); }, { "data-key": `d${name}`, title: actionsText(app.spec, chosen) });
   }), totals.size > list.length ? ` and ${counted(totals.size - list.length, "more decision")}` : null);

@@ -4,12 +4,13 @@ export const grouped = (number) => BigInt(number).toLocaleString("en-US");
 
 export const counted = (number, noun) => `${grouped(number)} ${noun}${BigInt(number) === 1n ? "" : "s"}`;
 
+// Of null: that nothing is decided.
 export const actionsText = (spec, chosen) =>
-  chosen.length ? chosen.map((number) => spec.actions[number].name).join(", ") : "nothing";
+  !chosen ? "not decided" : chosen.length ? chosen.map((number) => spec.actions[number].name).join(", ") : "nothing";
 
 // The same, but of many actions the first ones only.
 export const shortText = (spec, chosen) =>
-  chosen.length > 4 ? `${actionsText(spec, chosen.slice(0, 3))} and ${chosen.length - 3} more` : actionsText(spec, chosen);
+  chosen?.length > 4 ? `${actionsText(spec, chosen.slice(0, 3))} and ${chosen.length - 3} more` : actionsText(spec, chosen);
 
 export const effectText = (spec, effect) => {
   const parts = [];
