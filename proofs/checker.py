@@ -56,8 +56,8 @@ Effort = tuple[int, int]  # the duration and the number of steps of what it take
 LARGEST = 2_000_000  # so many states, sets or outcomes in one state, assignments of one set of effects are looked at
 
 # Limits of specifications (docs/language.md) and of the files beside them (docs/policy.md).
-MOST_BYTES, MOST_FILE_BYTES, MOST_DIGITS, MOST_LEVELS = 500_000, 256 * 2**20, 18, 100
-MOST_VARIABLES, MOST_VALUES, MOST_ACTIONS, LARGEST_NUMBER = 1_000, 10_000, 1_000, 1_000_000_000
+MOST_BYTES, MOST_FILE_BYTES, MOST_DIGITS, MOST_LEVELS = 2_000_000, 256 * 2**20, 18, 100
+MOST_VARIABLES, MOST_VALUES, MOST_ACTIONS, LARGEST_NUMBER = 1_000, 10_000, 10_000, 1_000_000_000
 MOST_TERMS, MOST_TERMS_IN_ALL, MOST_OUTCOMES = 100_000, 1_000_000, 10_000
 MOST_VALUES_IN_ALL, MOST_COMBINATIONS, MOST_ENTRIES = 1_000_000, 1_000_000, 100_000
 

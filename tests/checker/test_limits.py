@@ -51,7 +51,7 @@ def conditions(levels: int) -> str:
 LIMITS: dict[str, tuple[Callable[[int], str], int]] = {
     "variables": (lambda count: many(count, "state V{} can be a, b", "STATE VECTOR"), 1000),
     "values": (lambda count: values(", ".join(f"v{number}" for number in range(count))), 10_000),
-    "actions": (lambda count: STATES + many(count, "action a{}", "ACTIONS"), 1000),
+    "actions": (lambda count: STATES + many(count, "action a{}", "ACTIONS"), 10_000),
     "a duration": (lambda number: action(f"duration: {number}"), 1_000_000_000),
     "a bound": (lambda number: config(f"max_plan_length: {number}"), 1_000_000_000),
     "digits": (lambda count: action(f"duration: {'1':0>{count}}"), 18),
@@ -90,8 +90,8 @@ def test_what_is_at_a_limit_is_read(name: str) -> None:
 
 def test_bytes_are_counted() -> None:
     """As many as a specification may have."""
-    assert _readable(STATES + "/" * (500_000 - len(STATES)))
-    assert not _readable(STATES + "/" * (500_001 - len(STATES)))
+    assert _readable(STATES + "/" * (2_000_000 - len(STATES)))
+    assert not _readable(STATES + "/" * (2_000_001 - len(STATES)))
 
 
 def test_terms_are_counted(monkeypatch: pytest.MonkeyPatch) -> None:

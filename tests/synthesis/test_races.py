@@ -12,7 +12,9 @@ from tumato_symbolic.diagnostics import Code
 from tumato_symbolic.policy import as_table
 from tumato_symbolic.semantics import falsified
 from tumato_symbolic.spec import Spec
+from tumato_symbolic.symbolic import available_backend, encode
 from tumato_symbolic.synthesis import PolicyFormat, Realizable, synthesize
+from tumato_symbolic.synthesis.races import _not_exclusive
 
 RACE = """\
 BEGIN STATE VECTOR
@@ -73,3 +75,14 @@ def test_races_are_counted(profile: str) -> None:
         told = [each.message for each in found.warnings if each.code is Code.TUM354]
         places = "1 state" if count == 1 else f"{count:,} states"
         assert [message.partition(" the policy ")[0] for message in told] == ([f"in {places}"] if count else [])
+
+
+def test_actions_that_exclude_each_other_are_not_paired() -> None:
+    """Of many actions of one group no two can race, and none is looked at beside another."""
+    actions = " ".join(f"action a{n} controlled resources: M nominal effects: X is {n}" for n in range(50))
+    text = (
+        f"BEGIN STATE VECTOR state X can be 0..49 state Y can be no, yes END STATE VECTOR BEGIN RESOURCES resource M "
+        f"END RESOURCES BEGIN ACTIONS {actions} action b preconditions: X is 3 nominal effects: Y is yes END ACTIONS"
+    )
+    encoding = encode(parse(text), available_backend())
+    assert len(list(_not_exclusive(encoding))) == 2 * 50

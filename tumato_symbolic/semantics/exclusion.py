@@ -46,7 +46,9 @@ def contested_values(spec: Spec) -> Iterator[Contest]:
 
 def excluded(spec: Spec) -> list[int]:
     """For each action, a bit for every one that excludes it or that it is a case with; its own among them, perhaps."""
-    found = [sum(1 << case for case in cases) if len(cases) > 1 else 0 for cases in spec.cases for _ in cases]
+    found: list[int] = []
+    for cases in spec.cases:
+        found += [sum(1 << case for case in cases) if len(cases) > 1 else 0] * len(cases)
     for contest in (*contested_resources(spec), *contested_values(spec)):
         sides = [sum(1 << number for number in side) for side in contest]
         everyone = sum(sides)

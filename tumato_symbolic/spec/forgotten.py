@@ -53,7 +53,8 @@ def _unmentioned(spec: Spec, used_variables: Set[int]) -> Iterator[Diagnostic]:
 
 def _mentioned_values(spec: Spec) -> set[tuple[int, int]]:
     found = {pair for action in spec.actions for effect in action.effects for pair in effect}
-    for formula in (rule.formula for rule in _rules(spec)):
+    different = {id(rule.formula): rule.formula for rule in _rules(spec)}  # cases share their preconditions
+    for formula in different.values():
         found.update((atom.variable, atom.value) for atom in atoms(formula) if isinstance(atom, Is))
     return found
 
@@ -127,6 +128,8 @@ class _Leaving:
         formulas = [rule.formula for rule in action.conditions]
         if any(isinstance(each, Is) and each.variable == variable and each.value != value for each in formulas):
             return False
+        if self._budget.is_spent:
+            return True
         about = [each for each in formulas if variable in variables_of(each)]
         if not about:
             return True

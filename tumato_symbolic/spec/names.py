@@ -14,7 +14,7 @@ from tumato_symbolic.spec.values import declared_values
 from tumato_symbolic.syntax import ast
 
 MAX_VARIABLES = 1_000
-MAX_ACTIONS = 1_000
+MAX_ACTIONS = 10_000
 
 Kind: TypeAlias = Literal["state variable", "alias", "resource", "action", "named list"]
 

@@ -22,6 +22,11 @@ class Budget:
     def __init__(self, terms: int) -> None:
         self._left = terms
 
+    @property
+    def is_spent(self) -> bool:
+        """Whether more was asked for than there was."""
+        return self._left < 0
+
     def spend(self, terms: int) -> None:
         """Take `terms` off, or raise `OutOfBudgetError`."""
         self._left -= terms

@@ -7,7 +7,6 @@ from typing import Generic, TypeVar
 
 from tumato_symbolic.diagrams import DiagramBuilder, Reference
 from tumato_symbolic.symbolic.encoding import Encoding
-from tumato_symbolic.symbolic.layout import number_bits
 from tumato_symbolic.symbolic.manager import Bdd
 
 Value = TypeVar("Value", bound=Hashable)
@@ -25,15 +24,9 @@ class Extractor(Generic[Value]):
         self._default = default
         self._node = builder.node
         self._leaf = builder.leaf
-        self._values = [
-            [number_bits(encoding.state_bits[variable], number) for number in range(len(variables[variable].values))]
-            for variable in encoding.order
-        ]
-        self._tested = {
-            encoding.manager.level(bit): level
-            for level, variable in enumerate(encoding.order)
-            for bit in encoding.state_bits[variable]
-        }
+        self._sizes = [len(variables[variable].values) for variable in encoding.order]
+        self._bits = [[encoding.manager.level(bit) for bit in encoding.state_bits[each]] for each in encoding.order]
+        self._tested = {bit: level for level, bits in enumerate(self._bits) for bit in bits}
         self._known: dict[tuple[Reference, ...], dict[tuple[Bdd, ...], Reference]] = {}
 
     def function(self, parts: Sequence[tuple[Value, Bdd]]) -> Reference:
@@ -59,12 +52,22 @@ class Extractor(Generic[Value]):
             inner = [manager.top(digit) for digit in digits if digit not in (manager.true, manager.false)]
             if inner:
                 level = self._tested[min(inner)]
-                below = [
-                    self._build(tuple([manager.cofactor(digit, value) for digit in digits]), leaves, known)
-                    for value in self._values[level]
-                ]
+                below = [self._build(rest, leaves, known) for rest in self._by_value(level, 0, 0, digits)]
                 found = self._node(level, tuple(below))
             else:
                 found = leaves[sum((digit == manager.true) << place for place, digit in enumerate(digits))]
             known[digits] = found
         return found
+
+    def _by_value(self, level: int, place: int, first: int, digits: tuple[Bdd, ...]) -> list[tuple[Bdd, ...]]:
+        """What is left of digits for the values from `first` on that agree in the bits before `place`."""
+        bits, manager = self._bits[level], self._manager
+        alike = 1 << (len(bits) - place)
+        if first >= self._sizes[level]:
+            return []
+        inner = [manager.top(digit) for digit in digits if digit not in (manager.true, manager.false)]
+        if place == len(bits) or min(inner, default=bits[-1] + 1) > bits[-1]:
+            return [digits] * min(alike, self._sizes[level] - first)
+        halves = [manager.halves(digit, bits[place]) for digit in digits]
+        low = self._by_value(level, place + 1, first, tuple([low for low, _ in halves]))
+        return low + self._by_value(level, place + 1, first + alike // 2, tuple([high for _, high in halves]))

@@ -176,6 +176,12 @@ class Manager:
         low, high = u.low, u.high
         return (u.level, ~low, ~high) if u.negated else (u.level, low, high)
 
+    def halves(self, u: Bdd, level: int) -> tuple[Bdd, Bdd]:
+        """`u` without and with the bit at a level, above which it depends on none."""
+        if u in (self.true, self.false) or self.top(u) != level:
+            return u, u
+        return self.branches(u)[1:]
+
     def descending(self, u: Bdd) -> list[tuple[Bdd, int, Bdd, Bdd]]:
         """Every inner node `(node, level, low, high)` below `u`, each once, children before parents."""
         done: set[Bdd] = {self.true, self.false}

@@ -38,8 +38,13 @@ def variable_order(spec: Spec) -> tuple[int, ...]:
 
 def _action_scopes(spec: Spec) -> Iterator[Scope]:
     """What each action reads or writes."""
+    read: dict[int, Scope] = {}  # by formula, many of which cases share
     for action, written in zip(spec.actions, _written(spec), strict=True):
-        yield written.union(*(variables_of(rule.formula) for rule in action.conditions))
+        formulas = [rule.formula for rule in action.conditions]
+        for formula in formulas:
+            if id(formula) not in read:
+                read[id(formula)] = variables_of(formula)
+        yield written.union(*(read[id(formula)] for formula in formulas))
 
 
 def _rule_scopes(spec: Spec) -> Iterator[Scope]:

@@ -9,7 +9,7 @@ from typing import BinaryIO
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source, Span, UserError
 from tumato_symbolic.diagnostics.wording import quoted
 
-MAX_BYTES = 500_000
+MAX_BYTES = 2_000_000
 """The largest specification that is read, in bytes."""
 
 

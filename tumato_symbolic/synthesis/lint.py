@@ -68,6 +68,8 @@ def _idle_rules(problem: Problem) -> Iterator[Diagnostic]:
 
 
 def _idle_actions(problem: Problem) -> Iterator[Diagnostic]:
+    encoding = problem.encoding
+    somewhere = encoding.manager.exists(encoding.all_state_bits, problem.steps.allowed)
     for cases in problem.spec.cases:
-        if (problem.steps.allowed & problem.encoding.executing_any(cases)) == problem.false:
+        if (somewhere & encoding.executing_any(cases)) == problem.false:
             yield idle_action(problem.spec.actions[cases[0]])

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import permutations
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Note
 from tumato_symbolic.game import Problem
 from tumato_symbolic.semantics import State, apply, holds, named
 from tumato_symbolic.spec import Assignment, Rule, Spec, variables_of
-from tumato_symbolic.symbolic import Bdd
+from tumato_symbolic.symbolic import Bdd, Encoding
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +43,7 @@ def _races(problem: Problem, policy: Bdd) -> Iterator[_Race]:
     written = [
         {v for case in cases for effect in spec.actions[case].effects for v, _ in effect} for cases in spec.cases
     ]
-    for pending, writer in permutations(range(len(actions)), 2):
+    for pending, writer in _not_exclusive(encoding):
         if speaks_of[pending].isdisjoint(written[writer]):
             continue
         holds_there = encoding.all_of(rule.formula for rule in actions[pending].preconditions)
@@ -54,6 +53,16 @@ def _races(problem: Problem, policy: Bdd) -> Iterator[_Race]:
             if both != problem.false:
                 lost = both & ~encoding.after_every_effect(case, holds_there)
                 yield _Race(spec.cases[pending][0], case, problem.steps.states_of(lost))
+
+
+def _not_exclusive(encoding: Encoding) -> Iterator[tuple[int, int]]:
+    """The pairs of different actions that are not choices of one group, in order."""
+    groups = [frozenset(encoding.choice_of[case][0] for case in cases) for cases in encoding.spec.cases]
+    others: dict[frozenset[int], list[int]] = {}
+    for action, group in enumerate(groups):
+        if group not in others:
+            others[group] = [other for other, its in enumerate(groups) if its != group or len(group) > 1]
+        yield from ((action, other) for other in others[group] if other != action)
 
 
 def _warning(spec: Spec, race: _Race, state: State, count: int) -> Diagnostic:
