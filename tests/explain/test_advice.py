@@ -247,7 +247,7 @@ def test_an_action_that_helps_only_later_is_tried() -> None:
     assert found.repairs[0].additions == (NewAction(None, ((0, 1),)),)
 
 
-@pytest.mark.parametrize(("seed", "form"), [(7018, "clauses"), (7136, "clauses"), (7280, "starts")])
+@pytest.mark.parametrize(("seed", "form"), [(7018, "clauses"), (7136, "clauses"), (7280, "starts"), (9192, "starts")])
 def test_advice_on_clauses_and_starts(seed: int, form: Form) -> None:
     """Seeds of the campaign on which something was wrong once, in the advice or in what judges it."""
     assert examine_generated(seed, form) == []

@@ -63,7 +63,8 @@ def _with(spec: Spec, addition: Addition) -> Spec:
             return replace(spec, restoration=restoration)
         case NewAction(condition, effects):
             preconditions = () if condition is None else (_rule(spec, cube_formula(spec, condition)),)
-            action = Action("new action", 0, frozenset(), preconditions, effects, (), _SPAN)
+            name = f"new action {len(spec.actions)}"  # of one name they would be cases of one action
+            action = Action(name, 0, frozenset(), preconditions, effects, (), _SPAN)
             return replace(spec, actions=(*spec.actions, action))
         case NoGoalWhile():
             return _without_goal(spec, [_rule(spec, each) for each in conditions_of(spec, addition)])

@@ -140,7 +140,7 @@ def part_lines(spec: Spec, part: RealizablePart | None, written: str | None) -> 
     """The largest realizable part, and first what it takes from the environment. `written` is the file with it."""
     if part is None:
         yield (
-            "No start could be kept: none is without others."
+            "No part of the starts is realizable: no narrower start condition would help."
             if spec.starts
             else "No part of the states is realizable: no assumption would help."
         )
