@@ -28,3 +28,6 @@ for (let n = 0; n < 200; n++) {
   cubes += found.length;
 }
 assert(cubes < 0.8 * states);
+
+const product = [...inside(Array(12).fill(2).map(upTo))].map((state) => ({ values: state.map((value) => [value]), chosen: [state[3]], count: 1 }));
+assert.deepEqual(merged(product).map(({ count }) => count), [2048, 2048]);

@@ -70,12 +70,13 @@ def test_the_wheel_installs_and_runs_outside_the_checkout(built: Path, tmp_path:
 
 
 def test_the_wheel_holds_what_it_needs(built: Path) -> None:
-    """The wheel has the grammar, its table, the schema, the type marker and the licence; no tests, no examples."""
+    """The wheel has the grammar, its table, the schema, the page, the type marker and the licence; no tests."""
     (wheel,) = built.glob("*.whl")
     names = zipfile.ZipFile(wheel).namelist()
     assert "tumato_symbolic/syntax/tumato.lark" in names
     assert "tumato_symbolic/syntax/tumato.table.json" in names
     assert "tumato_symbolic/py.typed" in names
+    assert {f"tumato_symbolic/report/html/{name}" for name in ("page.html", "page.css", "judge.mjs")} <= set(names)
     assert any(name.endswith(".schema.json") for name in names)
     assert any(name.endswith("LICENSE") for name in names)
     assert all(name.startswith(("tumato_symbolic/", "tumato_symbolic-")) for name in names)

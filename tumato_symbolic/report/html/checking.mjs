@@ -33,7 +33,7 @@ export function checkView(app) {
     app.decisions.note(state);
   };
   const draw = () => redraw(element, told(app, whole),
-    !whole && found.done ? button(`check ${grouped(DRAWN)} more`, () => { found.done = false; go(chosenByChance(app, found.checked)); }, { "data-key": "more" }) : null,
+    !whole && found.done ? button(`check ${grouped(DRAWN)} more`, () => { found.done = false; go(chosenByChance(app, found.checked)); }, { key: "more" }) : null,
     found.wrong.length ? h("ul", found.wrong.map(([state, wrong]) => h("li", link(app, stateText(app.spec, state), state), " ", faultText(app, wrong)))) : null);
   const go = (left) => {
     const until = performance.now() + SLICE;

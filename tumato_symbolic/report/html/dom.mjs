@@ -5,13 +5,13 @@ const present = (each) => each !== null && each !== undefined && each !== false;
 function filled(element, attributes, children) {
   for (const [name, value] of Object.entries(attributes)) {
     if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
-    else if (present(value)) element.setAttribute(name, value === true ? "" : value);
+    else if (present(value)) element.setAttribute(name === "key" ? "data-key" : name, value === true ? "" : value);
   }
   element.append(...children.flat(3).filter(present));
   return element;
 }
 
-// An element with attributes, if there are any (`on…` are listeners, true is present), and children; `p.note` has a class.
+// An element with attributes, if there are any (`on…` are listeners, true is present, `key` is what `redraw` knows it by), and children; `p.note` has a class.
 export function h(name, ...children) {
   const [tag, kind] = name.split(".");
   const attributes = children[0]?.constructor === Object ? children.shift() : {};
@@ -31,7 +31,7 @@ export function redraw(element, ...children) {
 export const button = (text, onclick, more) => h("button", { type: "button", onclick, ...more }, text);
 
 // A button that looks like a link, and has another state looked at.
-export const link = (app, text, state, key) => button(text, () => app.select(state), { class: "link", "data-key": key });
+export const link = (app, text, state, key) => button(text, () => app.select(state), { class: "link", key: key });
 
 // A toggle; `pressed` is what it is now.
 export const chip = (text, pressed, onclick, more) => button(text, onclick, { class: "chip", "aria-pressed": String(pressed), ...more });
@@ -57,9 +57,9 @@ export function paged(list, at, most, go) {
   const pages = Math.ceil(list.length / most);
   const now = Math.min(at, Math.max(0, pages - 1));
   const turn = h("p.turn",
-    button("‹ before", () => go(now - 1), { disabled: now === 0, "data-key": "before" }),
+    button("‹ before", () => go(now - 1), { disabled: now === 0, key: "before" }),
     ` page ${now + 1} of ${pages} `,
-    button("next ›", () => go(now + 1), { disabled: now >= pages - 1, "data-key": "next" }));
+    button("next ›", () => go(now + 1), { disabled: now >= pages - 1, key: "next" }));
   return [list.slice(now * most, (now + 1) * most), pages > 1 ? turn : null];
 }
 

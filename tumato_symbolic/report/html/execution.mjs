@@ -29,9 +29,9 @@ export function executionView(app) {
       h("p.quiet", "From the chosen state: choose what happens. To choose another one begins anew."),
       history(app, trace), h("h3", "Next"), choices(app, here(), add, chance), disturbances(app, here(), add),
       h("p",
-        button("run to the goal", () => goOn(app, here, add), { "data-key": "run" }), " ",
-        button("begin again", () => { app.selected = trace.start; begin(trace.start); }, { disabled: !trace.events.length, "data-key": "again" }), " ",
-        button("download this as ITF", () => save("trace.itf.json", itf(app, trace)), { "data-key": "itf" })),
+        button("run to the goal", () => goOn(app, here, add), { key: "run" }), " ",
+        button("begin again", () => { app.selected = trace.start; begin(trace.start); }, { disabled: !trace.events.length, key: "again" }), " ",
+        button("download this as ITF", () => save("trace.itf.json", itf(app, trace)), { key: "itf" })),
       h("h3", `${grouped(RUNS)} executions`), many(app, settings, (found) => { statistics = found; update(); }), statistics);
   };
   return { element, update };
@@ -72,9 +72,9 @@ function choices(app, state, add, chance) {
   const rest = outcomes(spec, state, chosen).filter((each) => spec.key(each.state) !== spec.key(nominal));
   return [h("p", "The policy does ", h("b", actionsText(spec, chosen)), ". It goes"),
     h("p.choices",
-      button(`as intended: ${changeText(spec, state, nominal)}`, () => add({ state: nominal, chosen, way: null }), { "data-key": "nominal", class: "main" }),
-      rest.slice(0, 30).map((each, n) => button(wayText(spec, each.way), () => add({ state: each.state, chosen, way: each.way }), { "data-key": `way${n}` })),
-      button("by chance", () => add({ ...randomMove(spec, state, chosen, chance), chosen }), { "data-key": "chance" }))];
+      button(`as intended: ${changeText(spec, state, nominal)}`, () => add({ state: nominal, chosen, way: null }), { key: "nominal", class: "main" }),
+      rest.slice(0, 30).map((each, n) => button(wayText(spec, each.way), () => add({ state: each.state, chosen, way: each.way }), { key: `way${n}` })),
+      button("by chance", () => add({ ...randomMove(spec, state, chosen, chance), chosen }), { key: "chance" }))];
 }
 
 function disturbances(app, state, add) {
@@ -82,18 +82,18 @@ function disturbances(app, state, add) {
   const changes = spec.sizes.flatMap((size, n) => upTo(size).filter((value) => value !== state[n]).map((value) => [n, value]));
   const possible = changes.filter((change) => isValid(model, applied(change, state)));
   const first = possible.find(([n]) => spec.environment.includes(n));
-  const list = h("select", { "aria-label": "disturbance", "data-key": "disturbance" }, possible.map((change) => h("option", { value: change.join(), selected: change === first }, `${spec.names[change[0]]} becomes ${spec.values[change[0]][change[1]]}`)));
+  const list = h("select", { "aria-label": "disturbance", key: "disturbance" }, possible.map((change) => h("option", { value: change.join(), selected: change === first }, `${spec.names[change[0]]} becomes ${spec.values[change[0]][change[1]]}`)));
   return h("p", "Or the world changes: ", list, " ",
-    button("disturb", () => add({ state: applied(list.value.split(",").map(Number), state), chosen: null, way: null }), { disabled: !possible.length, "data-key": "disturb" }));
+    button("disturb", () => add({ state: applied(list.value.split(",").map(Number), state), chosen: null, way: null }), { disabled: !possible.length, key: "disturb" }));
 }
 
 function many(app, settings, tell) {
-  const option = (name, value, label) => h("label", h("input", { type: "checkbox", checked: value, "data-key": name, onchange: (event) => { settings[name] = name === "disturb" ? (event.target.checked ? 0.05 : 0) : event.target.checked; } }), ` ${label} `);
-  const from = h("select", { "aria-label": "where they start", "data-key": "from", onchange: () => { settings.from = from.value; } },
+  const option = (name, value, label) => h("label", h("input", { type: "checkbox", checked: value, key: name, onchange: (event) => { settings[name] = name === "disturb" ? (event.target.checked ? 0.05 : 0) : event.target.checked; } }), ` ${label} `);
+  const from = h("select", { "aria-label": "where they start", key: "from", onchange: () => { settings.from = from.value; } },
     h("option", { value: "here", selected: settings.from === "here" }, "the chosen state"),
     h("option", { value: "filter", selected: settings.from === "filter" }, "the states chosen above, by chance"));
   return h("p", option("faults", settings.faults, "effects by chance"), option("disturb", settings.disturb > 0, "disturbances (1 in 20 steps)"), " from ", from, " ",
-    button("execute", () => tell(counts(app, settings)), { "data-key": "execute" }));
+    button("execute", () => tell(counts(app, settings)), { key: "execute" }));
 }
 
 function counts(app, { faults, disturb, from }) {

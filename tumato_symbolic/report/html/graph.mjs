@@ -93,7 +93,7 @@ function drawnBox(app, name, box, selected) {
   const choose = () => app.select(node.example);
   const label = `${actionsText(app.spec, node.chosen)}: ${counted(node.count, "state")}`;
   const lines = [...linesOf(app, name), `${grouped(node.count)} ${node.count === 1 ? "state" : "states"}`];
-  return svg("g", { class: selected ? "box selected" : "box", tabindex: 0, role: "button", "aria-label": label, "data-key": `b${name}`, onclick: choose,
+  return svg("g", { class: selected ? "box selected" : "box", tabindex: 0, role: "button", "aria-label": label, key: `b${name}`, onclick: choose,
     onkeydown: (event) => { if (event.key === "Enter" || event.key === " ") { event.preventDefault(); choose(); } } },
   svg("rect", { x: box.x, y: box.y, width: WIDTH, height: box.height, rx: 6 }),
   lines.map((line, n) => svg("text", { x: box.x + WIDTH / 2, y: box.y + 18 + n * LINE, class: n === lines.length - 1 ? "count" : "do" }, line)));

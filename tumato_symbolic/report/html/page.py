@@ -84,10 +84,10 @@ _PIECES: Final = re.compile(r'("(?:[^"\\\n]|\\.)*"|`(?:[^`\\]|\\.)*`)')
 
 
 def _tight(program: str) -> str:
-    """Without the spaces and ends of lines that nobody but people needs."""
+    """Without the spaces and ends of lines that nobody but people needs: every statement ends with `;` or `}`."""
     parts = _PIECES.split(program)
-    parts[::2] = [re.sub(r"(?<=[{(\[,;]) *\n| *([{}()\[\],;:?<>=|&!+*]) *", r"\1", part) for part in parts[::2]]
-    return "".join(parts)
+    parts[::2] = [re.sub(r"\n(?!\w)|(?<!\w)\n| *([-{}()\[\],;:?<>=|&!+*/]) *", r"\1", part) for part in parts[::2]]
+    return "".join(parts) + "\n"
 
 
 def _tight_style(style: str) -> str:

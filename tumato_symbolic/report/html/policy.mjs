@@ -132,7 +132,10 @@ export function merged(found) {
     if (!numbers.has(text)) numbers.set(text, numbers.size + 1);
     return numbers.get(text);
   };
-  const share = (cube, n) => Math.imul(cube.ids[n], Math.imul(n + 1, 0x9e3779b1) | 1);
+  const share = (cube, n) => {
+    const mixed = Math.imul(cube.ids[n] * 64 + n + 1, 0x9e3779b1);
+    return Math.imul(mixed ^ (mixed >>> 15), 0x85ebca6b);
+  };
   let list = found.map((each) => {
     const cube = { ...each, values: each.values.slice(), ids: each.values.map(numberOf) };
     return { ...cube, sum: cube.ids.reduce((all, _, n) => (all + share(cube, n)) | 0, 0) };

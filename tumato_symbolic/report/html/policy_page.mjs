@@ -9,11 +9,26 @@ import { graphView } from "./graph.mjs";
 import { listingView } from "./listing.mjs";
 import { cubes } from "./policy.mjs";
 import { rulesView } from "./rules.mjs";
+import { everyState } from "./spec.mjs";
+import { isSafe } from "./steps.mjs";
 import { tableView } from "./table.mjs";
 
+const MOST_TRIED = 5_000;
+
 const app = readApp();
-const [first] = cubes(app.spec, app.data.policy, app.filter);
-if (first) app.selected = first.values.map(([value]) => value);
+app.selected = firstState() ?? app.selected;
+// A state to begin with: decided, and if one is soon found, safe.
+function firstState() {
+  const { spec, model } = app;
+  let left = MOST_TRIED;
+  for (const state of everyState(spec)) {
+    if (left-- === 0) break;
+    if (model.decide(state) !== null && isSafe(model, state)) return state;
+  }
+  const [cube] = cubes(spec, app.data.policy, app.filter);
+  return cube?.values.map(([value]) => value);
+}
+
 start(app, {
   check: checkView(app),
   filter: filterView(app),

@@ -48,7 +48,7 @@ def spec_record(spec: Spec, source: Source, ordering: Ordering) -> dict[str, Jso
         "resources": list(spec.resources),
         "actions": [_action(record, cases) for cases in spec.cases],
         "reaction_rules": record.rules(spec.reaction_rules),
-        "state_rules": record.rules(spec.state_rules),
+        "state_rules": [{**record.rule(rule), "severity": rule.severity} for rule in spec.state_rules],
         "assumptions": record.rules(spec.assumptions),
         "starts": record.rules(spec.starts),
         "bodies": record.rules(spec.bodies),
@@ -88,9 +88,8 @@ class _Predicates:
         return [self.rule(rule) for rule in rules]
 
     def rule(self, rule: Rule) -> dict[str, Json]:
-        """A rule; `severity` where it is a milder one, `with` the parameters of a copy."""
-        found = {"is": self.formula(rule.formula), "text": " ".join(rule.text.split()), **place(rule.span)}
-        return {**found, "severity": rule.severity}
+        """A rule; `with` are the parameters of a copy."""
+        return {"is": self.formula(rule.formula), "text": " ".join(rule.text.split()), **place(rule.span)}
 
     def formula(self, formula: Formula) -> Json:
         """`true`, `[variable, value, …]`, `["x", action]`, `["!", p]`, `["&", …]`, `["|", …]` or `["=", p, q]`."""

@@ -89,7 +89,10 @@ function compared(app, state, chosen, other) {
   if (!isSafe(model, state)) {
     const [ours, theirs] = [chosen, other].map((each) => (spec.stepwise ? judge.restorations.quality(state, each) : [0, duration(spec, each), 1]));
     if (!theirs) return "allowed, but need not lead to safety";
-    if (ours && smaller(ours, theirs)) return ours[0] < theirs[0] ? "restores safety less surely, or in more steps" : `takes ${theirs[1]} rather than ${ours[1]}`;
+    if (ours && smaller(ours, theirs)) {
+      if (ours[0] < theirs[0]) return "restores safety less surely, or in more steps";
+      return ours[1] < theirs[1] ? `takes ${theirs[1]} rather than ${ours[1]}` : `needs ${counted(theirs[2], "step")} to safety rather than ${ours[2]}`;
+    }
     if (!ours || smaller(theirs, ours)) return "restores this state better, but would keep another from its goal";
   }
   const steps = run(model, state, chosen).decisions.length;

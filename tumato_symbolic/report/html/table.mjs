@@ -53,7 +53,7 @@ export function tableView(app) {
     const list = each ? groups.flatMap(({ chosen, values }) => [...inside(values)].map((state) => ({ chosen, state }))) : groups;
     const [rows, turn] = paged(list, app.page, ROWS, go);
     redraw(element, summary(app, known), known.more ? h("p.quiet", `There are more groups than these, which hold ${grouped(known.states)} states; choose values above to see others.`) : null,
-      states <= MOST_LINES && !known.more ? h("label", h("input", { type: "checkbox", "data-key": "every", checked: app.everyState, onchange: (event) => { app.everyState = event.target.checked; app.page = 0; app.change(); } }), " every state on a line of its own") : null,
+      states <= MOST_LINES && !known.more ? h("label", h("input", { type: "checkbox", key: "every", checked: app.everyState, onchange: (event) => { app.everyState = event.target.checked; app.page = 0; app.change(); } }), " every state on a line of its own") : null,
       each ? stateTable(app, rows) : groupTable(app, rows), turn);
   };
   return { element, update };
@@ -65,7 +65,7 @@ function summary(app, { totals, more }) {
   return h("div.decisions", { role: "group", "aria-label": "decisions" }, list.map(([name, count]) => {
     const chosen = name === UNDECIDED ? null : name === "" ? [] : name.split(",").map(Number);
     return chip([h("b", shortText(app.spec, chosen)), ` ${grouped(count)}${more ? "+" : ""}`], app.wanted === name,
-      () => { app.wanted = app.wanted === name ? null : name; app.page = 0; app.change(); }, { "data-key": `d${name}`, title: actionsText(app.spec, chosen) });
+      () => { app.wanted = app.wanted === name ? null : name; app.page = 0; app.change(); }, { key: `d${name}`, title: actionsText(app.spec, chosen) });
   }), totals.size > list.length ? ` and ${counted(totals.size - list.length, "more decision")}` : null);
 }
 
