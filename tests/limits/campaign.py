@@ -24,11 +24,13 @@ LATE = 2.0
 _PROGRAM = (sys.executable, "-c", "from tumato_symbolic.cli.main import entry; entry()")
 
 _SPEC_ALONE = ("synth", "explain", "check")
-COMMANDS = (*_SPEC_ALONE, "verify", "show", "why", "run", "export", "report")
+COMMANDS = (*_SPEC_ALONE, "verify", "show", "diff", "why", "run", "export", "report")
 WITHOUT_JSON = ("export", "report")
 
 _CODES = {
     "ok": 0,
+    "same": 0,
+    "different": 1,
     "realizable": 0,
     "proved": 0,
     "refuted": 1,
@@ -128,6 +130,8 @@ def _arguments(command: str, spec: Path) -> list[str]:
         made = None
     policy.write_text("{}" if made is None else dumps(made))
     match command:
+        case "diff":
+            return [policy.name, policy.name, "--output-format", "json"]
         case "show":
             return [policy.name, "--output-format", "json"]
         case "why":

@@ -25,8 +25,8 @@ _POLICY = re.compile(rb'"PolicyFrameworkVersion"|"Type"\s*:\s*"policy')
 def recognized(error: UserError, options: CommandOptions, typed: Sequence[str]) -> UserError:
     """That an input is of the other kind, if it is, else what `error` says. `typed` are the words of the command."""
     policy, first = options.policy, next(iter(options.specs), "")
-    found = [_kind(spec) for spec in options.specs]
-    kind = _kind(policy) if policy else None
+    found = [kind_of(spec) for spec in options.specs]
+    kind = kind_of(policy) if policy else None
     if kind == "specification" and found and found[0] in ("policy", "certificate"):
         message = f"{quoted(policy)} is a specification and {quoted(first)} a {found[0]}: swap them"
         return _fault(message, _swapped(typed, policy, first))
@@ -42,7 +42,7 @@ def recognized(error: UserError, options: CommandOptions, typed: Sequence[str]) 
 
 def misplaced(name: str) -> Diagnostic | None:
     """That the file `name` is of another kind, where a specification belongs; None where it may be one."""
-    return _no_specification(name, _kind(name))
+    return _no_specification(name, kind_of(name))
 
 
 def _no_specification(name: str, kind: Kind | None) -> Diagnostic | None:
@@ -64,7 +64,7 @@ def _swapped(typed: Sequence[str], one: str, other: str) -> str:
     return f"say `tumato-sym {shlex.join(places.get(word, word) for word in typed)}`"
 
 
-def _kind(name: str) -> Kind | None:
+def kind_of(name: str) -> Kind | None:
     """What a file seems to be; None where that cannot be told."""
     try:
         path = Path(name)

@@ -20,7 +20,7 @@ from tumato_symbolic.diagrams import (
 from tumato_symbolic.limits import Context, LimitReachedError
 from tumato_symbolic.policy import Policy, StateSets, Vocabulary, as_diagram
 from tumato_symbolic.spec import Spec
-from tumato_symbolic.views.joint import Joint
+from tumato_symbolic.views.joint import MOST_LABELS, Joint
 from tumato_symbolic.views.placing import (
     NamesChanged,
     Placed,
@@ -31,19 +31,26 @@ from tumato_symbolic.views.placing import (
     place,
 )
 
-MOST_CHANGES = 1_000
+MOST_CHANGES = 50
 """So many different changes are described at most, those of most states."""
 
-_MOST_CUBES = 200
+_MOST_CUBES = 50
 """Changes that take more cubes are not described."""
+
+_MANY = 20
+"""More different changes are told apart only by the actions that are newly executed, or no longer."""
 
 
 @dataclass(frozen=True, slots=True)
 class Decided:
-    """What a policy says of a state: actions by name; None where it decides nothing. Not `known`: no such state."""
+    """What a policy says of a state: actions by name; None where it decides nothing. Not `known`: no such state.
+
+    `whole`: these are all actions that it executes, and not only those that the other policy does not.
+    """
 
     actions: tuple[str, ...] | None
     known: bool = True
+    whole: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,7 +187,9 @@ class _Describing:
     def described(self, found: Difference, most: int) -> Difference:
         """With the changes, as far as limits allow."""
         try:
-            joint = self._joint()
+            joint = self._joint(self._by_difference(), whole=False)
+            if len(joint.labels(joint.root)) <= _MANY:
+                joint = self._finer(joint)
         except UserError:
             reason = "there are too many different changes to describe them"
             return self._with(found, (), None, reason)
@@ -191,17 +200,35 @@ class _Describing:
         changes, limit = regions.changes(counts[:most])
         return self._with(found, changes, len(counts) - len(changes), limit)
 
+    def _finer(self, coarse: Joint[_Label]) -> Joint[_Label]:
+        """By whole decisions, if these are few as well."""
+        try:
+            found = self._joint([placed.executed for placed in self._placed], whole=True, most=_MANY)
+        except UserError:
+            return coarse
+        return found
+
+    def _by_difference(self) -> list[tuple[Reference, ...]]:
+        """Where both decide, and only the one, or only the other, executes each action."""
+        sets, (before, after) = self._sets, self._placed
+        both = sets.both(before.decided, after.decided)
+        pairs = list(zip(before.executed, after.executed, strict=True))
+        return [
+            tuple([sets.both(both, sets.without(one, other)) for one, other in pairs]),
+            tuple([sets.both(both, sets.without(other, one)) for one, other in pairs]),
+        ]
+
     def _with(self, found: Difference, changes: Sequence[Change], left: int | None, limit: str | None) -> Difference:
         names = found.variables, found.names, found.compared, found.changed
         return Difference(*names, tuple(changes), found.by_action, left, limit)
 
-    def _joint(self) -> Joint[_Label]:
-        """What is decided before and after, where that differs."""
+    def _joint(self, executed: Sequence[Sequence[Reference]], *, whole: bool, most: int = MOST_LABELS) -> Joint[_Label]:
+        """What is decided before and after where that differs, of which `executed` says what is to be told."""
         numbered = [
             (side, action, states)
-            for side, placed in enumerate(self._placed)
-            for action, states in enumerate(placed.executed)
-            if states != NOTHING
+            for side, each in enumerate(executed)
+            for action, states in enumerate(each)
+            if self._sets.both(states, self._changed) != NOTHING
         ]
         names = self._vocabulary.actions
         given = [states for placed in self._placed for states in (placed.known, placed.decided)]
@@ -209,15 +236,15 @@ class _Describing:
 
         def label(where: Sequence[bool]) -> _Label:
             chosen: tuple[list[str], list[str]] = [], []
-            for (side, action, _), executed in zip(numbered, where[4:], strict=True):
-                if executed:
+            for (side, action, _), there in zip(numbered, where[4:], strict=True):
+                if there:
                     chosen[side].append(names[action])
             before, after = (
-                Decided(tuple(chosen[side]) if where[2 * side + 1] else None, where[2 * side]) for side in (0, 1)
+                Decided(tuple(chosen[side]) if where[2 * side + 1] else None, where[2 * side], whole) for side in (0, 1)
             )
             return before, after
 
-        return Joint(self._sets, self._changed, given, label, context=self._context)
+        return Joint(self._sets, self._changed, given, label, context=self._context, most=most)
 
     def _within(self, joint: Joint[_Label]) -> Reference:
         """The states that are compared, in the sets of the changes."""

@@ -35,15 +35,16 @@ class Joint(Generic[Label]):
         *,
         uncounted: Label | None = None,
         context: Context | None = None,
+        most: int = MOST_LABELS,
     ) -> None:
         """Of a state of `states`, `label` says what it means in which of the sets given it is.
 
-        Raises `UserError` (TUM508) where there is too much of it.
+        Raises `UserError` (TUM508) where there are more than `most` labels, or it takes too many nodes.
         """
         self.context = context or Context()
         sizes = dict(zip(sets.order, sets.sizes, strict=True))
         self.sets = Sets(sets.order, [sizes[variable] for variable in range(len(sizes))], 2 + MOST_LABELS)
-        self._from, self._label, self._uncounted = sets, label, uncounted
+        self._from, self._label, self._uncounted, self._most = sets, label, uncounted, most
         self._labels: list[Label] = []
         self._references: dict[Label, Reference] = {}
         self._known: dict[tuple[Reference, ...], Reference] = {}
@@ -175,8 +176,8 @@ class Joint(Generic[Label]):
 
     def _leaf(self, label: Label) -> Reference:
         if label not in self._references:
-            if len(self._labels) == MOST_LABELS:
-                raise _too_much(f"it takes more than {MOST_LABELS:,} different decisions")
+            if len(self._labels) == self._most:
+                raise _too_much(f"it takes more than {self._most:,} different decisions")
             self._references[label] = 2 + len(self._labels)
             self._labels.append(label)
         return self._references[label]

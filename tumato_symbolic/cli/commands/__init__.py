@@ -18,6 +18,7 @@ COMMANDS: Final = {
     "verify": "prove a policy, whatever its origin",
     "export": "write a policy for another tool or language",
     "show": "a policy, or a part of it, as a tree, rules, a table or a graph",
+    "diff": "how two policies, or two specifications, differ",
     "decide": "what to do in a state",
     "run": "execute a policy, step by step or many times",
     "report": "a policy as a page for a browser",
