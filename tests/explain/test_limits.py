@@ -4,9 +4,11 @@ from dataclasses import replace
 
 from tests.cli.inputs import CONFLICT, TWO_ROBOTS, WARNED
 from tests.generate import random_spec
-from tumato_symbolic import parse
+from tumato_symbolic import parse, synthesize
 from tumato_symbolic.explain.explain import MAX_CUBES, explain
 from tumato_symbolic.explain.explanation import Explanation, NothingToExplain
+from tumato_symbolic.limits import Context
+from tumato_symbolic.spec.many_goals import many_told
 from tumato_symbolic.symbolic import Backend, available_backend
 
 BACKENDS: tuple[Backend, Backend] = (available_backend(), "autoref")
@@ -60,3 +62,18 @@ def test_both_backends_give_the_same_explanation() -> None:
         if isinstance(first, Explanation) and isinstance(second, Explanation):
             second = replace(second, statistics=first.statistics)
             assert first == second
+
+
+def test_many_goals_are_told_where_a_limit_is_met() -> None:
+    """In how many ways they may be active, beside the stage that was cut short."""
+    names = [f"x{number}" for number in range(9)]
+    states = " ".join(f"state {name} can be a, b" for name in names)
+    goals = " ".join(f"when {name} is a then goal: {name} is b" for name in names)
+    spec = parse(
+        f"BEGIN STATE VECTOR {states} END STATE VECTOR BEGIN ACTIONS END ACTIONS "
+        f"BEGIN GOALS goal type: constraint {goals} END GOALS"
+    )
+    assert many_told(spec) == "up to 512 sets of goals may be active"
+    told = list[str]()
+    synthesize(spec, context=Context(progress=told.append))
+    assert "solving each goal in its own region (up to 512 sets of goals may be active)" in told

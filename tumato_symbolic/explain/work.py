@@ -14,6 +14,7 @@ from tumato_symbolic.explain.failing_states import FailingStates
 from tumato_symbolic.explain.requirements import Requirements
 from tumato_symbolic.limits import Context
 from tumato_symbolic.semantics import State
+from tumato_symbolic.spec.many_goals import many_told
 from tumato_symbolic.symbolic import Bdd
 from tumato_symbolic.synthesis import Unrealizable
 from tumato_symbolic.synthesis.result import FailureKind
@@ -94,4 +95,6 @@ class Work:
 
     def share_met(self) -> str:
         """That a stage used up its share of the time limit."""
-        return f"its share of the time limit of {self.context.limits.seconds:g} s was used up"
+        many = many_told(self.requirements.spec)
+        told = f"; {many}" if many else ""
+        return f"its share of the time limit of {self.context.limits.seconds:g} s was used up{told}"

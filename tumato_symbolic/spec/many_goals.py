@@ -34,6 +34,13 @@ def goal_parameters(spec: Spec) -> GoalParameters | None:
     return GoalParameters(tuple(range(len(spec.bodies))), tuple(sorted(spec.as_actions(actions))))
 
 
+def many_told(spec: Spec) -> str:
+    """That goals may be active in many ways, where they may, as reports say it; else empty."""
+    if spec.goals is None or goal_parameters(spec) is None:
+        return ""
+    return f"up to {_most(spec.goals):,} sets of goals may be active"
+
+
 def _most(goals: Goal) -> int:
     """How many sets of active goals there can be at most, whatever the conditions say."""
 

@@ -27,6 +27,7 @@ from tumato_symbolic.policy import Policy, as_table
 from tumato_symbolic.semantics import count_states
 from tumato_symbolic.semantics.lint import no_valid_state
 from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.spec.many_goals import many_told
 from tumato_symbolic.symbolic import Backend, Bdd, available_backend
 from tumato_symbolic.synthesis.certificate import policy_diagram
 from tumato_symbolic.synthesis.counting import restored_in
@@ -121,7 +122,8 @@ def _decide(problem: Problem, so_far: Undecided, *, policy_format: PolicyFormat,
     """A policy for all valid states of a problem, or why there is none; `so_far` has what was counted and warned of."""
     context, statistics, warnings = problem.context, so_far.statistics, so_far.warnings
     assert statistics is not None, "states are counted first"
-    context.tell("solving each goal in its own region")
+    many = many_told(problem.spec)
+    context.tell("solving each goal in its own region" + (f" ({many})" if many else ""))
     policy = own_region_policy(problem)
     statistics = replace(statistics, own_region=_count_decided(problem, policy))
     context.learn(replace(so_far, statistics=statistics))
