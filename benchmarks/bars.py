@@ -24,6 +24,8 @@ BARS = {
     "factory": Bar(2, 2),
     "uav": Bar(8, 6, size=50_000),
     "loads 8": Bar(14, 6),
+    "loads 15": Bar(12, 12),
+    "loads 20": Bar(30, 30),
     "robots 4": Bar(20, 14),
     "samples 30": Bar(50, 30, memory=1000),
     "plant 10": Bar(100, 60, memory=1000),

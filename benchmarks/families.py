@@ -34,7 +34,7 @@ FAMILIES = {
     family.name: family
     for family in (
         Family("amr", "the paper's AMR", amr, (1,), (1,)),
-        Family("loads", "AMR with n load places, which goals share", loads, (2, 4, 6, 8), (4,)),
+        Family("loads", "AMR with n load places, which goals share", loads, (2, 4, 6, 8, 15, 20), (4,)),
         Family("factory", "a robot that serves a press", factory, (1,), (1,)),
         Family("uav", "an inspection UAV", uav, (1,), (1,)),
         Family("robots", "n AMRs that share a charger and a workstation", robots, (2, 3, 4), (2,)),
