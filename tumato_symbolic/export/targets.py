@@ -16,7 +16,7 @@ Texts: TypeAlias = tuple[str, ...]
 
 @dataclass(frozen=True, slots=True)
 class Target:
-    """A format. Its module has the same name, and a function `files` from a `Request` to `Texts`.
+    """A format. Its module has the same name (with `_` for `-`), and a function `files` from a `Request` to `Texts`.
 
     `example` is a usual name of FILE. `beside` are the endings of files that are written beside FILE in any case,
     `check` that of the program which `--check` adds.
@@ -32,6 +32,7 @@ TARGETS: Final = {
     "python": Target("a module for Python 3.8 or later", "amr.py"),
     "c99": Target("a source and its header in C99", "amr.c", beside=(".h",), check="_check.c"),
     "cpp": Target("a header in C++17, which needs no other file", "amr.hpp"),
+    "structured-text": Target("a function block for controllers (IEC 61131-3)", "amr.st"),
     "btcpp": Target("a tree for BehaviorTree.CPP 4", "amr.xml"),
     "nusmv": Target("a model for NuSMV, with its claims", "amr.smv"),
     "promela": Target("a model for SPIN, with its claims", "amr.pml"),
@@ -44,4 +45,4 @@ TARGETS: Final = {
 
 def load(name: str) -> Callable[[Request], Texts]:
     """What writes a target."""
-    return cast("Callable[[Request], Texts]", import_module(f"tumato_symbolic.export.{name}").files)
+    return cast("Callable[[Request], Texts]", import_module(f"tumato_symbolic.export.{name.replace('-', '_')}").files)

@@ -25,7 +25,7 @@ policy does, right or wrong. Each file says what is guaranteed of a proved polic
 (docs/robot.md).
 
 targets:
-""" + "".join(f"  {name:<8} {target.purpose}\n" for name, target in TARGETS.items())
+""" + "".join(f"  {name:<15} {target.purpose}\n" for name, target in TARGETS.items())
 
 EXAMPLES = """\
 examples:
