@@ -1,8 +1,4 @@
-"""The cases of an action with clauses: one for each way in which its conditions may hold together.
-
-Conditions that share variables belong to one *component*. The cases of a component are found by looking at the values
-of its variables, those of an action are the product of its components.
-"""
+"""The cases of an action with clauses: one for each way in which its conditions may hold together."""
 
 from __future__ import annotations
 
@@ -10,17 +6,17 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from math import prod
-from typing import TypeAlias
 
 from tumato_symbolic.diagnostics import Code, Note
 from tumato_symbolic.diagnostics.wording import quoted
-from tumato_symbolic.spec.clauses import Change, Clause, ClauseSet
+from tumato_symbolic.spec.clauses import Change, ClauseSet
 from tumato_symbolic.spec.collector import Findings
+from tumato_symbolic.spec.components import Active, Part, components, parts
 from tumato_symbolic.spec.effects import MAX_OUTCOMES, Effects, conjunction, opened, worded
-from tumato_symbolic.spec.fold import Connectives, fold
-from tumato_symbolic.spec.formula import FALSE, TRUE, Executing, Formula, Is, Or, variables_of
-from tumato_symbolic.spec.satisfiability import Budget, OutOfBudgetError, search, size, truth
+from tumato_symbolic.spec.formula import FALSE, TRUE, Formula, Or, variables_of
+from tumato_symbolic.spec.satisfiability import Budget, OutOfBudgetError, search, size
 from tumato_symbolic.spec.specification import Action, Alternative, Assignment, Rule, Variable
+from tumato_symbolic.spec.value_sets import one_of, values_where
 
 MAX_CASES = 10_000
 """The most cases of all actions together, an action without clauses being one."""
@@ -28,14 +24,8 @@ MAX_CASES = 10_000
 MAX_CASE_WORK = 2_000_000
 """How many terms of conditions are looked at to find the cases of all actions."""
 
-COMBINATION = 20
-"""As many terms take as long as one combination of values, besides those of its conditions."""
-
 MAX_SEARCH_WORK = 2_000_000
 """How many terms are looked at to find states in which effects disagree or leave the range of a variable."""
-
-_Active: TypeAlias = tuple[tuple[int, int, tuple[Formula, ...]], ...]
-"""Which effects happen: the number of their set, that of their clause, and the predicates."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,14 +34,6 @@ class Unfinished:
 
     action: Action
     sets: tuple[ClauseSet, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class _Part:
-    """A case of one component: what happens in it, and where it is met."""
-
-    active: _Active
-    guard: Formula
 
 
 class TooManyCasesError(Exception):
@@ -77,8 +59,8 @@ class Cases:
         """The cases of an action; what is in error is left out of them, and reported."""
         self._warn_of_ends(unfinished)
         try:
-            components = [self._parts(component) for component in _components(unfinished.sets)]
-            self._count(prod(map(len, components)), unfinished)
+            found = [parts(each, self._sizes, self._work) for each in components(unfinished.sets)]
+            self._count(prod(map(len, found)), unfinished)
         except (OutOfBudgetError, TooManyCasesError):
             message = f"the conditions of {quoted(unfinished.action.name)} make too many cases"
             way_out = f"at most {MAX_CASES:,} for all actions are possible; let conditions speak of fewer variables"
@@ -86,7 +68,7 @@ class Cases:
             return (unfinished.action,)
         written = tuple(each.written() for each in unfinished.sets)
         never = replace(unfinished.action, guard=_rule(FALSE, unfinished), written=written)
-        return tuple(self._cases(unfinished, components)) or (never,)
+        return tuple(self._cases(unfinished, found)) or (never,)
 
     def _count(self, cases: int, unfinished: Unfinished) -> None:
         self._made += cases
@@ -94,15 +76,15 @@ class Cases:
         if self._made > MAX_CASES:
             raise TooManyCasesError
 
-    def _cases(self, unfinished: Unfinished, components: list[list[_Part]]) -> Iterator[Action]:
+    def _cases(self, unfinished: Unfinished, by_component: list[list[Part]]) -> Iterator[Action]:
         """One action for each list of assignments of the sets, as the values of variables are declared."""
         base = [(number, 0, each.clauses[0].fixed) for number, each in enumerate(unfinished.sets)]
         known: dict[tuple[int, tuple[Formula, ...]], tuple[Assignment, ...]] = {}
         guards: dict[tuple[tuple[Assignment, ...], ...], list[Formula]] = {}
         whole = True
-        for parts in product(*components):
-            active = (*base, *(each for part in parts for each in part.active))
-            guard = conjunction([part.guard for part in parts if part.guard != TRUE])
+        for chosen in product(*by_component):
+            active = (*base, *(each for part in chosen for each in part.active))
+            guard = conjunction([part.guard for part in chosen if part.guard != TRUE])
             found = self._denoted(unfinished, active, guard, known)
             if found is None:
                 return
@@ -124,7 +106,7 @@ class Cases:
     def _denoted(
         self,
         unfinished: Unfinished,
-        active: _Active,
+        active: Active,
         guard: Formula,
         known: dict[tuple[int, tuple[Formula, ...]], tuple[Assignment, ...]],
     ) -> list[tuple[Assignment, ...]] | None:
@@ -174,7 +156,7 @@ class Cases:
                 found.setdefault(variable, frozenset(range(self._sizes[variable])))
             if len(mentioned) == 1:
                 (variable,) = mentioned
-                found[variable] &= _values_where(formula, found[variable])
+                found[variable] &= values_where(formula, found[variable])
             else:
                 others.append(formula)
         if not all(found.values()):
@@ -187,7 +169,7 @@ class Cases:
         return {variable: known.get(("variable", variable), min(values)) for variable, values in found.items()}
 
     def _report(
-        self, unfinished: Unfinished, number: int, active: _Active, denoted: tuple[Assignment, ...], state: str | None
+        self, unfinished: Unfinished, number: int, active: Active, denoted: tuple[Assignment, ...], state: str | None
     ) -> None:
         """Report a set of effects that does not denote what it has to where a case is met."""
         name, clauses = unfinished.action.name, unfinished.sets[number].clauses
@@ -222,7 +204,7 @@ class Cases:
             for change in clause.changes:
                 if not change.clipped:
                     continue
-                clipped = _one_of(change.variable, change.clipped, self._sizes[change.variable])
+                clipped = one_of(change.variable, change.clipped, self._sizes[change.variable])
                 state = self._met(unfinished.action, conjunction([clipped, clause.condition]))
                 if state:
                     self._warn_of_end(change, state)
@@ -239,132 +221,6 @@ class Cases:
             change.span,
             f"if that is not meant, add the precondition `{variable.name} {bound}`" if kept else None,
         )
-
-    def _parts(self, component: _Component) -> list[_Part]:
-        """The cases of one component: combinations of values are in one where the same happens."""
-        happening = self._by_value(component) if len(component.variables) == 1 else self._by_values(component)
-        cases: dict[frozenset[tuple[int, Formula]], int] = {}
-        parts: list[_Active] = []
-        table: list[int] = []
-        for active in happening:
-            effects = frozenset((number, formula) for number, _, fixed in active for formula in fixed)
-            if effects not in cases:
-                cases[effects] = len(parts)
-                parts.append(active)
-            table.append(cases[effects])
-        guards = _guards(tuple(table), [(each, self._sizes[each]) for each in component.variables])
-        return [_Part(active, guards[number]) for number, active in enumerate(parts)]
-
-    def _by_value(self, component: _Component) -> list[_Active]:
-        """What happens at each value of the only variable."""
-        (variable,) = component.variables
-        domain = frozenset(range(self._sizes[variable]))
-        happening: list[list[tuple[int, int, tuple[Formula, ...]]]] = [[] for _ in domain]
-        for number, place, clause in component.clauses:
-            values = _values_where(clause.condition, domain)
-            self._work.spend(size(clause.condition) + len(values))
-            for value in values:
-                happening[value].append((number, place, _happening(clause, {variable: value})))
-        return [tuple(sorted(active, key=_place)) for active in happening]
-
-    def _by_values(self, component: _Component) -> Iterator[_Active]:
-        """What happens at each combination of values of the variables, the last of which changes fastest."""
-        variables = component.variables
-        combinations = prod(self._sizes[variable] for variable in variables)
-        self._work.spend(
-            combinations * (COMBINATION + sum(size(clause.condition) for _, _, clause in component.clauses))
-        )
-        for values in product(*(range(self._sizes[variable]) for variable in variables)):
-            here = dict(zip(variables, values, strict=True))
-            known = {("variable", variable): value for variable, value in here.items()}
-            yield tuple(
-                (number, place, _happening(clause, here))
-                for number, place, clause in component.clauses
-                if truth(clause.condition, known) is True
-            )
-
-
-@dataclass(frozen=True, slots=True)
-class _Component:
-    """Clauses that share variables, each with the number of its set and its own."""
-
-    variables: tuple[int, ...]
-    clauses: tuple[tuple[int, int, Clause], ...]
-
-
-def _components(sets: Sequence[ClauseSet]) -> list[_Component]:
-    """All clauses that depend on the state, by the variables that they depend on."""
-    found: list[tuple[frozenset[int], list[tuple[int, int, Clause]]]] = []
-    for number, place, clause in _depending(sets):
-        mentioned = variables_of(clause.condition) | {change.variable for change in clause.changes}
-        touching = [one for one in found if one[0] & mentioned or not (one[0] or mentioned)]
-        others = [one for one in found if not any(one is each for each in touching)]
-        clauses = [each for one in touching for each in one[1]]
-        found = [*others, (mentioned.union(*(one[0] for one in touching)), [*clauses, (number, place, clause)])]
-    return [_Component(tuple(sorted(variables)), tuple(clauses)) for variables, clauses in found]
-
-
-def _depending(sets: Sequence[ClauseSet]) -> Iterator[tuple[int, int, Clause]]:
-    """Clauses with the number of their set and their own; relative effects before all clauses each for itself."""
-    for number, each in enumerate(sets):
-        base, *others = each.clauses
-        yield from ((number, 0, Clause(TRUE, (), (change,), base.span)) for change in base.changes)
-        yield from ((number, place, clause) for place, clause in enumerate(others, 1))
-
-
-def _happening(clause: Clause, values: dict[int, int]) -> tuple[Formula, ...]:
-    """The effects of a clause where variables have these values."""
-    relative = [Is(change.variable, change.results[values[change.variable]]) for change in clause.changes]
-    return (*clause.fixed, *relative)
-
-
-def _place(active: tuple[int, int, tuple[Formula, ...]]) -> tuple[int, int]:
-    return active[:2]
-
-
-def _values_where(condition: Formula, domain: frozenset[int]) -> frozenset[int]:
-    """The values of the only variable that a condition speaks of with which it holds."""
-    by: Connectives[frozenset[int]] = Connectives(
-        constant=lambda value: domain if value else frozenset(),
-        negation=lambda values: domain - values,
-        conjunction=lambda several: domain.intersection(*several),
-        disjunction=lambda several: frozenset[int]().union(*several),
-        equivalence=lambda left, right: domain - (left ^ right),
-    )
-
-    def atom(atom: Is | Executing) -> frozenset[int]:
-        return frozenset((atom.value,)) if isinstance(atom, Is) else frozenset()
-
-    return fold(condition, atom, by)
-
-
-def _guards(table: tuple[int, ...], variables: Sequence[tuple[int, int]]) -> dict[int, Formula]:
-    """Where each number stands in a table over the values of variables, which come with the numbers of their values."""
-    if not variables:
-        return {table[0]: TRUE}
-    (variable, size), *others = variables
-    length = len(table) // size
-    rows: dict[tuple[int, ...], list[int]] = {}
-    for value in range(size):
-        rows.setdefault(table[value * length : (value + 1) * length], []).append(value)
-    found: dict[int, dict[Formula, list[int]]] = {}
-    for row, values in rows.items():
-        for number, inner in _guards(row, others).items():
-            found.setdefault(number, {}).setdefault(inner, []).extend(values)
-    guards: dict[int, Formula] = {}
-    for number, parts in found.items():
-        each = [
-            conjunction([formula for formula in (_one_of(variable, sorted(values), size), inner) if formula != TRUE])
-            for inner, values in parts.items()
-        ]
-        guards[number] = Or(tuple(each)) if len(each) > 1 else each[0]
-    return guards
-
-
-def _one_of(variable: int, values: Sequence[int], size: int) -> Formula:
-    """That a variable, which has so many values, has one of these, at least one."""
-    atoms = tuple(Is(variable, value) for value in values)
-    return TRUE if len(atoms) == size else Or(atoms) if len(atoms) > 1 else atoms[0]
 
 
 def _rule(guard: Formula, unfinished: Unfinished) -> Rule:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Code, Note, Span
 from tumato_symbolic.diagnostics.wording import listed, quoted
+from tumato_symbolic.spec.alias_uses import Cycle, definitions, mentioned, reachable
 from tumato_symbolic.spec.collector import Findings
 from tumato_symbolic.spec.comparisons import Comparisons, ValuePredicate
 from tumato_symbolic.spec.formula import FALSE, TRUE, And, Executing, Formula, Iff, Not, Or
@@ -66,9 +68,8 @@ class Predicates:
         self._where: str | None = None
         self.used_aliases: set[int] = set()
         self.used_variables: set[int] = set()
-        self._references = tuple(self._references_of(each.predicate) for each in names.aliases)
-        for number in range(len(names.aliases)):
-            self._define(number)
+        self._uses = tuple(mentioned(each.predicate, names) for each in names.aliases)
+        self._define_aliases()
 
     def rule(self, predicate: ast.Predicate, no_executing_in: str | None) -> Rule | None:
         """A predicate of the user with its text; None where it is in error.
@@ -77,7 +78,7 @@ class Predicates:
         """
         self._where = no_executing_in
         resolved = self._resolve(predicate)
-        self._use(self._references_of(predicate))
+        self.used_aliases |= reachable(mentioned(predicate, self._names), self._uses, self.used_aliases)
         if resolved is None:
             return None
         self._terms += resolved.terms
@@ -250,52 +251,17 @@ class Predicates:
             notes,
         )
 
-    def _use(self, references: tuple[int, ...]) -> None:
-        waiting = list(references)
-        while waiting:
-            number = waiting.pop()
-            if number not in self.used_aliases:
-                self.used_aliases.add(number)
-                waiting.extend(self._references[number])
-
-    def _references_of(self, predicate: ast.Predicate) -> tuple[int, ...]:
-        """The aliases that a predicate names directly."""
-        match predicate:
-            case ast.Reference(name):
-                declared = self._names.table.get(name.text)
-                return (declared.number,) if declared is not None and declared.kind == "alias" else ()
-            case ast.Negation(operand):
-                return self._references_of(operand)
-            case ast.Conjunction(operands) | ast.Disjunction(operands):
-                return tuple(number for each in operands for number in self._references_of(each))
-            case ast.Implication(left, right) | ast.Equivalence(left, right):
-                return self._references_of(left) + self._references_of(right)
-            case _:
-                return ()
-
-    def _define(self, number: int) -> None:
-        """Resolve an alias after those that it uses; without recursion, since chains may be long."""
-        path = [number]
-        on_path = {number}
-        while path:
-            here = path[-1]
-            following = next((each for each in self._references[here] if each not in self._aliases), None)
-            if here in self._aliases or following is None:
-                if here not in self._aliases:
-                    self._aliases[here] = self._resolve(self._names.aliases[here].predicate)
-                path.pop()
-                on_path.discard(here)
-            elif following in on_path:
-                self._circular(path[path.index(following) :])
+    def _define_aliases(self) -> None:
+        """Resolve every alias after those that it uses; those that are defined by themselves stand for nothing."""
+        for found in definitions(self._uses):
+            if isinstance(found, Cycle):
+                self._aliases |= dict.fromkeys(found.aliases)
+                self._circular(found.aliases)
             else:
-                path.append(following)
-                on_path.add(following)
+                self._aliases[found] = self._resolve(self._names.aliases[found].predicate)
 
-    def _circular(self, cycle: list[int]) -> None:
-        """Report aliases that are defined by each other, and give them up."""
+    def _circular(self, cycle: Sequence[int]) -> None:
         names = [self._names.aliases[each].name for each in cycle]
-        for each in cycle:
-            self._aliases[each] = None
         around = " → ".join(quoted(name.text) for name in [*names[:9], names[0]])
         self._findings.add(
             Code.TUM206,

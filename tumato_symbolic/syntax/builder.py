@@ -1,4 +1,7 @@
-"""Bottom-up construction of the tree: one function per rule of the grammar, called by its name. See `Rule.node`."""
+"""Bottom-up construction of the tree: one function per rule of the grammar, called by its name. See `Rule.node`.
+
+Longer than 300 lines because the grammar has so many rules: a function is a line or two.
+"""
 
 # The functions are named and explained by the rules; what they are given depends on the rule.
 # ruff: noqa: D103, ANN401

@@ -1,7 +1,4 @@
-"""Tokens to a tree, going on after a mistake so that one run reports them all.
-
-Keywords are soft: which words are keywords is decided here, by what the parser can take next.
-"""
+"""Tokens to a tree, going on after a mistake so that one run reports them all."""
 
 from __future__ import annotations
 
@@ -10,54 +7,22 @@ from typing import TYPE_CHECKING
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source, Span
 from tumato_symbolic.syntax import ast
-from tumato_symbolic.syntax.confirming import (
-    after_headers,
-    begins_clause,
-    begins_copies,
-    denies,
-    ends_copies,
-    quantifies,
-)
 from tumato_symbolic.syntax.grammar import Grammar, grammar
 from tumato_symbolic.syntax.nesting import MAX_NESTING, deepest
 from tumato_symbolic.syntax.parsed import Parsed
-from tumato_symbolic.syntax.stack import Row, Stack
-from tumato_symbolic.syntax.tokens import BLOCKS, HARD, TITLES, Token, tokenize
+from tumato_symbolic.syntax.stack import Stack
+from tumato_symbolic.syntax.terminals import FOLLOWED_BY, Terminals
+from tumato_symbolic.syntax.tokens import BLOCKS, TITLES, Token, tokenize
 
 if TYPE_CHECKING:
     from tumato_symbolic.syntax.situation import Situation
 
-_LOOKED_AT = 3
-"""So many words in a row may be needed to tell that the first is a keyword: `exactly one R` and `in`."""
-
 MAX_SYNTAX_ERRORS = 100
 """Reading stops after so many mistakes in the syntax."""
 
-_FOLLOWED_BY = {
-    "duration": (":",),
-    "cost": (":",),
-    "controlled": ("resources",),
-    "preconditions": (":",),
-    "nominal": ("effects",),
-    "effects": (":",),
-    "alternative": ("effects",),
-}
-"""What shows that a word is the keyword, where it could be the name of a variable or an alias as well."""
-
-_CONFIRMED = {
-    "not": denies,
-    "when": begins_clause,
-    "for": begins_copies,
-    "end": ends_copies,
-    "all": quantifies,
-    "some": quantifies,
-    "exactly": quantifies,
-}
-"""Further words that may be names, and what shows that they are keywords."""
-
 _RESTARTS = frozenset(
     {"BEGIN", "END", "state", "define", "resource", "action", "rule", "assume", "goal", "when", "for", "end"}
-    | {"severity", "max_plan_length", "effect_ordering", "restoration", *_FOLLOWED_BY}
+    | {"severity", "max_plan_length", "effect_ordering", "restoration", *FOLLOWED_BY}
 )
 """Words at which reading can go on after a mistake."""
 
@@ -125,9 +90,8 @@ class _Run:
         self, compiled: Grammar, tokens: tuple[Token, ...], stop: int | None = None, eager: bool = False
     ) -> None:
         self.stop = len(tokens) if stop is None else stop
-        self.eager = eager
-        self.grammar = compiled
         self.tokens = tokens
+        self.words = Terminals(tokens, compiled.keywords, eager)
         self.stack = Stack(compiled.table)
         self.index = 0
         self.found: list[Diagnostic] = []
@@ -136,8 +100,6 @@ class _Run:
         self.open: list[Token] = []
         self.denials = 0
         self.blocks = 0
-        self.actions = False
-        self.headers = (0, 0)
 
     def read(self) -> ast.Specification | None:
         """Feed every token, recovering where one does not fit. None where reading had to be given up."""
@@ -145,7 +107,7 @@ class _Run:
             if self.index >= self.stop:
                 return None
             token = self.tokens[self.index]
-            terminal = self._terminal(self.index, self.stack.row())
+            terminal = self.words.terminal(self.index, self.stack.row())
             if self._too_deep(token):
                 return None
             if not self.stack.fits(terminal):
@@ -174,7 +136,7 @@ class _Run:
             self.open.pop()
         elif token.text in ("BEGIN", "END"):
             self.open.clear()
-            self.actions = self.tokens[self.index + 1].text == "ACTIONS"
+            self.words.among_actions = self.tokens[self.index + 1].text == "ACTIONS"
             self.blocks = max(0, self.blocks + (1 if token.text == "BEGIN" else -1))
         self.denials = self.denials + 1 if token.text == "NOT" else 0
         if max(len(self.open), self.denials, self.blocks) <= MAX_NESTING:
@@ -191,56 +153,6 @@ class _Run:
                 help="give parts of it names in the ALIASES block" if not self.found else None,
             )
         )
-
-    def _terminal(self, index: int, row: Row) -> str:
-        """The terminal that a token is, in a state with this row of the parse table."""
-        token = self.tokens[index]
-        if token.kind == "word":
-            if token.text not in self.grammar.keywords:
-                return "NAME" if "{" not in token.text or "NAME" in row else "NUMBER"
-            if token.text == "for" and ("FOR_ACTIONS" in row or "FOR_CLAUSES" in row):
-                return self._for(index, row)
-            if token.text in HARD:
-                return token.text
-            possible = token.text in row
-            if "NAME" in row and (possible or "(" in row):
-                possible = self._confirmed(index, possible)
-            return token.text if possible else "NAME"
-        if token.kind == "symbol":
-            return token.text
-        if token.kind == "number" and token.text[0] in "+-":
-            if "OFFSET" in row and token.text[1] != "0":
-                return "OFFSET"
-            return "NUMBER" if token.text[0] == "-" else "OTHER"
-        if token.text in ("+", "-") and token.text in row:
-            return token.text
-        return {"number": "NUMBER", "end": "$END"}.get(token.kind, "OTHER")
-
-    def _for(self, index: int, row: Row) -> str:
-        """What `for` begins where actions or clauses may be copied, and perhaps fields of the last action."""
-        if "NAME" in row and not self._confirmed(index, True):
-            return "NAME"
-        if "for" not in row and "FOR_CLAUSES" not in row:
-            return "FOR_ACTIONS"
-        start, end = self.headers
-        if not start <= index < end:
-            end = after_headers(self.tokens, index)
-            self.headers = index, end
-        special = {"action": "FOR_ACTIONS", "when": "FOR_CLAUSES" if self.actions else "for"}
-        return special.get(self.tokens[end].text, "for")
-
-    def _confirmed(self, index: int, possible: bool) -> bool:
-        """Whether a word that may be a keyword or a name is the keyword; `possible`: it fits here as a keyword."""
-        text, following = self.tokens[index].text, self.tokens[index + 1]
-        if self.eager and index >= len(self.tokens) - 1 - _LOOKED_AT:
-            return possible
-        if text in _FOLLOWED_BY:
-            return following.text in _FOLLOWED_BY[text]
-        if text in _CONFIRMED:
-            return possible and _CONFIRMED[text](self.tokens, index)
-        if text == "action":
-            return possible and following.kind == "word" and following.text not in HARD | {"is"}
-        return possible
 
     def _recover(self) -> None:
         """Report the token at `index`, and make the parser ready to go on with the token at the new `index`."""
@@ -269,7 +181,7 @@ class _Run:
             return False
         self.stack.cut(len(self.stack.values) - 1)
         self.index += 1
-        self.actions = True
+        self.words.among_actions = True
         self.blocks += 1
         return True
 
@@ -331,9 +243,9 @@ class _Run:
 
     def _can_restart(self, depth: int, index: int) -> bool:
         """Whether the two tokens at `index` fit with the stack cut to `depth`, where nothing lies half read on it."""
-        first = self._terminal(index, self.stack.row(depth))
+        first = self.words.terminal(index, self.stack.row(depth))
         after = self.stack.after(first, depth) if first != "NAME" else None
-        if after is None or self._terminal(index + 1, after) not in after:
+        if after is None or self.words.terminal(index + 1, after) not in after:
             return False
         return self.stack.shifts(first, depth) or self.stack.ends_field(depth)
 

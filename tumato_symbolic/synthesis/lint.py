@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from tumato_symbolic.diagnostics import Diagnostic
 from tumato_symbolic.game import Problem
-from tumato_symbolic.semantics.lint import (
+from tumato_symbolic.semantics.lint_findings import (
     SETS,
     STATES,
     goals_to_reach,

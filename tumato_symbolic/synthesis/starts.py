@@ -15,7 +15,7 @@ from tumato_symbolic.diagnostics.wording import count, listed
 from tumato_symbolic.game import Problem
 from tumato_symbolic.policy.unrealizability import Reason
 from tumato_symbolic.semantics import named
-from tumato_symbolic.semantics.lint import no_start
+from tumato_symbolic.semantics.lint_findings import no_start
 from tumato_symbolic.symbolic import Bdd
 from tumato_symbolic.synthesis.failing import reason_of
 from tumato_symbolic.synthesis.parts import Part, Search, Solve, greatest

@@ -25,7 +25,7 @@ from tumato_symbolic.game import (
 from tumato_symbolic.limits import Context, LimitReachedError
 from tumato_symbolic.policy import Policy, as_table
 from tumato_symbolic.semantics import count_states
-from tumato_symbolic.semantics.lint import no_valid_state
+from tumato_symbolic.semantics.lint_findings import no_valid_state
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.spec.many_goals import many_told
 from tumato_symbolic.symbolic import Backend, Bdd, available_backend
