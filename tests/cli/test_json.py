@@ -1,12 +1,15 @@
 """JSON for programs: one object on the standard output, always."""
 
 import json
+from collections.abc import Iterator
+from itertools import product
 from pathlib import Path
 
 import pytest
 
 from tests.cli.conftest import Cli
 from tests.cli.inputs import state
+from tumato_symbolic.policy import Policy, Table, Vocabulary, dumps
 
 
 def test_a_policy(cli: Cli) -> None:
@@ -105,3 +108,46 @@ def test_check_of_several_files(cli: Cli, tmp_path: Path) -> None:
     (tmp_path / "empty.tum").write_text("")
     report = json.loads(cli("check", "missing.tum", "amr.tum", "empty.tum", "--output-format", "json").out)
     assert [file["verdict"] for file in report["files"]] == ["error", "ok", "error"]
+
+
+def _pump(**variables: str) -> str:
+    """The file of a policy that fills in the first states, over such values."""
+    known = tuple((name, tuple(values.split())) for name, values in variables.items())
+    states = list(product(*(range(len(values)) for _, values in known)))
+    rows = {state: frozenset({0} if number < 3 else ()) for number, state in enumerate(states)}
+    return dumps(Policy(Vocabulary(known, ("fill",)), Table(rows)))
+
+
+def _texts(value: object) -> Iterator[str]:
+    """Every text in JSON, but for names of keys."""
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, dict | list):
+        for each in value.values() if isinstance(value, dict) else value:
+            yield from _texts(each)
+
+
+def test_values_that_are_numbers(cli: Cli, tmp_path: Path) -> None:
+    """`show` and `diff` write them as numbers wherever they give values."""
+    (tmp_path / "pump.json").write_text(_pump(S_Tank="0 1 2 3", S_Valve="open 7"))
+    (tmp_path / "more.json").write_text(_pump(S_Tank="1 0 2 3 4", S_Valve="open 8"))
+    (tmp_path / "valveless.json").write_text(_pump(S_Tank="0 1 2 3"))
+    reports = {
+        words: json.loads(cli(*words.split(), "--output-format", "json").out)
+        for words in (
+            "show pump.json S_Tank=0,1,3",
+            "show pump.json --format rules",
+            "diff pump.json more.json",
+            "diff pump.json valveless.json",
+            "diff valveless.json pump.json",
+        )
+    }
+    for words, report in reports.items():
+        assert not [text for text in _texts(report) if text.isdigit()], words
+    assert reports["show pump.json S_Tank=0,1,3"]["where"] == {"S_Tank": [0, 1, 3]}
+    assert reports["show pump.json --format rules"]["rules"][0]["condition"]["S_Tank"][0] == 0
+    names = reports["diff pump.json more.json"]["policy"]["names"]
+    assert (names["added_values"], names["removed_values"]) == ({"S_Tank": [4], "S_Valve": [8]}, {"S_Valve": [7]})
+    assert reports["diff valveless.json pump.json"]["policy"]["names"]["added_variables"] == {"S_Valve": ["open", 7]}
+    (change, *_) = reports["diff pump.json more.json"]["policy"]["changes"]
+    assert type(change["example"]["S_Tank"]) is int

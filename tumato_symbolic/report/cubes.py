@@ -53,11 +53,16 @@ def shown(name: str) -> str:
 
 def cube_json(spec: Spec, cube: StateCube) -> dict[str, list[Value]]:
     """The values that each variable may have; a variable that is not there may have any."""
-    return {
-        variable.name: [value_of(variable.values[value]) for value in values]
+    return named_json(
+        (variable.name, [variable.values[value] for value in values])
         for variable, values in zip(spec.variables, cube, strict=True)
         if len(values) < len(variable.values)
-    }
+    )
+
+
+def named_json(cube: NamedCube) -> dict[str, list[Value]]:
+    """The same by names."""
+    return {name: [value_of(value) for value in values] for name, values in cube}
 
 
 def actions_text(actions: Sequence[str]) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from tumato_symbolic.policy import Rule, RuleList
-from tumato_symbolic.report.cubes import actions_text, named_cube_text
+from tumato_symbolic.report.cubes import actions_text, named_cube_text, named_json
 from tumato_symbolic.report.layout import count
 from tumato_symbolic.views import OTHER
 
@@ -49,7 +49,7 @@ def rules_json(found: RuleList) -> dict[str, object]:
     """The rules for a program, and what was left out; `actions` are null where something else is done."""
     listed = [
         {
-            "condition": {name: list(values) for name, values in rule.condition},
+            "condition": named_json(rule.condition),
             "actions": None if OTHER in rule.actions else list(rule.actions),
         }
         for rule in found.rules

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from tumato_symbolic.policy import RuleList
-from tumato_symbolic.report.cubes import actions_text, named_cube_text
+from tumato_symbolic.report.cubes import actions_text, named_cube_text, named_json
 from tumato_symbolic.report.layout import count
 from tumato_symbolic.report.rules import rule_lines, rules_json
 from tumato_symbolic.report.trees import row_json, table_lines, tree_lines
@@ -128,7 +128,7 @@ def as_json(done: Shown) -> dict[str, object]:
         "verdict": "undecided" if done.is_incomplete else "ok",
         "policy": done.path,
         "specification": done.specification,
-        "where": {name: list(values) for name, values in done.selection.values},
+        "where": named_json(done.selection.values),
         "executing": list(done.selection.executing),
         "states": done.decided,
         "undecided": done.states - done.decided,

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from tumato_symbolic.policy import Vocabulary
-from tumato_symbolic.report.cubes import actions_text, shown
+from tumato_symbolic.report.cubes import actions_text, named_json, shown
 from tumato_symbolic.report.layout import count
 from tumato_symbolic.report.rules import SOMETHING_ELSE
 from tumato_symbolic.views import Answer, Folded, Label, Question, Row, Tree, rows
@@ -104,10 +104,8 @@ def _aligned(cells: Sequence[str], widths: Sequence[int]) -> str:
 
 def row_json(vocabulary: Vocabulary, row: Row) -> dict[str, object]:
     """A row for a program; `actions` are null where nothing is decided, and missing where decisions differ."""
-    condition = {}
-    for variable, values in sorted(row.condition):
-        name, known = vocabulary.variables[variable]
-        condition[name] = [known[value] for value in values]
+    variables = ((*vocabulary.variables[variable], values) for variable, values in sorted(row.condition))
+    condition = named_json((name, [known[value] for value in values]) for name, known, values in variables)
     found: dict[str, object] = {"condition": condition, "states": row.leaf.states}
     if isinstance(row.leaf, Folded):
         return {**found, "decisions": row.leaf.decisions}
