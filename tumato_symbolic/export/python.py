@@ -38,6 +38,8 @@ def decide(state):
 $decide
 
 def _values(state):
+    if _is_written_out(state):
+        return state
     values = {name: str(value) if type(value) is int else value for name, value in state.items()}
     for name in values:
         if name not in VARIABLES:
@@ -48,6 +50,15 @@ def _values(state):
         if values[name] not in known:
             raise ValueError("{} cannot be {!r}, only one of {}".format(name, values[name], ", ".join(known)))
     return values
+
+
+def _is_written_out(state):
+    if len(state) != len(VARIABLES):
+        return False
+    for name, known in VARIABLES.items():
+        if state.get(name) not in known:
+            return False
+    return True
 
 
 def _follow(here, values):
