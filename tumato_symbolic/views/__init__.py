@@ -1,11 +1,16 @@
 """Policies looked at: a part of one, its decisions as a tree or a graph, how two differ. States are never listed."""
 
-from tumato_symbolic.views.difference import ByAction, Change, Decided, Difference, difference
-from tumato_symbolic.views.meaning import Altered, altered
-from tumato_symbolic.views.placing import NamesChanged
+from importlib import import_module
+from typing import TYPE_CHECKING
+
 from tumato_symbolic.views.questions import Answer, Box, Branch, Condition, Folded, Question, Questions, Row, Tree, rows
 from tumato_symbolic.views.selected import OTHER, Label, Selected, select
 from tumato_symbolic.views.selection import Selection, parse_selection
+
+if TYPE_CHECKING:
+    from tumato_symbolic.views.difference import ByAction, Change, Decided, Difference, difference
+    from tumato_symbolic.views.meaning import Altered, altered
+    from tumato_symbolic.views.placing import NamesChanged
 
 __all__ = [
     "OTHER",
@@ -33,3 +38,16 @@ __all__ = [
     "rows",
     "select",
 ]
+
+_HOMES = {
+    **dict.fromkeys(("ByAction", "Change", "Decided", "Difference", "difference"), "difference"),
+    **dict.fromkeys(("Altered", "altered"), "meaning"),
+    "NamesChanged": "placing",
+}
+
+
+def __getattr__(name: str) -> object:
+    """How two policies differ is imported on first use: those who look at one need not pay for it."""
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)

@@ -90,7 +90,7 @@ class Names:
         return {variables[number][0]: value_of(variables[number][1][value]) for number, value in assignment}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Kind(Generic[Value]):
     """A kind of value: from JSON (and what it is called in messages), to JSON, and its JSON Schema."""
 

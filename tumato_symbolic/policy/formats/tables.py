@@ -74,7 +74,7 @@ class Part(ABC):
         """The JSON Schema of every key, and the keys that must be there."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Record(Generic[Value]):
     """An object of a file as a record.
 
@@ -124,7 +124,7 @@ class Record(Generic[Value]):
         return properties | dict.fromkeys(self.without, False), [key for _, needed in each for key in needed]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Tagged(Generic[Value]):
     """Records of several kinds, told apart by the key `Kind` and the attribute `kind`, which may go without saying."""
 
@@ -164,7 +164,7 @@ def _variant_schema(variant: tuple[tuple[str, ...], Record[Any]]) -> Schema:
     return described(record.about, {**schema, "required": required} if required else schema)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Field(Part):
     """A key for an attribute, its `name` or that of the key; where that equals the default, the key is left out.
 
@@ -205,7 +205,7 @@ class Field(Part):
         return {self.key: described(self.about, self.kind.schema)}, [self.key] if self.default is NEEDED else []
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Entries(Part):
     """A list of records, on a line each; messages call them by a noun and a number, and so may the file (`counts`).
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
-from tumato_symbolic.policy.guarantees import GuaranteesCertificate
 from tumato_symbolic.semantics import Guarantee, Shortcoming
+
+if TYPE_CHECKING:
+    from tumato_symbolic.policy.guarantees import GuaranteesCertificate
 
 StateCube: TypeAlias = tuple[tuple[int, ...], ...]
 """For every variable the values that it may have, ascending; all of them where it does not matter."""
