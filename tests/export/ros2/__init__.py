@@ -1,0 +1,1 @@
+"""What the example in examples/ros2 is tested with: a simulated robot, and headers that stand for those of ROS."""
