@@ -358,6 +358,8 @@ def test_files_the_wrong_way_round(cli: Cli, command: str) -> None:
     [
         ("decide amr.tum S_Load=free", "`amr.tum` is a specification, but a policy belongs here"),
         ("show amr.tum", "`amr.tum` is a specification, but a policy belongs here"),
+        ("diff amr.json amr.json amr.json", "`amr.json` is a policy, but a specification belongs here"),
+        ("format amr.json", "`amr.json` is a policy, but a specification belongs here"),
         ("verify amr.tum amr.tum", "`amr.tum` is a specification, but a policy belongs here"),
         ("synth amr.json", "`amr.json` is a policy, but a specification belongs here"),
         ("explain holed.unrealizable.json", "`holed.unrealizable.json` is a certificate, but a specification belongs"),

@@ -125,6 +125,8 @@ def test_graphviz_reads_it(cli: Cli, tmp_path: Path) -> None:
         ("show amr.json S_Batery=low", "did you mean `S_Battery`?"),
         ("show amr.json S_Battery=lw", "did you mean `low`?"),
         ("show amr.json --executing chrge", "did you mean `charge`?"),
+        ("show", "the following arguments are required: POLICY\n"),
+        ("show amr.json --executing ,", "--executing names no action"),
         ("show amr.json missing.tum", "there is no file `missing.tum`"),
         ("show amr.json amr.tum warned.tum", "there is one specification, not 2: amr.tum, warned.tum"),
         ("show amr.tum", "is a specification, but a policy belongs here"),

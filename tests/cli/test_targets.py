@@ -50,6 +50,33 @@ def test_an_input_is_never_the_output(cli: Cli, tmp_path: Path, name: str, comma
     assert (tmp_path / input_).read_bytes() == before
 
 
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ("--html policy.json", "the policy and the page are not both written to `policy.json`"),
+        ("-o new.json --html ../NAME/new.json", "the policy and the page are not both written to `new.json`"),
+        ("-o new.json --html ./new.unrealizable.json", "there is no policy are not both written to"),
+        ("-o amr.json --html link", "the policy and the page are not both written to `amr.json`"),
+        ("-o - --html -", "the policy and the page do not both go to the standard output"),
+        ("-o - --html /dev/stdout", "the policy and the page do not both go to the standard output"),
+    ],
+)
+def test_no_output_is_another(cli: Cli, tmp_path: Path, options: str, said: str) -> None:
+    """A page does not take the place of the policy, whatever its name: nothing is written, with a way out."""
+    (tmp_path / "link").symlink_to("amr.json")
+    before = {path: path.read_bytes() for path in tmp_path.iterdir()}
+    ran = cli("synth", "amr.tum", *options.replace("NAME", tmp_path.name).split())
+    assert (ran.code, ran.out) == (2, "")
+    assert said in ran.err
+    assert "help: name another file with --html FILE" in ran.err
+    assert {path: path.read_bytes() for path in tmp_path.iterdir()} == before
+
+
+def test_one_device_may_take_all(cli: Cli) -> None:
+    """Nothing is lost where nothing is kept."""
+    assert cli("synth", "amr.tum", "-o", "/dev/null", "--html", "/dev/null").code == 0
+
+
 @pytest.mark.parametrize("output", ["no_plan.json", "no_plan"])
 def test_a_certificate_is_not_written_over_the_input(cli: Cli, tmp_path: Path, output: str) -> None:
     """The name that `synth` gives to a certificate counts as well."""

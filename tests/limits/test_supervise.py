@@ -248,6 +248,8 @@ def test_a_child_that_crashes_is_a_bug() -> None:
         supervised(ended_by(signal.SIGUSR1), Context())
     with pytest.raises(EndedError, match="memory ran out"):
         supervised(ended_by(signal.SIGKILL), Context())
+    with pytest.raises(TerminatedError, match="15"):
+        supervised(ended_by(signal.SIGTERM), Context())
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux ends children with their parents")

@@ -18,6 +18,7 @@ _LOOKED_AT = 100_000
 """Bytes at the beginning of a file that tell its kind."""
 
 _BLOCK = re.compile(rb"\bBEGIN\s+[A-Z]")
+_PAGE = re.compile(rb"\s*<!DOCTYPE html", re.IGNORECASE)
 _CERTIFICATE = re.compile(rb'"Type"\s*:\s*"unrealizable"')
 _POLICY = re.compile(rb'"PolicyFrameworkVersion"|"Type"\s*:\s*"policy')
 
@@ -76,4 +77,4 @@ def kind_of(name: str) -> Kind | None:
         return None
     if head.removeprefix(b"\xef\xbb\xbf").lstrip().startswith((b"{", b"[")):
         return "certificate" if _CERTIFICATE.search(head) else "policy" if _POLICY.search(head) else "JSON file"
-    return "specification" if _BLOCK.search(head) else None
+    return "specification" if _BLOCK.search(head) and not _PAGE.match(head) else None

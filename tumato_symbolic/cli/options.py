@@ -106,4 +106,6 @@ def add_arguments(parser: argparse.ArgumentParser, options: type[CommandOptions]
         if flags:
             parser.add_argument(*flags, dest=each.name, **settings)
         else:
+            if settings.get("nargs") == "*":
+                settings = {"default": (), **settings}  # without a default, usage says that some is required
             parser.add_argument(each.name, **settings)

@@ -53,7 +53,7 @@ class ChildCrashedError(Exception):
 
 
 class TerminatedError(BaseException):
-    """This process was told to end (SIGTERM, SIGHUP)."""
+    """This process, or its child, was told to end (SIGTERM, SIGHUP)."""
 
     def __init__(self, number: int) -> None:
         super().__init__(number)
@@ -273,4 +273,6 @@ class _Watch:
             return code
         if code == -signal.SIGKILL:
             raise EndedError("the system killed the worker process, most likely because memory ran out")
+        if -code in _SIGNALS:  # sent to all processes at once, by `timeout` or systemd
+            raise TerminatedError(-code)
         raise ChildCrashedError(f"the worker process was killed by signal {-code} while {self.context.stage}")

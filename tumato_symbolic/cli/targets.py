@@ -1,4 +1,4 @@
-"""Where a command writes: found out before the work that it can, and that it does not write over what it reads."""
+"""Where a command writes: found out before the work that it can, and that it loses neither an input nor an output."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import stat
 import sys
 from contextlib import suppress
 from dataclasses import replace
+from itertools import combinations
 from pathlib import Path
 from typing import TextIO, TypeVar
 
@@ -20,7 +21,7 @@ AnyOptions = TypeVar("AnyOptions", bound=CommandOptions)
 
 
 def settled(options: AnyOptions) -> AnyOptions:
-    """The options of a command that may begin: whatever it writes can be written, and is none of its inputs.
+    """The options of a command that may begin: whatever it writes can be written, and is no input or other output.
 
     Every name of the standard output becomes `-`. Raises `UserError` (TUM117, TUM118, TUM510).
     """
@@ -32,6 +33,8 @@ def settled(options: AnyOptions) -> AnyOptions:
         else:
             _check_file(target)
         _check_inputs(target, options)
+    for one, other in combinations(options.targets(), 2):
+        _check_apart(one, other)
     return options
 
 
@@ -115,6 +118,25 @@ def _check_inputs(target: Target, options: CommandOptions) -> None:
             there = "the standard output" if target.path == STANDARD_OUTPUT else quoted(target.path)
             message = f"the {target.what} is not written to {there}: that is {_input(name, target.path)}"
             raise UserError((Diagnostic(Code.TUM118, message, help=_another(target)),))
+
+
+def _check_apart(one: Target, other: Target) -> None:
+    """Raise `UserError` (TUM118) where two files that are written are the same."""
+    if one.path == other.path == STANDARD_OUTPUT:
+        message = f"the {one.what} and the {other.what} do not both go to the standard output"
+    elif _place(one) is not None and _place(one) == _place(other):
+        message = f"the {one.what} and the {other.what} are not both written to {quoted(one.path)}"
+    else:
+        return
+    raise UserError((Diagnostic(Code.TUM118, message, help=_another(one if other.option == "-o" else other)),))
+
+
+def _place(target: Target) -> tuple[int, int] | Path | None:
+    """What two names of the same file have in common; None for the standard output, a device or a pipe."""
+    if target.path == STANDARD_OUTPUT or is_stream(Path(target.path)):
+        return None
+    found = _status(target.path)
+    return Path(target.path).resolve() if found is None else (found.st_dev, found.st_ino)
 
 
 def _input(name: str, path: str) -> str:

@@ -33,7 +33,7 @@ class Code(Enum):
     TUM115 = ("error", "nested too deeply")
     TUM116 = ("error", "too many mistakes to go on")
     TUM117 = ("error", "output cannot be written")
-    TUM118 = ("error", "output that is an input")
+    TUM118 = ("error", "output that is an input or another output")
 
     TUM201 = ("error", "an unknown name")
     TUM202 = ("error", "a value that the variable does not have")

@@ -47,6 +47,11 @@ class Options(CommandOptions):
     memory: int | None = arguments.memory()
     output_format: OutputFormat = arguments.output_format("json", "github")
 
+    @property
+    def specs(self) -> tuple[str, ...]:
+        """The one that is no more than that; OLD and NEW are of either kind."""
+        return () if self.spec is None else (self.spec,)
+
     def inputs(self) -> list[str]:
         """All of them are read."""
         return [name for name in (self.old, self.new, self.spec) if name]

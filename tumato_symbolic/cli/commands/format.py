@@ -44,6 +44,7 @@ class Options(CommandOptions):
 
 def run(options: Options, context: Context) -> int:
     """Lay out every file; one that cannot be used does not keep the others from it."""
+    from tumato_symbolic.cli.mixups import misplaced
     from tumato_symbolic.diagnostics import UserError, render
 
     codes = {YES}
@@ -52,7 +53,9 @@ def run(options: Options, context: Context) -> int:
         try:
             codes.add(_lay_out(path, options))
         except UserError as error:
-            note(render(error.diagnostics, error.source, color=wants_colour(sys.stderr)))
+            other = misplaced(path)
+            found = error.diagnostics if other is None else (other,)
+            note(render(found, error.source, color=wants_colour(sys.stderr)))
             codes.add(USAGE)
     return max(codes)
 

@@ -60,10 +60,9 @@ class Options(CommandOptions):
         help="the specification, and values that variables have in the states to show: VAR=VALUE, VAR=VALUE,VALUE or "
         "VAR!=VALUE",
     )
-    executing: str = argument(
+    executing: str | None = argument(
         "--executing",
         metavar="ACTION[,ACTION]",
-        default="",
         help="show the states where this action is executed, or all of these are",
     )
     format: Format = argument(
@@ -97,6 +96,8 @@ class Options(CommandOptions):
 
     def mistake(self) -> str | None:
         """One specification; a graph is text for another program already; rules are listed whole."""
+        if self.executing is not None and not self.executing.strip(" ,"):
+            return "--executing names no action"
         if len(self.specs) > 1:
             return f"there is one specification, not {len(self.specs)}: {', '.join(self.specs)}"
         if self.format in ("dot", "mermaid") and self.output_format == "json":
@@ -118,7 +119,7 @@ def run(options: Options, context: Context) -> int:
     from tumato_symbolic.views import parse_selection, select
 
     policy, spec = _read(options, context)
-    selection = parse_selection(policy.vocabulary, options.assignments, options.executing)
+    selection = parse_selection(policy.vocabulary, options.assignments, options.executing or "")
     context.tell("looking at the states")
     selected = select(policy, selection, spec)
     file = next(iter(options.specs), None)
