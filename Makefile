@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV ?= .venv
 BIN := $(VENV)/bin
 
-.PHONY: help demo test tools proofs mutants mutants-code readers check format regenerate constraints bench bench-compare clean
+.PHONY: help demo test tools proofs mutants mutants-code readers check format regenerate constraints bench bench-compare playground clean
 
 help:
 	@echo "make demo        install what is needed into $(VENV) and show the main job on a mobile robot"
@@ -19,6 +19,7 @@ help:
 	@echo "make constraints  write constraints.txt anew: the versions that are installed in $(VENV)"
 	@echo "make bench       measure every family of benchmarks/ (minutes; ARGUMENTS=--quick: about one)"
 	@echo "make bench-compare  the last two full measurements, with what became worse"
+	@echo "make playground  the package in a browser, as static files in playground/build (needs npm)"
 	@echo "make clean       remove $(VENV) and all caches"
 
 demo: $(VENV)/.runtime
@@ -70,8 +71,15 @@ bench: $(VENV)/.development
 bench-compare: $(VENV)/.development
 	$(BIN)/python -m benchmarks.compare $(ARGUMENTS)
 
+playground: $(VENV)/.runtime playground/node_modules/.package-lock.json
+	$(BIN)/python -m playground.assemble
+
+playground/node_modules/.package-lock.json: playground/package.json playground/package-lock.json
+	npm ci --prefix playground --no-audit --no-fund
+	@touch $@
+
 clean:
-	rm -rf $(VENV) build dist .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
+	rm -rf $(VENV) build dist playground/build playground/node_modules .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
 
 # Stamps: what is installed is installed again only when pyproject.toml or constraints.txt changes.
 INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt

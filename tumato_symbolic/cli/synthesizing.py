@@ -18,6 +18,7 @@ from tumato_symbolic.synthesis import Realizable, SynthesisResult, Undecided, Un
 
 if TYPE_CHECKING:
     from tumato_symbolic.policy.unrealizability import Unrealizability
+    from tumato_symbolic.report.html.contents import NoPolicyPage, PolicyPage
     from tumato_symbolic.spec import Ordering
     from tumato_symbolic.verify import ProverName, Verification
 
@@ -119,24 +120,31 @@ def write_answer(so_far: Synthesized, context: Context) -> Synthesized:
 
 def write_html(done: Synthesized, target: str, context: Context) -> None:
     """Write the page of the answer, where there is one, and say so."""
-    from tumato_symbolic.cli.reporting import rules_of, why_none, write_page
+    from tumato_symbolic.cli.reporting import write_page
+
+    of = answer_page(done, context)
+    if of is not None:
+        write_page(of, target, context)
+        note(f"{target} is written: a page for a browser.")
+
+
+def answer_page(done: Synthesized, context: Context) -> PolicyPage | NoPolicyPage | None:
+    """What a page says of the answer; None where it is no answer, or the policy is not to be written."""
+    from tumato_symbolic.cli.reporting import rules_of, why_none
     from tumato_symbolic.report.html.contents import NoPolicyPage, PolicyPage
 
     spec = done.spec if done.restoration is None else replace(done.spec, restoration=done.restoration)
-    page: PolicyPage | NoPolicyPage
     match done.outcome:
         case Realizable(policy, statistics) if done.written:
             name = "a policy" if done.output == STANDARD_OUTPUT else done.output
             rules = rules_of(policy, context)
-            page = PolicyPage(done.source, spec, name, policy, statistics.ordering, done.proof, rules)
+            return PolicyPage(done.source, spec, name, policy, statistics.ordering, done.proof, rules)
         case Unrealizable(statistics=statistics):
             name, ordering = done.certificate or done.source.name, statistics.ordering
             explained = why_none(done.source, spec, ordering, context)
-            page = NoPolicyPage(done.source, spec, name, ordering, done.unrealizability, explained)
+            return NoPolicyPage(done.source, spec, name, ordering, done.unrealizability, explained)
         case _:
-            return
-    write_page(page, target, context)
-    note(f"{target} is written: a page for a browser.")
+            return None
 
 
 def _write_certificate(certificate: Unrealizability, output: str) -> str | None:

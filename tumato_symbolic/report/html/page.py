@@ -41,8 +41,8 @@ MODULES: Final = {PolicyPage: (*_SHARED, *_OF_A_POLICY), NoPolicyPage: (*_SHARED
 
 def page(of: PolicyPage | NoPolicyPage) -> str:
     """The page as HTML."""
-    program, style = bundle(type(of)), _tight_style((_FOLDER / "page.css").read_text(encoding="utf-8"))
-    allowed = (f"script-src {_hash(program)}", f"style-src {_hash(style)}")
+    program, style = bundle(type(of)), _style()
+    allowed = (f"{what} {source}" for what, source in sources(type(of)).items())
     parts = {
         "title": escape(f"{Path(of.source.name).name} · tumato-sym"),
         "policy": "; ".join(("default-src 'none'", *allowed, "base-uri 'none'", "form-action 'none'")),
@@ -52,6 +52,11 @@ def page(of: PolicyPage | NoPolicyPage) -> str:
     }
     frame = (_FOLDER / "page.html").read_text(encoding="utf-8")
     return re.sub(r"\{\{(\w+)\}\}", lambda place: parts[place[1]], frame)
+
+
+def sources(kind: type[PolicyPage | NoPolicyPage]) -> dict[str, str]:
+    """The only program and style of a kind of page, as its content security policy names them."""
+    return {"script-src": _hash(bundle(kind)), "style-src": _hash(_style())}
 
 
 def bundle(kind: type[PolicyPage | NoPolicyPage]) -> str:
@@ -88,6 +93,10 @@ def _tight(program: str) -> str:
     parts = _PIECES.split(program)
     parts[::2] = [re.sub(r"\n(?!\w)|(?<!\w)\n| *([-{}()\[\],;:?<>=|&!+*/]) *", r"\1", part) for part in parts[::2]]
     return "".join(parts) + "\n"
+
+
+def _style() -> str:
+    return _tight_style((_FOLDER / "page.css").read_text(encoding="utf-8"))
 
 
 def _tight_style(style: str) -> str:
