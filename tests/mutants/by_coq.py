@@ -13,6 +13,7 @@ from tests.conformance.by_coq import compiled
 from tests.export.compiler import COQC
 from tests.mutants.truth import Rows, decisions, is_right_policy
 from tumato_symbolic.export import coq
+from tumato_symbolic.export.coq_specification import specification
 from tumato_symbolic.export.efforts import nominal_sums
 from tumato_symbolic.policy import Policy, bind
 from tumato_symbolic.semantics import Effort, Restorations, State, all_states, is_safe, is_valid
@@ -92,7 +93,7 @@ def written(questions: Sequence[Question]) -> Iterator[str]:
     """What asks the checker in Coq, in this order."""
     specs = {question.spec: number for number, question in enumerate(questions)}
     for spec, number in specs.items():
-        yield from (f"Module S{number}.", *coq._specification(spec), f"End S{number}.")
+        yield from (f"Module S{number}.", *specification(spec), f"End S{number}.")
     for number, question in enumerate(questions):
         order, several = question.spec.ordering.capitalize(), question.spec.restoration != "one_step"
         check = f"check S{specs[question.spec]}.spec {order} decisions {'known' if several else 'no_efforts'}"

@@ -20,10 +20,11 @@ from tumato_symbolic.verify.result import stopped
 from tumato_symbolic.verify.workers import cores
 
 if TYPE_CHECKING:
+    from tumato_symbolic.diagnostics import Diagnostic, Source
     from tumato_symbolic.policy.guarantees import GuaranteesCertificate
     from tumato_symbolic.policy.unrealizability import Unrealizability
     from tumato_symbolic.report.unrealizable import VerifiedUnrealizable
-    from tumato_symbolic.spec import Ordering, Restoration
+    from tumato_symbolic.spec import Ordering, Restoration, Spec
     from tumato_symbolic.verify import ProverName, UnrealizabilityVerdict, Verification
 
     Verdict: TypeAlias = Verified | VerifiedUnrealizable
@@ -59,47 +60,69 @@ def verify_claim(
     Raises `UserError` where the specification cannot be used, or the claim does not fit it.
     """
     context.tell("reading the specification")
-    source, spec, warnings = read_spec(spec_path, criteria.restoration)
-    started = time.perf_counter()
-
-    def verified(found: object) -> Verified:
-        took = time.perf_counter() - started
-        done = Verified(source, spec, path, cast("Verification", found), warnings, took, criteria.strict)
-        return replace(done, guarantees=_not_yet(done.verification)) if criteria.guarantees else done
-
-    with errors_in(source):
+    asked = _Asked(path, *read_spec(spec_path, criteria.restoration), criteria, time.perf_counter())
+    with errors_in(asked.source):
         if isinstance(claim, Policy):
-            verification = verify(
-                claim,
-                spec,
-                ordering=criteria.ordering,
-                restoration=criteria.restoration,
-                properties=(*criteria.properties, "restoring") if criteria.strict else criteria.properties,
-                prover=criteria.prover,
-                jobs=jobs,
-                context=context.within(learned=lambda found: context.learn(verified(found))),
-            )
-            done = verified(verification)
-            if not criteria.guarantees or verification.verdict != "proved":
-                return done
-            context.learn(done)
-            from tumato_symbolic.verify.guarantees.analyse import guarantees
-
-            certify = criteria.guarantees_file is not None
-            found = guarantees(claim, spec, verification.ordering, certify=certify, context=context)
-            if found.certificate is not None and criteria.guarantees_file is not None:
-                write_certificate(found.certificate, criteria.guarantees_file)
-            return replace(done, guarantees=found, took=time.perf_counter() - started)
-        from tumato_symbolic.report.unrealizable import VerifiedUnrealizable
+            return _verify_policy(claim, asked, context, jobs)
         from tumato_symbolic.verify import verify_unrealizable  # loads Z3, which --prover walk does without
 
-        def unrealizable(found: object) -> VerifiedUnrealizable:
-            took = time.perf_counter() - started
-            verdict = cast("UnrealizabilityVerdict", found)
-            return VerifiedUnrealizable(source, spec, path, verdict, warnings, took, criteria.strict)
+        part = context.within(learned=lambda found: context.learn(asked.unrealizable(found)))
+        return asked.unrealizable(verify_unrealizable(claim, asked.spec, ordering=criteria.ordering, context=part))
 
-        part = context.within(learned=lambda found: context.learn(unrealizable(found)))
-        return unrealizable(verify_unrealizable(claim, spec, ordering=criteria.ordering, context=part))
+
+@dataclass(frozen=True, slots=True)
+class _Asked:
+    """The file with a claim, what the claim is about, and what it is held to; when proving began, in seconds."""
+
+    path: str
+    source: Source
+    spec: Spec
+    warnings: tuple[Diagnostic, ...]
+    criteria: Criteria
+    began: float
+
+    def took(self) -> float:
+        """How many seconds have passed since."""
+        return time.perf_counter() - self.began
+
+    def verified(self, found: object) -> Verified:
+        """What there is to say of a policy, from what is known of it."""
+        known, strict = cast("Verification", found), self.criteria.strict
+        done = Verified(self.source, self.spec, self.path, known, self.warnings, self.took(), strict)
+        return replace(done, guarantees=_not_yet(known)) if self.criteria.guarantees else done
+
+    def unrealizable(self, found: object) -> VerifiedUnrealizable:
+        """What there is to say of a certificate that there is no policy."""
+        from tumato_symbolic.report.unrealizable import VerifiedUnrealizable
+
+        known, strict = cast("UnrealizabilityVerdict", found), self.criteria.strict
+        return VerifiedUnrealizable(self.source, self.spec, self.path, known, self.warnings, self.took(), strict)
+
+
+def _verify_policy(policy: Policy, asked: _Asked, context: Context, jobs: int) -> Verified:
+    """The verdict on a policy, with what it guarantees beyond nominal runs, if that is asked."""
+    criteria = asked.criteria
+    verification = verify(
+        policy,
+        asked.spec,
+        ordering=criteria.ordering,
+        restoration=criteria.restoration,
+        properties=(*criteria.properties, "restoring") if criteria.strict else criteria.properties,
+        prover=criteria.prover,
+        jobs=jobs,
+        context=context.within(learned=lambda found: context.learn(asked.verified(found))),
+    )
+    done = asked.verified(verification)
+    if not criteria.guarantees or verification.verdict != "proved":
+        return done
+    context.learn(done)
+    from tumato_symbolic.verify.guarantees.analyse import guarantees
+
+    certify = criteria.guarantees_file is not None
+    found = guarantees(policy, asked.spec, verification.ordering, certify=certify, context=context)
+    if found.certificate is not None and criteria.guarantees_file is not None:
+        write_certificate(found.certificate, criteria.guarantees_file)
+    return replace(done, guarantees=found, took=asked.took())
 
 
 def write_certificate(certificate: GuaranteesCertificate, target: str) -> None:

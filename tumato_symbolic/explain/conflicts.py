@@ -13,7 +13,8 @@ from tumato_symbolic.game import Evaluator, Problem, distances, shortest_decisio
 from tumato_symbolic.semantics import State
 from tumato_symbolic.symbolic import Bdd, preferred, regions
 from tumato_symbolic.synthesis import Unrealizable
-from tumato_symbolic.synthesis.repair import Repair, RepairConflict, RoundsExhaustedError
+from tumato_symbolic.synthesis.conflict import RepairConflict
+from tumato_symbolic.synthesis.repair import Repair, RoundsExhaustedError
 
 
 def conflict_core(requirements: Requirements, states: Sequence[State], among: Elements) -> Elements:

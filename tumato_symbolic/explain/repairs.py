@@ -7,25 +7,17 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import Literal, TypeAlias
 
-from tumato_symbolic.explain.adding import (
-    Trouble,
-    any_action,
-    composed,
-    controlling_the_environment,
-    derived,
-    robots_new,
-    robots_own,
-    settings,
-    single_additions,
-)
+from tumato_symbolic.explain.adding import composed, controlling_the_environment, derived, settings, single_additions
 from tumato_symbolic.explain.additions import Addition, with_additions
 from tumato_symbolic.explain.cores import element_list
 from tumato_symbolic.explain.dropping import ROUNDS, Search, droppable, harmless, serves_without
 from tumato_symbolic.explain.elements import Element, Elements, without
 from tumato_symbolic.explain.explanation import Change, Explanation, Repair
 from tumato_symbolic.explain.failing_states import FailingStates
+from tumato_symbolic.explain.new_actions import any_action, robots_new, robots_own
 from tumato_symbolic.explain.requirements import Requirements
 from tumato_symbolic.explain.trial import trial
+from tumato_symbolic.explain.trouble import Trouble
 from tumato_symbolic.explain.weaken import weakening
 from tumato_symbolic.explain.work import Work
 from tumato_symbolic.limits import LimitReachedError

@@ -12,7 +12,7 @@ from tumato_symbolic.export.closed_loop import ClosedLoop, guard, lasting
 from tumato_symbolic.export.decisions import MOST_QUESTIONS, Answer, questions, tree_of
 from tumato_symbolic.export.request import Request, commented
 from tumato_symbolic.semantics import count_states
-from tumato_symbolic.spec import TRUE, Assignment, Connectives, Executing, Formula, Is, fold
+from tumato_symbolic.spec import TRUE, Assignment, Connectives, Executing, Formula, Is, Spec, fold
 
 MOST_STATES = 10_000_000
 """The program holds a byte for every state, valid or not, and goes through all of them."""
@@ -20,11 +20,7 @@ MOST_STATES = 10_000_000
 
 def check(request: Request) -> str:
     """The text of the program. Raises `UserError` (TUM508) where there are too many states."""
-    count = count_states(request.spec)
-    if count > MOST_STATES:
-        message = f"the specification has {count:,} states; the check in C goes through each, for up to {MOST_STATES:,}"
-        help_ = "leave out --check; `tumato-sym verify` proves all states at once"
-        raise UserError((Diagnostic(Code.TUM508, message, help=help_),))
+    count = _few_states(request.spec)
     names, loop = Names.of(request), ClosedLoop.of(request)
     return Template(PROGRAM).substitute(
         header=f"{request.name}.h",
@@ -53,17 +49,34 @@ def check(request: Request) -> str:
         fields="".join(_fields(names)),
         about=_about(request, loop),
         starts=int(loop.starts is not None),
-        valid=_formula(loop.valid),
-        start=_formula(TRUE if loop.starts is None else loop.starts),
-        levels="".join(f"    if (!{_formula(each)}) return {n};\n" for n, each in enumerate(loop.levels)),
         preconditions="".join(_preconditions(loop)),
         chosen="".join(_chosen(loop, names)),
-        reaction_rules=_formula(loop.reaction_rules),
-        when=_array("when", [_formula(each.when) for each in loop.required]),
-        required=_broken("when", [_formula(each.rule) for each in loop.required]),
-        active=_array("active", [_formula(each.when) for each in loop.goals]),
-        goals=_broken("active", [_formula(goal.body) for goal in loop.goals]),
+        **_conditions(loop),
     )
+
+
+def _conditions(loop: ClosedLoop) -> dict[str, str]:
+    """What is asked of states and decisions, by the places of the program."""
+    return {
+        "valid": _formula(loop.valid),
+        "start": _formula(TRUE if loop.starts is None else loop.starts),
+        "levels": "".join(f"    if (!{_formula(each)}) return {n};\n" for n, each in enumerate(loop.levels)),
+        "reaction_rules": _formula(loop.reaction_rules),
+        "when": _array("when", [_formula(each.when) for each in loop.required]),
+        "required": _broken("when", [_formula(each.rule) for each in loop.required]),
+        "active": _array("active", [_formula(each.when) for each in loop.goals]),
+        "goals": _broken("active", [_formula(goal.body) for goal in loop.goals]),
+    }
+
+
+def _few_states(spec: Spec) -> int:
+    """How many states there are, no more than the program can go through."""
+    count = count_states(spec)
+    if count > MOST_STATES:
+        message = f"the specification has {count:,} states; the check in C goes through each, for up to {MOST_STATES:,}"
+        help_ = "leave out --check; `tumato-sym verify` proves all states at once"
+        raise UserError((Diagnostic(Code.TUM508, message, help=help_),))
+    return count
 
 
 _ABOUT = (

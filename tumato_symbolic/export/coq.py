@@ -5,11 +5,11 @@ The meaning and the theorem are in `proofs/coq`. Nothing is checked here: a wron
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from itertools import islice
-from textwrap import indent
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
+from tumato_symbolic.export.coq_specification import in_brackets, specification
 from tumato_symbolic.export.efforts import nominal_sums
 from tumato_symbolic.export.request import Request
 from tumato_symbolic.policy import Policy, as_table, bind
@@ -26,22 +26,8 @@ from tumato_symbolic.semantics import (
     named,
 )
 from tumato_symbolic.spec import (
-    Action,
-    Assignment,
-    ConditionalGoal,
-    Connectives,
-    Executing,
-    Formula,
-    Goal,
-    GoalList,
-    Is,
     Ordering,
-    Restoration,
-    Rule,
-    SimpleGoal,
     Spec,
-    fold,
-    fold_goal,
 )
 
 MOST_STATES = 30_000
@@ -110,7 +96,7 @@ def export(policy: Policy, spec: Spec, ordering: Ordering) -> str:
         [
             _HEAD,
             *([_CASES] if spec.has_cases else []),
-            *_specification(spec),
+            *specification(spec),
             *_decisions(spec, rows),
             *efforts,
             theorem,
@@ -140,128 +126,6 @@ def _fault(code: Code, message: str, help: str) -> UserError:
     return UserError((Diagnostic(code, message, help=help),))
 
 
-def _specification(spec: Spec) -> Iterator[str]:
-    """The record of a specification, in the order of `Semantics.v`."""
-    yield "(* Numbers count from 0, as declared. Resources: " + _numbered(spec.resources) + ". Variables:"
-    yield from (f"     {number} {v.name}: {_numbered(v.values)}" for number, v in enumerate(spec.variables))
-    yield "*)"
-    yield "Definition spec : specification := {|"
-    yield f"  sizes := {_list(str(len(variable.values)) for variable in spec.variables)};"
-    yield from _field("declared", [(f"{number} {a.name}", _action(a)) for number, a in enumerate(spec.actions)])
-    yield from _field("reaction_rules", _rules(spec.reaction_rules))
-    yield from _tiers(spec)
-    yield from _field("assumptions", _rules(spec.assumptions))
-    if spec.goals is None:
-        yield "  goals := None;"
-    else:
-        yield "  goals := Some"
-        yield f"{indent(_goal(spec, spec.goals), '    ')};"
-    bound = spec.max_plan_length
-    yield "  max_plan_length := " + ("None" if bound is None else f"Some {bound}%N") + ";"
-    yield f"  restored_in := {_RESTORATIONS[spec.restoration]};"
-    yield f"  throughout := {'true' if spec.preconditions == 'throughout' else 'false'};"
-    yield from _field("starts", _rules(spec.starts))
-    yield "  part := fun _ => true"
-    yield "|}.\n"
-
-
-_RESTORATIONS: dict[Restoration, str] = {"one_step": "OneStep", "bounded": "Bounded", "fair": "Fair"}
-
-
-def _numbered(names: Sequence[str]) -> str:
-    return ", ".join(f"{number} {name}" for number, name in enumerate(names)) or "none"
-
-
-def _list(entries: Iterable[str]) -> str:
-    return f"[{'; '.join(entries)}]"
-
-
-def _comment(text: str) -> str:
-    """A comment of one line; what would end it, or begin another or a string, is broken up."""
-    words = text.replace("*", " * ").replace('"', "'").split()
-    return f"(* {' '.join(words)} *)"
-
-
-def _field(name: str, entries: Sequence[tuple[str, str]]) -> Iterator[str]:
-    """A field that is a list, every entry under its comment."""
-    if not entries:
-        yield f"  {name} := [];"
-        return
-    yield f"  {name} := ["
-    yield from _entries(entries)
-    yield "  ];"
-
-
-def _entries(entries: Sequence[tuple[str, str]]) -> Iterator[str]:
-    for number, (text, entry) in enumerate(entries, 1):
-        yield f"    {_comment(text)}"
-        yield f"    {entry}{';' if number < len(entries) else ''}"
-
-
-def _tiers(spec: Spec) -> Iterator[str]:
-    """The state rules, a list for every severity."""
-    if not spec.state_rules:
-        yield "  state_rules := [];"
-        return
-    yield "  state_rules := ["
-    for number, tier in enumerate(spec.tiers, 1):
-        yield f"    (* severity {tier[0].severity} *) ["
-        yield from _entries(_rules(tier))
-        yield f"    ]{';' if number < len(spec.tiers) else ''}"
-    yield "  ];"
-
-
-def _rules(rules: Iterable[Rule]) -> list[tuple[str, str]]:
-    return [(rule.text, _formula(rule.formula)) for rule in rules]
-
-
-def _formula(formula: Formula) -> str:
-    return fold(formula, _atom, _COQ)
-
-
-def _atom(atom: Is | Executing) -> str:
-    return f"Is {atom.variable} {atom.value}" if isinstance(atom, Is) else f"Executing {atom.action}"
-
-
-_COQ: Connectives[str] = Connectives(
-    constant=lambda value: f"Constant {'true' if value else 'false'}",
-    negation=lambda text: f"Not ({text})",
-    conjunction=lambda texts: f"And {_list(texts)}",
-    disjunction=lambda texts: f"Or {_list(texts)}",
-    equivalence=lambda left, right: f"Iff ({left}) ({right})",
-)
-
-
-def _action(action: Action) -> str:
-    return (
-        f"{{| duration := {action.duration}%N; resources := {_list(map(str, sorted(action.resources)))};\n"
-        f"       preconditions := {_list(_formula(rule.formula) for rule in action.preconditions)};\n"
-        f"       guard := {_list([] if action.guard is None else [_formula(action.guard.formula)])};\n"
-        f"       nominal := {_assignment(action.nominal)};\n"
-        f"       alternatives := {_list(_assignment(o) for entry in action.alternatives for o in entry.outcomes)} |}}"
-    )
-
-
-def _assignment(assignment: Assignment) -> str:
-    return _list(f"({variable}, {value})" for variable, value in assignment)
-
-
-def _goal(spec: Spec, goal: Goal) -> str:
-    def simple(goal: SimpleGoal) -> str:
-        body = spec.bodies[goal.body]
-        return f"{_comment('goal: ' + body.text)}\n(Simple ({_formula(body.formula)}))"
-
-    def conditional(goal: ConditionalGoal, inner: str) -> str:
-        condition = goal.condition
-        return f"{_comment('when ' + condition.text)}\n(When ({_formula(condition.formula)})\n{indent(inner, '  ')})"
-
-    def several(goal: GoalList, members: list[str]) -> str:
-        inside = indent(";\n".join(members), "  ")
-        return f"(Goals {goal.kind.capitalize()} [\n{inside}])"
-
-    return fold_goal(goal, simple, conditional, several)
-
-
 def _decisions(spec: Spec, rows: dict[State, ActionSet]) -> Iterator[str]:
     """Every set that occurs, by a name, and the tree of the decisions: one level for every variable."""
     chosen = sorted({tuple(sorted(decision)) for decision in rows.values()})
@@ -269,7 +133,7 @@ def _decisions(spec: Spec, rows: dict[State, ActionSet]) -> Iterator[str]:
     yield "Definition none : option actions := None. (* an invalid state *)"
     for number, decision in enumerate(chosen):
         names = ", ".join(action_names(spec, frozenset(decision))) or "nothing"
-        yield f"Definition d{number} : option actions := Some {_list(map(str, decision))}. (* {names} *)"
+        yield f"Definition d{number} : option actions := Some {in_brackets(map(str, decision))}. (* {names} *)"
     names_of = {frozenset(decision): f"d{number}" for number, decision in enumerate(chosen)}
     leaves = [f"Leaf {names_of[rows[state]] if state in rows else 'none'}" for state in all_states(spec)]
     yield f"\nDefinition decisions : table :=\n{_tree(spec, leaves)}.\n"
@@ -305,7 +169,7 @@ def _tree(spec: Spec, leaves: list[str]) -> str:
         size, indent = len(variable.values), "  " * depth
         groups = [trees[start : start + size] for start in range(0, len(trees), size)]
         if depth == len(spec.variables):
-            trees = [f"{indent}Node {_list(group)}" for group in groups]
+            trees = [f"{indent}Node {in_brackets(group)}" for group in groups]
         else:
             comments = [f"{indent} (* {variable.name} is {value} *)\n" for value in variable.values]
             members = (";\n".join(map("".join, zip(comments, group, strict=True))) for group in groups)

@@ -5,129 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
-from string import Template
 from typing import Final
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.diagnostics.wording import quoted
 from tumato_symbolic.export.model import Claims, Language, Model, infix
 from tumato_symbolic.export.request import Request, commented
-
-_MODULE = Template("""\
----- MODULE $module ----
-\\* The closed loop of a policy, and what is claimed of it. Written by `tumato-sym export tlaplus`.
-\\*
-$promise
-\\*
-$about
-
-EXTENDS Naturals
-
-VARIABLES
-$variables
-vars == <<$names>>
-
-\\* The most steps of a nominal run$uncounted.
-Bound == $bound
-
-States == [
-$states]
-
-\\* The decisions of the policy: what the first rule says that matches.
-Undecided == {"-"}
-Decision(s) ==
-$rules
-Decided == decision # Undecided
-
-$executed
-Executed == $executed_set
-
-\\* No action that is executed has effects.
-Quiet == $quiet
-
-Valid == $valid
-
-Safe == $safe
-
-\\* Preconditions, what excludes each other, and reaction rules: at every decision.
-Allowed ==
-  /\\ $allowed
-
-\\* After every effect.
-AsRequired ==
-  /\\ $required
-$lasting
-\\* The goals that were active where a nominal run began.
-Met ==
-  /\\ $met
-
-\\* All nominal effects of some actions at once.
-AfterNominal(actions) == $nominal
-
-Init ==
-  /\\ state \\in States
-  /\\ decision = Decision(state)
-  /\\ $begins
-  /\\ mode \\in {"effects", "nominal"}
-  /\\ acting = FALSE
-  /\\ acted = FALSE
-  /\\ waiting = {}
-  /\\ steps = 0
-$init
-Decide ==
-  /\\ mode = "effects" /\\ ~acting /\\ Decided
-  /\\ acting' = TRUE
-  /\\ acted' = Quiet
-  /\\ waiting' = Executed
-$decide
-Takes(action, after) ==
-  /\\ acting$once /\\ action \\in waiting
-  /\\ acted' = TRUE
-  /\\ waiting' = waiting \\ {action}
-  /\\ state' = after
-  /\\ decision' = Decision(state')
-$takes
-Effect ==
-$effects
-Halt ==
-  /\\ acting /\\ acted
-  /\\ acting' = FALSE
-  /\\ acted' = FALSE
-  /\\ waiting' = {}
-$halt
-NominalStep ==
-  /\\ mode = "nominal" /\\ ~(steps > 0 /\\ Met) /\\ Decided
-  /\\ state' = AfterNominal(Executed)
-  /\\ decision' = Decision(state')
-  /\\ steps' = IF steps < Bound THEN steps + 1 ELSE steps
-$step
-Next == Decide \\/ Effect \\/ Halt \\/ NominalStep
-
-Spec == Init /\\ [][Next]_vars /\\ WF_vars(Next)
-
-$claims====
-""")
-
-_ABOUT: Final = (
-    "From {begins}, in the mode `effects`: the policy decides; then effects of the set occur, in any order, until the "
-    "robot halts what is left, after any of them. In the mode `nominal`, a step is all nominal effects of a set at "
-    "once, until the goals are reached. Whether a cheaper set would restore safety as well is not asked."
-)
-
-_LASTING = Template("""\
-
-\\* Preconditions of what has not taken effect yet.
-StillPossible ==
-  /\\ $possible
-""")
-
-_AT_ONCE: Final = """\
-  \\/ /\\ acting /\\ ~acted /\\ ~Quiet
-     /\\ acted' = TRUE
-     /\\ waiting' = {}
-     /\\ state' = AfterNominal(waiting)
-     /\\ decision' = Decision(state')
-"""
+from tumato_symbolic.export.tlaplus_module import ABOUT, AT_ONCE, LASTING, MODULE
 
 _WORDS: Final = """
 ACTION ASSERT ASSUME ASSUMPTION AXIOM BOOLEAN BY CASE CHOOSE CONSTANT CONSTANTS COROLLARY DEF DEFINE DEFS DOMAIN ELSE
@@ -199,11 +83,11 @@ class _Printer:
         model, loop = self._model, self._loop
         listed = self._variables()
         places = self._claims.placeholders()
-        return _MODULE.substitute(
+        return MODULE.substitute(
             places,
             module=self._module,
             promise=self._promise,
-            about=commented(_ABOUT.format(begins=loop.begins), "\\* "),
+            about=commented(ABOUT.format(begins=loop.begins), "\\* "),
             variables="".join(self._declared()),
             names=", ".join(listed),
             bound=loop.bound or 1,
@@ -214,7 +98,7 @@ class _Printer:
             rules="".join(self._rules()),
             executed="".join(self._defined()),
             executed_set=self._executed(),
-            lasting=_LASTING.substitute(places) if loop.preconditions_last else "",
+            lasting=LASTING.substitute(places) if loop.preconditions_last else "",
             nominal=self._nominal(),
             init="".join(f"  /\\ {each}\n" for each in self._init()),
             decide=self._rest("acting", "acted", "waiting", kept=self._kept()),
@@ -323,7 +207,7 @@ class _Printer:
         if not self._model.effects:
             yield "  FALSE\n"
         elif self._loop.ordering == "first":
-            yield f"{_AT_ONCE}   {self._rest('state', 'decision', 'acted', 'waiting')}"
+            yield f"{AT_ONCE}   {self._rest('state', 'decision', 'acted', 'waiting')}"
 
     def _claimed(self) -> Iterator[tuple[str, str, str]]:
         """Kinds, names and formulas of the claims."""

@@ -7,7 +7,7 @@ from typing import Final
 
 from tumato_symbolic.report.layout import Paint, count, enumeration, every, seconds
 from tumato_symbolic.report.objections import Place, broken_here, effects_text, objection_text, outcome_json
-from tumato_symbolic.semantics import Quality, Run, action_names, duration, in_json
+from tumato_symbolic.semantics import ActionSet, Quality, Run, action_names, duration, in_json
 from tumato_symbolic.spec import Ordering, Restoration, Spec
 from tumato_symbolic.verify.result import PropertyName, PropertyResult, Refutation, Verification
 
@@ -124,7 +124,6 @@ def refutation_text(place: Place, refutation: Refutation) -> str:
         nothing = "which is a start, the policy decides nothing" if place.spec.starts else "the policy decides nothing"
         return "\n".join((*lines, nothing, *_way_there(place, refutation)))
     lines.append(f"the policy executes {place.actions(refutation.decision)}")
-    spec = place.spec
     match refutation:
         case Refutation(kind="invalid"):
             lines.append("although the state is not valid: a policy from the starts decides valid states only")
@@ -138,14 +137,8 @@ def refutation_text(place: Place, refutation: Refutation) -> str:
             ]
         case Refutation(kind="not-restored", run=run):
             lines += _not_restored_lines(place, run)
-        case Refutation(kind="not-minimal", cheaper=cheaper) if cheaper is not None and spec.restores_stepwise:
-            lines.append(_better_text(place, refutation))
-            lines += _run_lines(place, refutation.run) if refutation.run else []
         case Refutation(kind="not-minimal", cheaper=cheaper) if cheaper is not None:
-            lines.append(
-                f"which takes {duration(spec, refutation.decision)}; {place.actions(cheaper)} takes "
-                f"{duration(spec, cheaper)}, is allowed, and its run reaches the goal:"
-            )
+            lines.append(_better_text(place, refutation, refutation.decision, cheaper))
             lines += _run_lines(place, refutation.run) if refutation.run else []
     return "\n".join(lines)
 
@@ -174,9 +167,14 @@ _NEVER_NOMINALLY: Final = {
 }
 
 
-def _better_text(place: Place, refutation: Refutation) -> str:
+def _better_text(place: Place, refutation: Refutation, decision: ActionSet, cheaper: ActionSet) -> str:
     """That another set restores safety better than the decision, and serves as well."""
-    better = place.actions(refutation.cheaper or frozenset())
+    spec, better = place.spec, place.actions(cheaper)
+    if not spec.restores_stepwise:
+        return (
+            f"which takes {duration(spec, decision)}; {better} takes {duration(spec, cheaper)}, is allowed, "
+            "and its run reaches the goal:"
+        )
     if refutation.qualities is None:
         return f"but {better} may be executed, restores safety better, and keeps no run from its goal; its own run:"
     now, then = refutation.qualities

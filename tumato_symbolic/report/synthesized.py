@@ -6,23 +6,18 @@ import shlex
 from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Diagnostic, Source
-from tumato_symbolic.policy import Policy, count_defined, never_executed, some_decided
+from tumato_symbolic.policy import never_executed, some_decided
 from tumato_symbolic.report.failures import FAILURE_CODES, failure_json, failure_line, failure_text, left_out_lines
 from tumato_symbolic.report.findings import Finding, finding_json, findings_of, undecided
-from tumato_symbolic.report.layout import Paint, count, enumeration, every, seconds
+from tumato_symbolic.report.layout import Paint, count, every, seconds
 from tumato_symbolic.report.objections import Place
+from tumato_symbolic.report.pictured import drawn, never_executed_lines
 from tumato_symbolic.report.proof import ORDERINGS, proof_json, proof_text, provers
 from tumato_symbolic.report.restorable import restorable_json, restorable_lines
 from tumato_symbolic.report.restored import restored_json, restored_text
-from tumato_symbolic.report.trees import tree_lines
 from tumato_symbolic.spec import Ordering, Restoration, Spec
 from tumato_symbolic.synthesis.result import Realizable, Statistics, SynthesisResult, Undecided, Unrealizable
 from tumato_symbolic.verify.result import UnrealizabilityVerdict, Verification
-from tumato_symbolic.views import Folded, Questions, Tree, rows, select
-
-_PICTURED_STATES = 10_000
-_PICTURED_LINES = 30
-_NAMES = 5
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,12 +111,13 @@ def _realizable(done: Synthesized, outcome: Realizable, paint: Paint) -> list[st
         f"{done.source.name} {verdict} {_decided(statistics)}. Found in {seconds(done.solved_in)}.",
         _states(statistics),
         longest,
-        *_never_executed(outcome),
+        *never_executed_lines(outcome.policy),
         *restored_text(statistics),
         f"  effects: {ORDERINGS[statistics.ordering]}",
         *_engine(statistics),
     ]
-    parts = ["\n".join(head), *_left_out(done, statistics), _drawn(done, outcome)]
+    picture = drawn(done.spec, outcome.policy, _show(done), restores=statistics.unsafe > 0)
+    parts = ["\n".join(head), *_left_out(done, statistics), picture]
     if done.proof is None:
         parts.append(paint.doubt("Not proved: --no-verify was given."))
     else:
@@ -146,30 +142,10 @@ def _left_out(done: Synthesized, statistics: Statistics) -> list[str]:
     return ["\n".join(lines)] if lines else []
 
 
-def _never_executed(outcome: Realizable) -> list[str]:
-    names = never_executed(outcome.policy)
-    shown = [*names[:_NAMES], f"{len(names) - _NAMES:,} more"] if len(names) > _NAMES else list(names)
-    return [f"  never executed: {enumeration(shown)}"] if names else []
-
-
-def _drawn(done: Synthesized, outcome: Realizable) -> str:
-    """What the policy does; where that is long, the command that shows it."""
-    tree = _tree(done.spec, outcome.policy)
-    if tree is None:
-        file = done.output if done.written and done.output != "-" else "POLICY"
-        show = f"tumato-sym show {shlex.quote(file)} {shlex.quote(done.source.name)}"
-        return f"What it does takes more than {_PICTURED_LINES} lines, which are left out here. To see them:\n  {show}"
-    legend = " (! restores safety)" if outcome.statistics.unsafe else ""
-    return "\n".join((f"What it does{legend}:", *(f"  {line}" for line in tree_lines(outcome.policy.vocabulary, tree))))
-
-
-def _tree(spec: Spec, policy: Policy) -> Tree | None:
-    """The whole policy, where that takes a few lines."""
-    if count_defined(policy) > _PICTURED_STATES:
-        return None
-    tree = Questions(select(policy, spec=spec).joint()).tree(_PICTURED_LINES)
-    whole = tree is not None and not any(isinstance(row.leaf, Folded) for row in rows(tree))
-    return tree if whole else None
+def _show(done: Synthesized) -> str:
+    """The command that shows what the policy does."""
+    file = done.output if done.written and done.output != "-" else "POLICY"
+    return f"tumato-sym show {shlex.quote(file)} {shlex.quote(done.source.name)}"
 
 
 def _next(done: Synthesized, outcome: Realizable) -> str:

@@ -9,12 +9,12 @@ failing runs are ever touched.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 
 from tumato_symbolic.game import Evaluation, Evaluator, Layers
 from tumato_symbolic.limits import need_z3
 from tumato_symbolic.semantics import ActionSet, State, successor
-from tumato_symbolic.symbolic import Bdd, Target, one_by_one, preferred
+from tumato_symbolic.symbolic import Bdd, one_by_one, preferred
+from tumato_symbolic.synthesis.conflict import FailingRun, Option, RepairConflict
 from tumato_symbolic.synthesis.picks import Pick
 
 NARROW_ROUNDS = 24
@@ -26,48 +26,12 @@ RUNS_PER_ROUND = 64
 """How many failing runs are explained in every later round."""
 
 
-@dataclass(frozen=True, slots=True)
-class Option:
-    """One way to act in a state: where it nominally leads, its target, and the preferred set that does so.
-
-    `following` are the outcomes that are not restored, where these matter.
-    """
-
-    successor: State
-    target: int
-    chosen: ActionSet
-    following: frozenset[State] = frozenset()
-
-
 ROUNDS = 5_000
 """After so many rounds the answer is `Undecided`."""
 
 
 class RoundsExhaustedError(Exception):
     """The solver was asked `ROUNDS` times without an answer."""
-
-
-@dataclass(frozen=True, slots=True)
-class FailingRun:
-    """A run whose first step leaves `target` pending: along `states` to `end`, too far away, or among them for ever."""
-
-    target: int
-    states: tuple[State, ...]
-    end: State | None
-
-
-@dataclass(frozen=True, slots=True)
-class RepairConflict:
-    """Valid states that no policy serves together, though it does so without any one of them.
-
-    The proof: all options of every state that the cuts mention, and cuts that no choice among these options respects.
-    `aims` are the targets by which these know their goals, each with its distances.
-    """
-
-    states: tuple[State, ...]
-    options: dict[State, tuple[Option, ...]]
-    cuts: tuple[FailingRun, ...]
-    aims: tuple[tuple[Target, Layers], ...]
 
 
 class Repair:

@@ -13,8 +13,9 @@ from dataclasses import replace
 from tumato_symbolic.game import Alone, Evaluation, Evaluator, Layers
 from tumato_symbolic.semantics import ActionSet, State, duration, next_states, restored
 from tumato_symbolic.symbolic import Bdd
+from tumato_symbolic.synthesis.conflict import FailingRun, Option
 from tumato_symbolic.synthesis.picks import Pick
-from tumato_symbolic.synthesis.repair import FailingRun, Option, Repair, RoundsExhaustedError
+from tumato_symbolic.synthesis.repair import Repair, RoundsExhaustedError
 
 MOST_SETS = 20_000
 """With more sets of actions that are allowed in a state, its options are not listed."""

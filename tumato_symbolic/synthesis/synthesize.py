@@ -3,24 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import Literal
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.game import (
-    Alone,
     Evaluation,
     Evaluator,
     Layers,
     Problem,
     build_problem,
     closed_loop,
-    distances,
     in_time,
     own_region_policy,
-    route,
-    shortest_decisions,
 )
 from tumato_symbolic.limits import Context, LimitReachedError
 from tumato_symbolic.policy import Policy, as_table
@@ -30,16 +26,15 @@ from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.spec.many_goals import many_told
 from tumato_symbolic.symbolic import Backend, Bdd, available_backend
 from tumato_symbolic.synthesis.certificate import policy_diagram
+from tumato_symbolic.synthesis.completing import completed, count_decided, unrealizable
 from tumato_symbolic.synthesis.counting import restored_in
 from tumato_symbolic.synthesis.diagnosis import restorability
 from tumato_symbolic.synthesis.failing import failing_states, failures_of, has_stuck_states, reason_of
 from tumato_symbolic.synthesis.leaving import leaving
 from tumato_symbolic.synthesis.lint import lint
-from tumato_symbolic.synthesis.overriding import override, revert_unneeded
 from tumato_symbolic.synthesis.races import races
 from tumato_symbolic.synthesis.restoring import restoring_policy
 from tumato_symbolic.synthesis.result import (
-    Failure,
     Realizable,
     Statistics,
     SynthesisResult,
@@ -125,7 +120,7 @@ def _decide(problem: Problem, so_far: Undecided, *, policy_format: PolicyFormat,
     many = many_told(problem.spec)
     context.tell("solving each goal in its own region" + (f" ({many})" if many else ""))
     policy = own_region_policy(problem)
-    statistics = replace(statistics, own_region=_count_decided(problem, policy))
+    statistics = replace(statistics, own_region=count_decided(problem, policy))
     context.learn(replace(so_far, statistics=statistics))
     undecided, evaluator = problem.steps.safe & ~problem.steps.states_of(policy), Evaluator(problem)
     evaluation = evaluator.evaluate(policy) if undecided == problem.false else None
@@ -136,106 +131,20 @@ def _decide(problem: Problem, so_far: Undecided, *, policy_format: PolicyFormat,
             from tumato_symbolic.synthesis.no_part import failing_at_once
             from tumato_symbolic.synthesis.unrealizability import certified
 
-            answer = _unrealizable(problem, failures_of(problem, failing.kinds), statistics, warnings)
+            answer = unrealizable(problem, failures_of(problem, failing.kinds), statistics, warnings)
             if not certify:
                 return answer
             reason = reason_of(problem, failing) or failing_at_once(problem, failing)
             return answer if reason is None else replace(answer, certificate=certified(problem, reason))
         so_far = replace(so_far, statistics=statistics)
-        resolved = _resolve(evaluator, policy, failing.apart, so_far, way=failing.way, certify=certify)
-        if isinstance(resolved, Undecided | Unrealizable):
-            return resolved
-        evaluation, statistics = resolved.evaluation, resolved.statistics
+        done = completed(evaluator, policy, failing.apart, so_far, way=failing.way, certify=certify)
+        if isinstance(done, Undecided | Unrealizable):
+            return done
+        evaluation, statistics = done.evaluation, done.statistics
     complete, statistics, raced = _finish(problem, evaluation, statistics)
     left = leaving(problem, complete, undecided)
     decided = problem.encoding.count_states(problem.steps.valid)
     return Realizable(_as(complete, policy_format, decided), statistics, (*warnings, *raced, *left))
-
-
-def _unrealizable(
-    problem: Problem, failures: tuple[Failure, ...], statistics: Statistics, warnings: tuple[Diagnostic, ...]
-) -> Unrealizable:
-    """*Unrealizable*, before there is a certificate for it."""
-    answer = Unrealizable(failures, statistics, None, warnings)
-    if problem.spec.starts:  # a smaller part may do
-        return answer
-    problem.context.learn(answer)
-    problem.context.tell("certifying that there is no policy")
-    return answer
-
-
-@dataclass(frozen=True)
-class _Resolved:
-    """A policy for all safe states that serves every valid state."""
-
-    evaluation: Evaluation
-    statistics: Statistics
-
-
-def _resolve(
-    evaluator: Evaluator, policy: Bdd, apart: tuple[Layers, ...], so_far: Undecided, *, way: Alone | None, certify: bool
-) -> _Resolved | Unrealizable | Undecided:
-    """Decide what the own regions leave open, changing earlier decisions only where that is needed.
-
-    `apart` are the distances from the targets; `way` has the steps that runs may take, where safety may take several
-    steps to restore.
-    """
-    problem, steps, statistics, tell = (
-        evaluator.problem,
-        evaluator.problem.steps,
-        so_far.statistics,
-        evaluator.problem.context.tell,
-    )
-    assert statistics is not None, "states are counted first"
-    tell("routing through solved states")
-    undecided = steps.safe & ~steps.states_of(policy)
-    policy = route(problem, policy, undecided, steps.safe, problem.targets)
-    statistics = replace(statistics, routed=_count_decided(problem, policy) - statistics.own_region)
-    undecided = steps.safe & ~steps.states_of(policy)
-    policy = policy | shortest_decisions(problem, apart, undecided, steps.allowed)
-    found = evaluator.evaluate(policy)
-    if found.failing == problem.false:
-        return _Resolved(found, statistics)
-    tell("overriding decisions of other goals")
-    found = override(evaluator, found, apart)
-    changed = found.closed_loop.policy
-    forced = problem.false
-    if found.failing != problem.false:
-        from tumato_symbolic.synthesis.repair import ROUNDS, Repair, RepairConflict, RoundsExhaustedError
-        from tumato_symbolic.synthesis.stepwise_repair import StepwiseRepair
-
-        tell("repairing decisions where goals interact")
-        try:
-            if way is None:
-                repaired = Repair(evaluator, changed, apart).run()
-            else:
-                repair = StepwiseRepair(evaluator, changed, apart, way)
-                repaired, forced = repair.run(), repair.forced
-        except RoundsExhaustedError:
-            limit = f"{ROUNDS:,} rounds of repair did not settle how the goals interact"
-            return Undecided(limit, statistics, so_far.warnings)
-        if isinstance(repaired, RepairConflict):
-            from tumato_symbolic.synthesis.unrealizability import certified, conflict
-
-            states = repaired.states
-            failure = Failure("conflict", len(states), states[0], states)
-            answer = _unrealizable(problem, (failure,), statistics, so_far.warnings)
-            contains = problem.encoding.contains
-            if not certify or not all(contains(steps.safe, state) for state in repaired.options):
-                return answer
-            if way is not None:  # of safe states, which is all that the certificate is about then
-                apart = distances(problem)
-            return replace(answer, certificate=certified(problem, conflict(problem, apart, repaired)))
-        changed = repaired
-    tell("reverting changes that are not needed")
-    changed = revert_unneeded(evaluator.where(forced), policy, changed)
-    statistics = replace(statistics, changed=_count_decided(problem, policy & ~changed))
-    if forced == problem.false:
-        return _Resolved(evaluator.evaluate(changed), statistics)
-    from tumato_symbolic.synthesis.improving import Improving
-
-    tell("improving decisions in unsafe states")
-    return _Resolved(Improving(evaluator, changed, forced).run(), statistics)
 
 
 def _finish(
@@ -279,10 +188,6 @@ def _as(policy: Policy, policy_format: PolicyFormat, states: int) -> Policy:
     table = as_table(policy, states)
     assert table is not None, "the table has one row for every valid state"
     return replace(policy, decisions=table)
-
-
-def _count_decided(problem: Problem, policy: Bdd) -> int:
-    return problem.encoding.count_states(problem.steps.states_of(policy))
 
 
 def _statistics(problem: Problem) -> Statistics:

@@ -42,7 +42,7 @@ from tumato_symbolic.semantics import (
 from tumato_symbolic.spec import Ordering, Rule, Spec, canonical_text, digest
 from tumato_symbolic.symbolic import Bdd, Extractor, one_by_one
 from tumato_symbolic.synthesis.certificate import goal_names
-from tumato_symbolic.synthesis.repair import RepairConflict
+from tumato_symbolic.synthesis.conflict import RepairConflict
 
 MOST_CUBES = 2_000
 """A certificate with more cubes leaves the claim to a prover."""

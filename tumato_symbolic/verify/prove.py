@@ -65,21 +65,12 @@ def verify(
     bound = bind(policy, spec)
     spec = judged_within(spec, bound)
     decisions = Decisions(spec, bound)
-    used, source = _ordering(spec, ordering)
-    results: list[PropertyResult] = []
-    if ordering is None and made_for_less(bound, spec):
-        results.append(PropertyResult("ordering", "refuted", refutation=Refutation("ordering")))
-    if restoration is None and restores_less(bound, spec):
-        results.append(PropertyResult("restoration", "refuted", refutation=Refutation("restoration")))
-    so_far = Verification("undecided", (), used, source, CertificateUse("unneeded"), None)
-    if spec.starts:
-        so_far = replace(so_far, from_starts=True)
-    if spec.restores_stepwise:
-        so_far = replace(so_far, restoration=spec.restoration)
+    so_far = _nothing_known(spec, ordering)
+    results = list(_made_for_less(bound, spec, ordering, restoration))
     try:
         _learn(context, so_far, results, asked)
         context.tell("looking for a valid state")
-        chosen = make_prover(prover, spec, bound, used, Budget(timeout, context))
+        chosen = make_prover(prover, spec, bound, so_far.ordering, Budget(timeout, context))
         if not chosen.has_valid_state():
             raise UserError((_nothing_to_decide(spec),))
         for result in _results(chosen, asked, jobs if can_fork() else 1, context):
@@ -87,12 +78,31 @@ def verify(
             so_far = replace(so_far, certificate=chosen.use)
             _learn(context, so_far, results, asked)
             if result.refutation is not None and result.refutation.kind == "missing" and not spec.starts:
-                refutation = with_departure(result.refutation, spec, decisions, used, context)
+                refutation = with_departure(result.refutation, spec, decisions, so_far.ordering, context)
                 results[-1] = replace(result, refutation=refutation)
         context.tell("counting the valid states")
         return _counted(_with(so_far, results), decisions, spec, chosen.valid_states())
     except LimitReachedError as limit:
         return stopped(_with(so_far, results, asked), str(limit))
+
+
+def _nothing_known(spec: Spec, ordering: Ordering | None) -> Verification:
+    """The answer before anything is asked."""
+    used, source = _ordering(spec, ordering)
+    answer = Verification("undecided", (), used, source, CertificateUse("unneeded"), None)
+    if spec.starts:
+        answer = replace(answer, from_starts=True)
+    return replace(answer, restoration=spec.restoration) if spec.restores_stepwise else answer
+
+
+def _made_for_less(
+    policy: Policy, spec: Spec, ordering: Ordering | None, restoration: Restoration | None
+) -> Iterator[PropertyResult]:
+    """That a policy was made for less than the specification means, where nothing overrules that."""
+    if ordering is None and made_for_less(policy, spec):
+        yield PropertyResult("ordering", "refuted", refutation=Refutation("ordering"))
+    if restoration is None and restores_less(policy, spec):
+        yield PropertyResult("restoration", "refuted", refutation=Refutation("restoration"))
 
 
 def _nothing_to_decide(spec: Spec) -> Diagnostic:

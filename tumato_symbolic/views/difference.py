@@ -18,8 +18,9 @@ from tumato_symbolic.diagrams import (
     room_for,
 )
 from tumato_symbolic.limits import Context, LimitReachedError
-from tumato_symbolic.policy import Policy, StateSets, Vocabulary, as_diagram
+from tumato_symbolic.policy import Policy, Vocabulary, as_diagram
 from tumato_symbolic.spec import Spec
+from tumato_symbolic.views.compared import states_changed, states_compared
 from tumato_symbolic.views.joint import MOST_LABELS, Joint
 from tumato_symbolic.views.placing import (
     NamesChanged,
@@ -121,8 +122,8 @@ def difference(
     with room_for(len(vocabulary.variables)):
         sets = Sets(joint_order((old, new), vocabulary), vocabulary.sizes)
         before, after = (place(policy, sets, vocabulary, context) for policy in (old, new))
-        looked_at = _looked_at(sets, vocabulary, spec, sets.either(before.decided, after.decided))
-        changed = sets.both(looked_at, _changed(sets, before, after))
+        looked_at = states_compared(sets, vocabulary, spec, sets.either(before.decided, after.decided))
+        changed = sets.both(looked_at, states_changed(sets, before, after))
         found = Difference(
             vocabulary.variables,
             names_changed(old.vocabulary, new.vocabulary),
@@ -134,31 +135,6 @@ def difference(
         if changed == NOTHING:
             return found
         return _Describing(sets, vocabulary, (before, after), looked_at, changed, context).described(found, most)
-
-
-def _looked_at(sets: Sets, vocabulary: Vocabulary, spec: Spec | None, decided: Reference) -> Reference:
-    """The states that one of the policies decides; where there is a specification, those of them that are valid."""
-    if spec is None:
-        return decided
-    numbers = {name: number for number, (name, _) in enumerate(vocabulary.variables)}
-    variables = [numbers[variable.name] for variable in spec.variables]
-    values = [
-        [vocabulary.variables[number][1].index(value) for value in variable.values]
-        for number, variable in zip(variables, spec.variables, strict=True)
-    ]
-    return sets.both(decided, StateSets(sets, variables, values).where(spec.validity))
-
-
-def _changed(sets: Sets, before: Placed, after: Placed) -> Reference:
-    """Where one of them decides only, or they decide otherwise."""
-    found = _either_only(sets, before.decided, after.decided)
-    for one, other in zip(before.executed, after.executed, strict=True):
-        found = sets.either(found, _either_only(sets, one, other))
-    return found
-
-
-def _either_only(sets: Sets, one: Reference, other: Reference) -> Reference:
-    return sets.choose(one, sets.without(EVERYTHING, other), other)
 
 
 def _by_action(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import operator
 import time
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from functools import cached_property, partial
@@ -14,6 +13,7 @@ from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.by_diagrams.closed_loop import ClosedLoop
 from tumato_symbolic.verify.by_diagrams.functions import FALSE, BudgetError, Function, given_up
 from tumato_symbolic.verify.by_diagrams.goals import Aim, WalkGoals
+from tumato_symbolic.verify.by_diagrams.minimal import minimal
 from tumato_symbolic.verify.by_diagrams.parallel import ParallelProofs, Task
 from tumato_symbolic.verify.by_diagrams.ranks import WalkRanks
 from tumato_symbolic.verify.by_diagrams.stepwise import Stepwise
@@ -283,31 +283,9 @@ class WalkProver:
         return result
 
     def _minimal_apart(self) -> tuple[PropertyResult, CertificateUse]:
-        return self._minimal(), self._ranks.use
+        return minimal(self._model, self._residual_goals, self._ranks, self._witnesses), self._ranks.use
 
     @property
     def _minimal_key(self) -> Hashable:
         """The proof of `minimal` depends on which ranks are left."""
         return "minimal", frozenset(self._ranks.roots)
-
-    def _minimal(self) -> PropertyResult:
-        model, walk = self._model, self._model.walk
-        unsafe = walk.without(model.decided, model.safe)
-        takes = walk.select(unsafe, (FALSE, model.duration(model.policy)))  # nothing is shorter than 0
-        cheaper = walk.apply(operator.lt, model.duration(model.chosen), takes)
-        if cheaper != FALSE:
-            cheaper = walk.all_of((cheaper, model.allowed))
-        pending = self._ranks.aims(cheaper, model.chosen)
-        step = model.successor(model.chosen)
-        better = FALSE
-        for goal, where in pending:
-            near = self._ranks.near_at_least(goal)
-            serves = walk.all_of((where, self._residual_goals.own(goal, walk.compose(near, step), model.chosen)))
-            if goal is not None and serves != FALSE and near != self._ranks.near(goal):
-                at_least, serves = serves, walk.all_of((where, walk.compose(self._ranks.near(goal), step)))
-                if serves != at_least:
-                    self._ranks.inexact(goal)
-            better = walk.any_of((better, serves))
-        if better == FALSE:
-            return PropertyResult("minimal", "proved", 1 + len(pending), "walk")
-        return self._witnesses.not_minimal(better)

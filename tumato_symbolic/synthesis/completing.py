@@ -1,0 +1,132 @@
+"""What own regions leave open: routes, decisions changed where goals interact, or the proof that these conflict."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from tumato_symbolic.diagnostics import Diagnostic
+from tumato_symbolic.game import (
+    Alone,
+    Evaluation,
+    Evaluator,
+    Layers,
+    Problem,
+    distances,
+    route,
+    shortest_decisions,
+)
+from tumato_symbolic.symbolic import Bdd
+from tumato_symbolic.synthesis.conflict import RepairConflict
+from tumato_symbolic.synthesis.overriding import override, revert_unneeded
+from tumato_symbolic.synthesis.result import (
+    Failure,
+    Statistics,
+    Undecided,
+    Unrealizable,
+)
+
+
+def unrealizable(
+    problem: Problem, failures: tuple[Failure, ...], statistics: Statistics, warnings: tuple[Diagnostic, ...]
+) -> Unrealizable:
+    """*Unrealizable*, before there is a certificate for it."""
+    answer = Unrealizable(failures, statistics, None, warnings)
+    if problem.spec.starts:  # a smaller part may do
+        return answer
+    problem.context.learn(answer)
+    problem.context.tell("certifying that there is no policy")
+    return answer
+
+
+@dataclass(frozen=True)
+class Completed:
+    """A policy for all safe states that serves every valid state."""
+
+    evaluation: Evaluation
+    statistics: Statistics
+
+
+def completed(
+    evaluator: Evaluator, policy: Bdd, apart: tuple[Layers, ...], so_far: Undecided, *, way: Alone | None, certify: bool
+) -> Completed | Unrealizable | Undecided:
+    """Decide what the own regions leave open, changing earlier decisions only where that is needed.
+
+    `apart` are the distances from the targets; `way` has the steps that runs may take, where safety may take several
+    steps to restore.
+    """
+    problem, statistics = evaluator.problem, so_far.statistics
+    steps, tell = problem.steps, problem.context.tell
+    assert statistics is not None, "states are counted first"
+    tell("routing through solved states")
+    undecided = steps.safe & ~steps.states_of(policy)
+    policy = route(problem, policy, undecided, steps.safe, problem.targets)
+    statistics = replace(statistics, routed=count_decided(problem, policy) - statistics.own_region)
+    undecided = steps.safe & ~steps.states_of(policy)
+    policy = policy | shortest_decisions(problem, apart, undecided, steps.allowed)
+    found = evaluator.evaluate(policy)
+    if found.failing == problem.false:
+        return Completed(found, statistics)
+    tell("overriding decisions of other goals")
+    found = override(evaluator, found, apart)
+    changed, forced = found.closed_loop.policy, problem.false
+    if found.failing != problem.false:
+        so_far = replace(so_far, statistics=statistics)
+        repaired = _repaired(evaluator, changed, apart, so_far, way=way, certify=certify)
+        if isinstance(repaired, Unrealizable | Undecided):
+            return repaired
+        changed, forced = repaired
+    tell("reverting changes that are not needed")
+    changed = revert_unneeded(evaluator.where(forced), policy, changed)
+    statistics = replace(statistics, changed=count_decided(problem, policy & ~changed))
+    if forced == problem.false:
+        return Completed(evaluator.evaluate(changed), statistics)
+    from tumato_symbolic.synthesis.improving import Improving
+
+    tell("improving decisions in unsafe states")
+    return Completed(Improving(evaluator, changed, forced).run(), statistics)
+
+
+def _repaired(
+    evaluator: Evaluator, policy: Bdd, apart: tuple[Layers, ...], so_far: Undecided, *, way: Alone | None, certify: bool
+) -> tuple[Bdd, Bdd] | Unrealizable | Undecided:
+    """A policy that serves every valid state, and those of its decisions in unsafe states that repair has made.
+
+    Or why there is none: the goals are in conflict.
+    """
+    from tumato_symbolic.synthesis.repair import ROUNDS, Repair, RoundsExhaustedError
+    from tumato_symbolic.synthesis.stepwise_repair import StepwiseRepair
+
+    problem, forced = evaluator.problem, evaluator.problem.false
+    problem.context.tell("repairing decisions where goals interact")
+    try:
+        if way is None:
+            found = Repair(evaluator, policy, apart).run()
+        else:
+            repair = StepwiseRepair(evaluator, policy, apart, way)
+            found, forced = repair.run(), repair.forced
+    except RoundsExhaustedError:
+        return replace(so_far, limit=f"{ROUNDS:,} rounds of repair did not settle how the goals interact")
+    if isinstance(found, RepairConflict):
+        # In several steps the certificate is about safe states only, and so are the distances in it.
+        return _in_conflict(problem, apart if way is None else None, found, so_far, certify=certify)
+    return found, forced
+
+
+def _in_conflict(
+    problem: Problem, apart: tuple[Layers, ...] | None, found: RepairConflict, so_far: Undecided, *, certify: bool
+) -> Unrealizable:
+    """That there is no policy since goals are in conflict; `apart` is None where distances have to be measured anew."""
+    from tumato_symbolic.synthesis.unrealizability import certified, conflict
+
+    assert so_far.statistics is not None, "states are counted first"
+    failure = Failure("conflict", len(found.states), found.states[0], found.states)
+    answer = unrealizable(problem, (failure,), so_far.statistics, so_far.warnings)
+    if not certify or not all(problem.encoding.contains(problem.steps.safe, state) for state in found.options):
+        return answer
+    apart = distances(problem) if apart is None else apart
+    return replace(answer, certificate=certified(problem, conflict(problem, apart, found)))
+
+
+def count_decided(problem: Problem, policy: Bdd) -> int:
+    """In how many states a policy decides something."""
+    return problem.encoding.count_states(problem.steps.states_of(policy))

@@ -1,0 +1,45 @@
+"""What proves that goals are in conflict: the options of states, and the runs that fail with them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from tumato_symbolic.game import Layers
+from tumato_symbolic.semantics import ActionSet, State
+from tumato_symbolic.symbolic import Target
+
+
+@dataclass(frozen=True, slots=True)
+class Option:
+    """One way to act in a state: where it nominally leads, its target, and the preferred set that does so.
+
+    `following` are the outcomes that are not restored, where these matter.
+    """
+
+    successor: State
+    target: int
+    chosen: ActionSet
+    following: frozenset[State] = frozenset()
+
+
+@dataclass(frozen=True, slots=True)
+class FailingRun:
+    """A run whose first step leaves `target` pending: along `states` to `end`, too far away, or among them for ever."""
+
+    target: int
+    states: tuple[State, ...]
+    end: State | None
+
+
+@dataclass(frozen=True, slots=True)
+class RepairConflict:
+    """Valid states that no policy serves together, though it does so without any one of them.
+
+    The proof: all options of every state that the cuts mention, and cuts that no choice among these options respects.
+    `aims` are the targets by which these know their goals, each with its distances.
+    """
+
+    states: tuple[State, ...]
+    options: dict[State, tuple[Option, ...]]
+    cuts: tuple[FailingRun, ...]
+    aims: tuple[tuple[Target, Layers], ...]
