@@ -18,7 +18,7 @@ with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
     code = main(sys.argv[1:])
 asked = ["lark", "z3", "dd", "multiprocessing"]
 asked += ["tumato_symbolic.policy.unrealizability", "tumato_symbolic.syntax.mistakes"]
-asked += ["tumato_symbolic.policy.guarantees", "tumato_symbolic.views.difference"]
+asked += ["tumato_symbolic.policy.guarantees", "tumato_symbolic.views.two_policies"]
 print(json.dumps([code, [name for name in asked if name in sys.modules]]))
 """
 """Runs a command; shows its exit code, and what it loaded of the heavy packages and of what other answers need."""

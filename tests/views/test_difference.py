@@ -149,7 +149,7 @@ def test_pairs_of_policies(policy: Policy, seed: int, coarse: bool) -> None:
     """
     other = edited(policy, Random(seed))
     if prod(policy.vocabulary.sizes) * 4 <= _MOST_STATES:
-        with patch("tumato_symbolic.views.difference._MANY", 0 if coarse else 10_000):
+        with patch("tumato_symbolic.views.two_policies._MANY", 0 if coarse else 10_000):
             check(policy, other, difference(policy, other, most=10_000))
             check(other, policy, difference(other, policy, most=10_000))
 

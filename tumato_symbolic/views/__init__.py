@@ -8,9 +8,9 @@ from tumato_symbolic.views.selected import OTHER, Label, Selected, select
 from tumato_symbolic.views.selection import Selection, parse_selection
 
 if TYPE_CHECKING:
-    from tumato_symbolic.views.difference import ByAction, Change, Decided, Difference, difference
     from tumato_symbolic.views.meaning import Altered, altered
     from tumato_symbolic.views.placing import NamesChanged
+    from tumato_symbolic.views.two_policies import ByAction, Change, Decided, Difference, difference
 
 __all__ = [
     "OTHER",
@@ -40,7 +40,7 @@ __all__ = [
 ]
 
 _HOMES = {
-    **dict.fromkeys(("ByAction", "Change", "Decided", "Difference", "difference"), "difference"),
+    **dict.fromkeys(("ByAction", "Change", "Decided", "Difference", "difference"), "two_policies"),
     **dict.fromkeys(("Altered", "altered"), "meaning"),
     "NamesChanged": "placing",
 }
