@@ -1,6 +1,7 @@
 """The public API."""
 
 import importlib.metadata
+import re
 
 import pytest
 
@@ -43,3 +44,11 @@ def test_a_mistake_is_a_user_error() -> None:
             "BEGIN STATE VECTOR state S can be a, a END STATE VECTOR BEGIN CONFIG max_plan_length: 0 END CONFIG"
         )
     assert len(caught.value.diagnostics) >= 2
+
+
+def test_every_public_name_is_documented() -> None:
+    """The table of docs/api.md names each."""
+    text = (ROOT / "docs" / "api.md").read_text()
+    table = "\n".join(line.split(" | ")[0] for line in text.splitlines() if line.startswith("| `"))
+    for name in tumato_symbolic.__all__:
+        assert re.search(rf"`{name}[`(]", table), name

@@ -32,7 +32,22 @@ def need_z3(purpose: str) -> None:
 
 def need_pygls(purpose: str) -> None:
     """Raise `MissingPackageError` where pygls cannot be imported."""
+    _need("pygls.lsp.server", "pygls", "lsp", purpose)
+
+
+def need_pandas(purpose: str) -> None:
+    """Raise `MissingPackageError` where pandas cannot be imported."""
+    _need("pandas", "pandas", "notebook", purpose)
+
+
+def need_networkx(purpose: str) -> None:
+    """Raise `MissingPackageError` where networkx cannot be imported."""
+    _need("networkx", "networkx", "notebook", purpose)
+
+
+def _need(module: str, name: str, extra: str, purpose: str) -> None:
+    """Raise `MissingPackageError` where a module of a package, which an extra of ours brings, cannot be imported."""
     try:
-        import_module("pygls.lsp.server")
+        import_module(module)
     except ImportError:
-        raise MissingPackageError("pygls", "'tumato-symbolic[lsp]'", purpose) from None
+        raise MissingPackageError(name, f"'tumato-symbolic[{extra}]'", purpose) from None

@@ -5,15 +5,27 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
+from tumato_symbolic.diagnostics.wording import count
 from tumato_symbolic.policy.formats import policy_fields
 from tumato_symbolic.policy.lookup import Decider, make_decider
 from tumato_symbolic.policy.records import Certificate, DecisionDiagram, PolicyFields, Table, Vocabulary
 from tumato_symbolic.policy.text import read_text
-from tumato_symbolic.spec import Ordering, Restoration, Value
+from tumato_symbolic.spec import Ordering, Restoration, Spec, Value
+
+if TYPE_CHECKING:
+    from networkx import DiGraph
+    from pandas import DataFrame
+
+MOST_ROWS = 100_000
+"""A table of a policy has so many rows at most, unless more are asked for."""
+
+MOST_NODES = 10_000
+"""So has a graph nodes that the policy decides."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Policy:
     """What to do in every valid state.
 
@@ -55,3 +67,39 @@ class Policy:
             decider = make_decider(self.vocabulary, self.decisions)
             object.__setattr__(self, "_decider", decider)
         return decider.decide(state)
+
+    def __repr__(self) -> str:
+        names, decisions = self.vocabulary, self.decisions
+        states = count(decisions.count(names.sizes), "state")
+        form = "table" if isinstance(decisions, Table) else "diagram"
+        sizes = f"{count(len(names.variables), 'variable')}, {count(len(names.actions), 'action')}"
+        return f"<Policy: {states} decided, {sizes}, a {form}>"
+
+    def _repr_html_(self) -> str:
+        from tumato_symbolic.notebook import policy_html
+
+        return policy_html(self)
+
+    def to_dataframe(self, spec: Spec, max_states: int = MOST_ROWS) -> DataFrame:
+        """The decisions as a table of pandas: a row for every state that is decided.
+
+        The index is the state: a level for every variable, with values that are numbers as numbers. The columns are
+        `actions` (tuples of names, in the order of declaration) and `safe` (whether the state satisfies all state rules
+        of `spec`). Raises `UserError` where the policy does not fit `spec` or decides more than `max_states` (TUM508),
+        `MissingPackageError` without pandas.
+        """
+        from tumato_symbolic.notebook import to_dataframe
+
+        return to_dataframe(self, spec, max_states)
+
+    def to_networkx(self, spec: Spec, max_states: int = MOST_NODES) -> DiGraph:
+        """The closed loop as a graph of networkx: states, and what one decision of the policy may make of them.
+
+        A node is a state, as the tuple of its values in the order of `graph.graph["variables"]`. It has `actions`, the
+        decision (None: undecided), and `safe`. An edge has a `kind`: `nominal` leads to where all nominal effects lead,
+        `deviation` to any other outcome, such as after some of the effects. What the environment does is not there.
+        Raises what `to_dataframe` does, with networkx in place of pandas.
+        """
+        from tumato_symbolic.notebook import to_networkx
+
+        return to_networkx(self, spec, max_states)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple, Protocol, Self, TypeAlias, TypeVar
 
-from tumato_symbolic.diagrams import Diagram, Reference, rebuild
+from tumato_symbolic.diagrams import Diagram, Reference, count_true, rebuild
 from tumato_symbolic.semantics import ActionSet, Effort, State
 from tumato_symbolic.spec import Ordering, Restoration, Spec
 
@@ -60,6 +60,10 @@ class Table:
 
     rows: Mapping[State, ActionSet]
 
+    def count(self, sizes: Sequence[int]) -> int:  # noqa: ARG002 - a diagram needs them
+        """How many states are decided."""
+        return len(self.rows)
+
 
 @dataclass(frozen=True, slots=True)
 class DecisionDiagram:
@@ -76,6 +80,10 @@ class DecisionDiagram:
     def drawing(self) -> Drawing:
         """See `Drawn`."""
         return self.diagram, (*self.roots, self.defined)
+
+    def count(self, sizes: Sequence[int]) -> int:
+        """How many states are decided, where variables have so many values."""
+        return count_true(self.diagram, self.defined, sizes)
 
     def drawn(self, diagram: Diagram[bool], roots: tuple[Reference, ...]) -> DecisionDiagram:
         """See `Drawn`."""

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from tumato_symbolic.report.cubes import named_cube_text, named_json, shown
+from tumato_symbolic.diagnostics.cubes import named_cube_text, shown
+from tumato_symbolic.report.cubes import named_json
 from tumato_symbolic.report.layout import count
 from tumato_symbolic.spec import value_of
 from tumato_symbolic.views import Change, Decided, Difference

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from tumato_symbolic.diagnostics.cubes import shown
 from tumato_symbolic.policy import Vocabulary
-from tumato_symbolic.report.cubes import shown
 from tumato_symbolic.report.trees import folded_text, label_text
 from tumato_symbolic.views import Box
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
+from tumato_symbolic.diagnostics.cubes import actions_text, named_cube_text
 from tumato_symbolic.policy import Rule, RuleList
-from tumato_symbolic.report.cubes import actions_text, named_cube_text, named_json
+from tumato_symbolic.report.cubes import named_json
 from tumato_symbolic.report.layout import count
 from tumato_symbolic.views import OTHER
 

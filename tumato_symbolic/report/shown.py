@@ -6,8 +6,9 @@ import shlex
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from tumato_symbolic.diagnostics.cubes import actions_text, named_cube_text
 from tumato_symbolic.policy import RuleList
-from tumato_symbolic.report.cubes import actions_text, named_cube_text, named_json
+from tumato_symbolic.report.cubes import named_json
 from tumato_symbolic.report.layout import count
 from tumato_symbolic.report.rules import rule_lines, rules_json
 from tumato_symbolic.report.trees import row_json, table_lines, tree_lines

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from tumato_symbolic.diagnostics.cubes import actions_text, shown
 from tumato_symbolic.policy import Vocabulary
-from tumato_symbolic.report.cubes import actions_text, named_json, shown
+from tumato_symbolic.report.cubes import named_json
 from tumato_symbolic.report.layout import count
 from tumato_symbolic.report.rules import SOMETHING_ELSE
 from tumato_symbolic.views import Answer, Folded, Label, Question, Row, Tree, rows

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from tumato_symbolic.diagnostics import Diagnostic
+from tumato_symbolic.diagnostics.wording import count
 from tumato_symbolic.policy import Policy
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Formula, Ordering
@@ -91,7 +92,7 @@ class Failure:
 STATES_LISTED = 10_000
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Realizable:
     """There is a policy, and this is it, with its certificate."""
 
@@ -99,8 +100,26 @@ class Realizable:
     statistics: Statistics
     warnings: tuple[Diagnostic, ...] = ()
 
+    def __repr__(self) -> str:
+        return f"<Realizable: {self._said}>"
 
-@dataclass(frozen=True, slots=True)
+    def _repr_html_(self) -> str:
+        from tumato_symbolic.notebook import panel, rules_html
+
+        lines = (f"It has {self._said}. Not proved yet: `verify(policy, spec)` does that.", *_remarks(self.warnings))
+        return panel("plain", "Realizable", lines, rules_html(self.policy))
+
+    @property
+    def _said(self) -> str:
+        known = self.statistics
+        states, unsafe = known.valid, known.unsafe
+        if known.part is not None:
+            states, unsafe = known.part.decided, known.part.unsafe
+        run = "" if known.longest_run is None else f", runs of up to {count(known.longest_run, 'step')}"
+        return f"a policy for {count(states, 'valid state')}, {states - unsafe:,} of them safe{run}"
+
+
+@dataclass(frozen=True, slots=True, repr=False)
 class Unrealizable:
     """There is no policy: these states fail, or these goals conflict; `certificate` proves it.
 
@@ -115,8 +134,20 @@ class Unrealizable:
     limit: str | None = None
     restorability: Restorability | None = None
 
+    def __repr__(self) -> str:
+        proof = "with a certificate" if self.certificate is not None else "without a certificate"
+        return f"<Unrealizable: {'; '.join(map(_failure_text, self.failures))}; {proof}>"
 
-@dataclass(frozen=True, slots=True)
+    def _repr_html_(self) -> str:
+        from tumato_symbolic.notebook import panel
+
+        proof = "`tumato-sym verify` proves it by the certificate." if self.certificate is not None else ""
+        failures = (f"{text[0].upper()}{text[1:]}." for text in map(_failure_text, self.failures))
+        lines = (*failures, *([proof] if proof else []), *_remarks(self.warnings))
+        return panel("bad", "Unrealizable", lines)
+
+
+@dataclass(frozen=True, slots=True, repr=False)
 class Undecided:
     """A limit was met before there was an answer. `statistics` is what was known by then, if anything."""
 
@@ -124,5 +155,36 @@ class Undecided:
     statistics: Statistics | None
     warnings: tuple[Diagnostic, ...] = ()
 
+    def __repr__(self) -> str:
+        return f"<Undecided: {self._said}>"
+
+    def _repr_html_(self) -> str:
+        from tumato_symbolic.notebook import panel
+
+        return panel("doubt", "Undecided", (f"{self._said}.", *_remarks(self.warnings)))
+
+    @property
+    def _said(self) -> str:
+        known = "" if self.statistics is None else f"; {count(self.statistics.valid, 'valid state')}"
+        return f"{self.limit}{known}"
+
 
 SynthesisResult: TypeAlias = Realizable | Unrealizable | Undecided
+
+
+def _failure_text(failure: Failure) -> str:
+    """Why so many states fail, as a clause."""
+    states = count(failure.count, "state")
+    match failure.kind:
+        case "no-allowed-set":
+            return f"no set of actions is allowed in {states}"
+        case "no-restoration":
+            return f"safety is not restored from {states}"
+        case "no-plan":
+            return f"no plan leads from {states} to the goals"
+        case "conflict":
+            return f"the goals of {states} conflict"
+
+
+def _remarks(warnings: tuple[Diagnostic, ...]) -> tuple[str, ...]:
+    return tuple(f"{each.code.name}: {each.message}" for each in warnings)

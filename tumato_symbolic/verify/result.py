@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Literal, TypeAlias
+from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
+from tumato_symbolic.diagnostics.wording import count
 from tumato_symbolic.semantics import ActionSet, EffectSequence, Objection, Quality, Run, State
 from tumato_symbolic.spec import Ordering, Restoration, Spec
+
+if TYPE_CHECKING:
+    from tumato_symbolic.notebook import Tone
 
 Verdict: TypeAlias = Literal["proved", "refuted", "undecided"]
 PropertyName: TypeAlias = Literal["total", "safe", "restoring", "goals", "minimal", "ordering", "restoration"]
@@ -101,7 +105,7 @@ class CertificateUse:
     reason: str | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Verification:
     """The answer of `verify`.
 
@@ -128,6 +132,35 @@ class Verification:
             (result.name, result.verdict) == ("total", "proved") for result in self.properties
         )
         return total or (self.decided_states is not None and self.decided_states == self.valid_states)
+
+    def __repr__(self) -> str:
+        by_verdict: dict[Verdict, list[str]] = {self.verdict: []}
+        for each in self.properties:
+            by_verdict.setdefault(each.verdict, []).append(each.name)
+        found = (f"{verdict} ({', '.join(names)})" for verdict, names in by_verdict.items())
+        return f"<Verification: {', '.join([*found, *self._states])}>"
+
+    def _repr_html_(self) -> str:
+        from tumato_symbolic.notebook import panel, table
+
+        rows = ((each.name, each.verdict, _why(each)) for each in self.properties)
+        tone = _TONES[self.verdict]
+        return panel(tone, self.verdict.capitalize(), self._states, table(("property", "verdict", ""), rows))
+
+    @property
+    def _states(self) -> tuple[str, ...]:
+        states = self.valid_states if self.decided_states is None else self.decided_states
+        return () if states is None else (count(states, "valid state"),)
+
+
+_TONES: Final[dict[Verdict, Tone]] = {"proved": "good", "refuted": "bad", "undecided": "doubt"}
+
+
+def _why(result: PropertyResult) -> str:
+    """By whom it is proved, how it fails, or why it is undecided."""
+    if result.refutation is not None:
+        return result.refutation.kind
+    return f"by {result.proved_by}" if result.proved_by is not None else result.reason or ""
 
 
 @dataclass(frozen=True, slots=True)

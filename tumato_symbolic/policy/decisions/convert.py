@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
 from typing import TypeAlias
 
-from tumato_symbolic.diagrams import Diagram, DiagramBuilder, Reference, count_true
+from tumato_symbolic.diagrams import Diagram, DiagramBuilder, Reference
 from tumato_symbolic.policy.policy import Policy
 from tumato_symbolic.policy.records import Certificate, DecisionDiagram, Table, Vocabulary
 from tumato_symbolic.semantics import ActionSet, State, actions_of
@@ -56,10 +56,7 @@ def _where(
 
 def count_defined(policy: Policy) -> int:
     """How many states the policy decides, exactly."""
-    decisions = policy.decisions
-    if isinstance(decisions, Table):
-        return len(decisions.rows)
-    return count_true(decisions.diagram, decisions.defined, policy.vocabulary.sizes)
+    return policy.decisions.count(policy.vocabulary.sizes)
 
 
 def some_decided(policy: Policy) -> State | None:

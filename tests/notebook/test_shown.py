@@ -1,0 +1,123 @@
+"""What policies and results say of themselves, in one line and in the output of a cell."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+from xml.etree import ElementTree
+
+import pytest
+
+from tests.repo.documents import ROOT
+from tumato_symbolic import Policy, Realizable, Undecided, Unrealizable, Verification, parse, synthesize, verify
+from tumato_symbolic.limits import Context, Limits
+from tumato_symbolic.policy import Table, Vocabulary, as_diagram, minimal_rules
+
+ODD = Policy(
+    Vocabulary((("<i>a</i>", ("&amp;", '"')),), ("<script>", "stop")),
+    Table({(0,): frozenset({0}), (1,): frozenset({1})}),
+)
+"""Names that mean something in HTML."""
+
+
+def example(name: str) -> Any:
+    """What synthesis says of an example."""
+    return synthesize(parse((ROOT / "examples" / name).read_text()))
+
+
+def text_of(html: str) -> list[str]:
+    """The texts of HTML, which has to be well-formed."""
+    return [text for text in ElementTree.fromstring(html).itertext() if text]
+
+
+def test_a_policy_in_one_line() -> None:
+    """How many states and names it has, and its form; nothing of its rows."""
+    assert repr(ODD) == "<Policy: 2 states decided, 1 variable, 2 actions, a table>"
+    assert (
+        repr(replace(ODD, decisions=as_diagram(ODD))) == "<Policy: 2 states decided, 1 variable, 2 actions, a diagram>"
+    )
+
+
+def test_results_in_one_line() -> None:
+    """The verdict first."""
+    found = example("amr.tum")
+    assert repr(found) == "<Realizable: a policy for 32 valid states, 24 of them safe, runs of up to 4 steps>"
+    assert repr(example("two_robots.tum")) == (
+        "<Unrealizable: no set of actions is allowed in 112 states; with a certificate>"
+    )
+    spec = parse((ROOT / "examples" / "amr.tum").read_text())
+    assert repr(verify(found.policy, spec)) == ("<Verification: proved (total, safe, goals, minimal), 32 valid states>")
+    assert repr(Undecided("the time limit of 1 s was met", None)) == "<Undecided: the time limit of 1 s was met>"
+    assert repr(Undecided("no time", found.statistics)) == "<Undecided: no time; 32 valid states>"
+
+
+def refuted() -> Verification:
+    """The verdict on a policy of the AMR that does nothing where it should charge."""
+    spec = parse((ROOT / "examples" / "amr.tum").read_text())
+    policy = example("amr.tum").policy
+    charge = policy.vocabulary.actions.index("charge")
+    rows = {state: chosen - {charge} for state, chosen in policy.decisions.rows.items()}
+    return verify(replace(policy, decisions=Table(rows)), spec)
+
+
+def test_a_refutation() -> None:
+    """The refuted properties come first, and each says how it fails."""
+    found = refuted()
+    assert repr(found) == "<Verification: refuted (goals), proved (total, safe, minimal), 32 valid states>"
+    texts = text_of(found._repr_html_())
+    assert texts[0] == "Refuted"
+    assert texts[texts.index("goals") :][:3] == ["goals", "refuted", "goal-missed"]
+
+
+def test_the_rules_of_a_policy() -> None:
+    """All of them, each with its actions, as `show` says them."""
+    policy = example("amr.tum").policy
+    texts = text_of(policy._repr_html_())
+    assert texts[0] == "Policy: 32 states decided"
+    rules = minimal_rules(policy)
+    assert texts[-3:] == [str(len(rules)), "otherwise", ", ".join(rules[-1].actions)]
+    assert "S_Location is charger AND S_Battery is low AND S_Conveyor is off" in texts
+
+
+def test_names_are_escaped() -> None:
+    """A name may be any text."""
+    html = ODD._repr_html_()
+    assert "<script>" not in html
+    assert "<i>" not in html
+    assert {"<script>", "<i>a</i> is &amp;"} <= set(text_of(html))
+
+
+def test_what_is_left_out_is_said() -> None:
+    """Beyond some dozens of rules, their number; without a short list, why there is none."""
+    values = tuple(map(str, range(60)))
+    many = Policy(
+        Vocabulary((("S", values),), tuple(f"a{value}" for value in values)),
+        Table({(value,): frozenset({value}) for value in range(60)}),
+    )
+    texts = text_of(many._repr_html_())
+    assert "20 more rules: tumato_symbolic.policy.minimal_rules(policy)" in texts
+    assert "41" not in texts
+
+
+@pytest.mark.parametrize("name", ["amr.tum", "two_robots.tum"])
+def test_only_the_bar_has_a_colour(name: str) -> None:
+    """Text is legible wherever the notebook's own is."""
+    found = example(name)
+    assert isinstance(found, Realizable | Unrealizable)
+    html = found._repr_html_()
+    assert html.count("#") == html.count("border-left:4px solid #")
+    assert "color" not in html.replace("border-collapse", "")
+    title = text_of(html)[0]
+    assert title == type(found).__name__
+
+
+def test_a_result_without_proof_does_not_look_proved() -> None:
+    """What synthesis found says that it is not proved yet."""
+    assert any("Not proved yet" in text for text in text_of(example("amr.tum")._repr_html_()))
+
+
+def test_rules_take_no_longer_than_someone_waits(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where time is up, the states that no rule decides are counted."""
+    monkeypatch.setattr("tumato_symbolic.notebook.policies.Context", lambda _: Context(Limits(seconds=0.0)))
+    texts = text_of(example("amr.tum").policy._repr_html_())
+    assert any("time limit" in text for text in texts)
