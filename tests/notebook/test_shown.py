@@ -51,6 +51,14 @@ def test_results_in_one_line() -> None:
     assert repr(Undecided("no time", found.statistics)) == "<Undecided: no time; 32 valid states>"
 
 
+def test_a_proof_says_by_whom() -> None:
+    """Each property with its prover, by name."""
+    spec = parse((ROOT / "examples" / "amr.tum").read_text())
+    texts = text_of(verify(example("amr.tum").policy, spec)._repr_html_())
+    assert texts[:3] == ["Proved", "32 valid states", "property"]
+    assert texts[texts.index("safe") :][:3] == ["safe", "proved", "by Z3"]
+
+
 def refuted() -> Verification:
     """The verdict on a policy of the AMR that does nothing where it should charge."""
     spec = parse((ROOT / "examples" / "amr.tum").read_text())

@@ -9,7 +9,7 @@ from tumato_symbolic.report.layout import Paint, count, enumeration, every, seco
 from tumato_symbolic.report.objections import Place, broken_here, effects_text, objection_text, outcome_json
 from tumato_symbolic.semantics import ActionSet, Quality, Run, action_names, duration, in_json
 from tumato_symbolic.spec import Ordering, Restoration, Spec
-from tumato_symbolic.verify.result import PropertyName, PropertyResult, Refutation, Verification
+from tumato_symbolic.verify.result import PROVERS, PropertyName, PropertyResult, Refutation, Verification
 
 ORDERINGS: Final[dict[Ordering, str]] = {
     "any": "in any order, one after the other (any)",
@@ -45,8 +45,6 @@ _HOW: Final[dict[Restoration | None, str]] = {
     "fair": "if nominal effects occur again and again",
 }
 
-_PROVERS: Final = {"z3": "Z3", "walk": "the walk", "explicit": "explicit-state checking"}
-
 _STEPS_SHOWN = 12
 
 
@@ -80,7 +78,7 @@ def provers(verification: Verification) -> str:
 def prover_names(proved_by: str) -> str:
     """The names of provers, as `z3+walk`, for a person."""
     names = dict.fromkeys(filter(None, proved_by.split("+")))
-    return enumeration([_PROVERS.get(name, name) for name in names])
+    return enumeration([PROVERS.get(name, name) for name in names])
 
 
 def property_line(result: PropertyResult, paint: Paint, verification: Verification) -> str:

@@ -12,7 +12,7 @@ from tumato_symbolic.report.layout import Paint, count, seconds
 from tumato_symbolic.report.proof import ORDERINGS
 from tumato_symbolic.semantics import action_names, in_json
 from tumato_symbolic.spec import Spec
-from tumato_symbolic.verify.result import UnrealizabilityKind, UnrealizabilityVerdict, Verdict
+from tumato_symbolic.verify.result import PROVERS, UnrealizabilityKind, UnrealizabilityVerdict, Verdict
 
 _REASONS: Final[dict[UnrealizabilityKind, str]] = {
     "no-allowed-set": "there is a state in which no set of actions is allowed",
@@ -21,8 +21,6 @@ _REASONS: Final[dict[UnrealizabilityKind, str]] = {
     "conflict": "there are states that each have a plan, but no policy works for all of them",
     "no-part": "there is no policy from the starts that never leaves what it decides",
 }
-
-_PROVERS: Final = {"z3": "Z3", "walk": "the walk"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +79,7 @@ def proof_line(found: UnrealizabilityVerdict) -> str:
 
 def proved_by(found: UnrealizabilityVerdict) -> str:
     """The names of the provers that were needed; empty where none was."""
-    return " and ".join(_PROVERS[name] for name in _proved_by(found) if name in _PROVERS)
+    return " and ".join(PROVERS[name] for name in _proved_by(found) if name in PROVERS)
 
 
 def _proved_by(found: UnrealizabilityVerdict) -> list[str]:

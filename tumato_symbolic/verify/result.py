@@ -18,6 +18,9 @@ OrderingSource: TypeAlias = Literal["command line", "certificate", "specificatio
 ProverName: TypeAlias = Literal["z3", "walk", "explicit", "both", "auto"]
 UnrealizabilityKind: TypeAlias = Literal["no-allowed-set", "no-restoration", "no-plan", "conflict", "no-part"]
 
+PROVERS: Final = {"z3": "Z3", "walk": "the walk", "explicit": "explicit-state checking"}
+"""What provers are called."""
+
 PROPERTIES: tuple[PropertyName, ...] = ("total", "safe", "restoring", "goals", "minimal")
 """What is asked by default, in the order in which it is proved; see `properties_of`."""
 
@@ -160,7 +163,9 @@ def _why(result: PropertyResult) -> str:
     """By whom it is proved, how it fails, or why it is undecided."""
     if result.refutation is not None:
         return result.refutation.kind
-    return f"by {result.proved_by}" if result.proved_by is not None else result.reason or ""
+    if result.proved_by:
+        return f"by {' and '.join(PROVERS.get(name, name) for name in result.proved_by.split('+'))}"
+    return result.reason or ""
 
 
 @dataclass(frozen=True, slots=True)
