@@ -25,7 +25,7 @@ def is_repaired(seed: int) -> bool:
     """Whether the goals of a specification interact so that decisions are repaired."""
     told: list[str] = []
     synthesize(parse(crossroads(seed)), context=Context(progress=told.append))
-    return REPAIRING in told
+    return any(stage.startswith(REPAIRING) for stage in told)
 
 
 def answer(seed: int, backend: Backend) -> str:

@@ -20,6 +20,7 @@ from tumato_symbolic.symbolic import Backend, available_backend
 from tumato_symbolic.synthesis import Realizable, SynthesisResult, Undecided, Unrealizable, synthesize
 
 pipeline = import_module("tumato_symbolic.synthesis.synthesize")
+completing = import_module("tumato_symbolic.synthesis.completing")
 
 
 def rows(outcome: SynthesisResult) -> dict[State, ActionSet]:
@@ -82,7 +83,7 @@ def test_goals_that_interact_are_solved_and_little_is_changed() -> None:
 
 def test_repair_alone_solves_what_overriding_would(monkeypatch: pytest.MonkeyPatch) -> None:
     """Lazy repair does not lean on the phases before it."""
-    monkeypatch.setattr(pipeline, "override", lambda problem, policy, distances: policy)
+    monkeypatch.setattr(completing, "override", lambda problem, policy, distances: policy)
     spec = interacting()
     spec = exclusive(spec)
     outcome = synthesize(spec)
@@ -93,8 +94,9 @@ def test_repair_alone_solves_what_overriding_would(monkeypatch: pytest.MonkeyPat
 
 def test_a_limit_ends_in_undecided(monkeypatch: pytest.MonkeyPatch) -> None:
     """When repair runs out of rounds the answer is neither yes nor no."""
-    monkeypatch.setattr(pipeline, "override", lambda problem, policy, distances: policy)
+    monkeypatch.setattr(completing, "override", lambda problem, policy, distances: policy)
     monkeypatch.setattr(import_module("tumato_symbolic.synthesis.repair"), "ROUNDS", 1)
+    monkeypatch.setattr(import_module("tumato_symbolic.synthesis.touring"), "MOST_TARGETS", 0)
     spec = interacting()
     outcome = synthesize(exclusive(spec))
     assert isinstance(outcome, Undecided)

@@ -15,6 +15,7 @@ from tumato_symbolic.game import (
     route,
     shortest_decisions,
 )
+from tumato_symbolic.spec.many_goals import many_told
 from tumato_symbolic.symbolic import Bdd
 from tumato_symbolic.synthesis.conflict import RepairConflict
 from tumato_symbolic.synthesis.overriding import override, revert_unneeded
@@ -71,9 +72,12 @@ def completed(
     changed, forced = found.closed_loop.policy, problem.false
     if found.failing != problem.false:
         so_far = replace(so_far, statistics=statistics)
-        repaired = _repaired(evaluator, changed, apart, so_far, way=way, certify=certify)
+        repaired = _repaired(evaluator, found, apart, so_far, way=way, certify=certify)
         if isinstance(repaired, Unrealizable | Undecided):
             return repaired
+        if isinstance(repaired, Evaluation):
+            turned = policy & ~repaired.closed_loop.policy
+            return Completed(repaired, replace(statistics, changed=count_decided(problem, turned)))
         changed, forced = repaired
     tell("reverting changes that are not needed")
     changed = revert_unneeded(evaluator.where(forced), policy, changed)
@@ -87,29 +91,56 @@ def completed(
 
 
 def _repaired(
-    evaluator: Evaluator, policy: Bdd, apart: tuple[Layers, ...], so_far: Undecided, *, way: Alone | None, certify: bool
-) -> tuple[Bdd, Bdd] | Unrealizable | Undecided:
+    evaluator: Evaluator,
+    so_far: Evaluation,
+    apart: tuple[Layers, ...],
+    answer: Undecided,
+    *,
+    way: Alone | None,
+    certify: bool,
+) -> tuple[Bdd, Bdd] | Evaluation | Unrealizable | Undecided:
     """A policy that serves every valid state, and those of its decisions in unsafe states that repair has made.
 
-    Or why there is none: the goals are in conflict.
+    Or what a tour achieves, where repair takes long; or why there is none: the goals are in conflict.
     """
-    from tumato_symbolic.synthesis.repair import ROUNDS, Repair, RoundsExhaustedError
-    from tumato_symbolic.synthesis.stepwise_repair import StepwiseRepair
+    from tumato_symbolic.synthesis.repair import ROUNDS, RoundsExhaustedError
 
-    problem, forced = evaluator.problem, evaluator.problem.false
-    problem.context.tell("repairing decisions where goals interact")
+    problem = evaluator.problem
     try:
-        if way is None:
-            found = Repair(evaluator, policy, apart).run()
-        else:
-            repair = StepwiseRepair(evaluator, policy, apart, way)
-            found, forced = repair.run(), repair.forced
+        found = _repaired_or_toured(evaluator, so_far, apart, way)
     except RoundsExhaustedError:
-        return replace(so_far, limit=f"{ROUNDS:,} rounds of repair did not settle how the goals interact")
+        return replace(answer, limit=f"{ROUNDS:,} rounds of repair did not settle how the goals interact")
     if isinstance(found, RepairConflict):
         # In several steps the certificate is about safe states only, and so are the distances in it.
-        return _in_conflict(problem, apart if way is None else None, found, so_far, certify=certify)
-    return found, forced
+        return _in_conflict(problem, apart if way is None else None, found, answer, certify=certify)
+    return found
+
+
+def _repaired_or_toured(
+    evaluator: Evaluator, so_far: Evaluation, apart: tuple[Layers, ...], way: Alone | None
+) -> tuple[Bdd, Bdd] | Evaluation | RepairConflict:
+    """Some rounds of repair, a look for a tour, and the other rounds. Raises `RoundsExhaustedError` after these."""
+    from tumato_symbolic.synthesis.repair import Repair, RoundsExhaustedError
+    from tumato_symbolic.synthesis.stepwise_repair import StepwiseRepair
+    from tumato_symbolic.synthesis.touring import ROUNDS_BEFORE_TOUR, tour
+
+    problem, policy = evaluator.problem, so_far.closed_loop.policy
+    goals = many_told(problem.spec) if problem.goals_are_many else f"{len(problem.targets):,} residual goals"
+    stage = f"repairing decisions where goals interact ({goals})"
+    problem.context.tell(stage)
+    repair = Repair(evaluator, policy, apart) if way is None else StepwiseRepair(evaluator, policy, apart, way)
+    try:
+        found = repair.run(most=ROUNDS_BEFORE_TOUR)
+    except RoundsExhaustedError:
+        problem.context.tell("looking for a tour through all goals")
+        toured = tour(evaluator, so_far)
+        if toured is not None:
+            return toured
+        problem.context.tell(stage)
+        found = repair.run()
+    if isinstance(found, RepairConflict):
+        return found
+    return found, repair.forced if isinstance(repair, StepwiseRepair) else problem.false
 
 
 def _in_conflict(

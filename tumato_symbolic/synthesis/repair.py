@@ -56,23 +56,26 @@ class Repair:
         self._cuts: list[tuple[int, FailingRun]] = []
         self._cubes: dict[State, Bdd] = {}
         self._touched = problem.false
-        self._rounds = 0
+        self._rounds, self._most = 0, ROUNDS
         self._cut_off_in: dict[int, int] = {}
         self._distance: dict[tuple[int, State], int | None] = {}
 
-    def run(self, required: Bdd | None = None) -> Bdd | RepairConflict:
+    def run(self, required: Bdd | None = None, most: int | None = None) -> Bdd | RepairConflict:
         """A policy that serves the required states (None: all valid ones), or the conflict that proves there is none.
 
-        Raises `RoundsExhaustedError`.
+        Raises `RoundsExhaustedError`. `most` bounds the rounds until the states are served, or proved not to be;
+        another call goes on from there.
         """
+        self._most = ROUNDS if most is None else min(most, ROUNDS)
         result = self._serve(self._problem.steps.valid if required is None else required, None)
+        self._most = ROUNDS
         if isinstance(result, frozenset):
             return self._impossible(self._minimal(result))
         return result
 
     def _serve(self, required: Bdd, guards: list[int] | None) -> Bdd | frozenset[int]:
         """A policy that serves the required states, or starts (by number) that cannot be served together."""
-        while self._rounds < ROUNDS:
+        while self._rounds < self._most:
             self._rounds += 1
             picked = self._choices.solve(guards)
             if isinstance(picked, frozenset):
