@@ -12,8 +12,7 @@ from weakref import finalize
 from tests.conformance.roles import Rows
 from tests.conformance.world import World
 from tests.export.compiler import COQC, Library
-from tumato_symbolic.export import coq
-from tumato_symbolic.export.coq_specification import specification
+from tumato_symbolic.export import coq, coq_specification
 from tumato_symbolic.semantics import ActionSet, Effort, State, is_valid
 from tumato_symbolic.spec import Ordering, Spec
 
@@ -121,7 +120,7 @@ class Coq:
 
     def _spec(self, world: World) -> str:
         if world.spec not in self._modules:
-            self._modules[world.spec] = self._module(specification(world.spec))
+            self._modules[world.spec] = self._module(coq_specification.specification(world.spec))
         return f"{self._modules[world.spec]}.spec"
 
     def _table(self, world: World, rows: Rows) -> str:

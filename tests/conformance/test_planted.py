@@ -28,7 +28,7 @@ from tests.conformance.by_checker import Checker
 from tests.conformance.by_coq import Coq
 from tests.conformance.by_engine import Bdd, Explicit
 from tests.conformance.by_verify import Z3, States, Walk
-from tumato_symbolic.export import coq
+from tumato_symbolic.export import coq_specification
 from tumato_symbolic.game import routing
 from tumato_symbolic.semantics import Guarantee, Prospects, Restorations, holds, is_valid
 from tumato_symbolic.semantics import goals as explicit_goals
@@ -191,7 +191,7 @@ BUGS = (
         lambda _: property(lambda action: (action.nominal,)), actions.test_an_action_may_take_any_of_its_effects),
     Bug("3.2", "resources are shared", States, states_steps.Steps, "may_be_together",
         lambda _: lambda steps, chosen: True, steps.test_no_two_actions_control_the_same_resource),
-    Bug("3.4", "no reaction rule counts", Coq, coq, "_specification", _no_coq_rules,
+    Bug("3.4", "no reaction rule counts", Coq, coq_specification, "specification", _no_coq_rules,
         steps.test_every_reaction_rule_holds),
     Bug("3.7", "an action takes effect again", lambda: Bdd("autoref"), symbolic_steps, "_after_effect_of", _again,
         steps.test_an_action_takes_effect_at_most_once),
@@ -229,7 +229,7 @@ BUGS = (
         restoring.test_no_rule_is_broken_that_was_not_broken_before),
     Bug("9.3", "the best outcome counts", Explicit, Restorations, "_worst_after", _best_of_all,
         lambda engine: restoring.test_efforts_are_compared_by_duration_first(engine, 5, (6, 2))),
-    Bug("9.4", "outcomes that go round are fair", Coq, coq, "_RESTORATIONS",
+    Bug("9.4", "outcomes that go round are fair", Coq, coq_specification, "_RESTORATIONS",
         lambda names: {**names, "bounded": names["fair"]},
         lambda engine: restoring.test_every_outcome_or_the_nominal_one_leads_back(engine, "bounded", {"restoring"})),
     Bug("9.6", "one step is no better than more", States, Efforts, "quality", _one_step_is_no_better,
@@ -240,7 +240,7 @@ BUGS = (
         lambda _: lambda problem: problem.false, restoring.test_a_state_has_no_plan_taken_alone),
     Bug("9.8", "traps are believed", Z3, refutations, "check_no_restoration", lambda _: lambda *claim: None,
         lambda engine: restoring.test_that_nothing_leads_back_is_believed_where_it_is_so(engine, "bounded", "as|a")),
-    Bug("10.1", "all rules are one tier", Coq, coq, "_tiers", _one_tier,
+    Bug("10.1", "all rules are one tier", Coq, coq_specification, "_tiers", _one_tier,
         severities.test_the_level_counts_the_severest_tiers_that_hold),
     Bug("10.1", "the level is that of the mildest tier", States, states_steps.Steps, "level",
         lambda _: lambda steps, code: len(steps._tiers) if steps.is_safe(code) else 0,

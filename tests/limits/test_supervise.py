@@ -17,7 +17,7 @@ import pytest
 from tumato_symbolic.cli import console, supervise
 from tumato_symbolic.cli.supervise import ChildCrashedError, EndedError, TerminatedError, supervised
 from tumato_symbolic.limits import Context, Limits
-from tumato_symbolic.limits.processes import can_fork, end_with
+from tumato_symbolic.limits.processes import can_fork, end_with, megabytes_of
 from tumato_symbolic.policy import save_text
 from tumato_symbolic.verify.workers import in_workers
 
@@ -87,15 +87,16 @@ def test_workers_of_the_child_end_with_it(tmp_path: Path) -> None:
 
 
 def test_memory_is_limited() -> None:
-    """A child that takes more memory than it may is ended, whoever takes it."""
-    context = Context(Limits(megabytes=300))
+    """A child that takes more memory than it may is ended, whoever takes it; it begins with what this process has."""
+    limit = round(megabytes_of(os.getpid())) + 200
+    context = Context(Limits(megabytes=limit))
 
     def work() -> int:
         context.enter("growing")
         grown = [b"x" * 2**20 for _ in range(400)]
         return _for_ever() + len(grown)
 
-    with pytest.raises(EndedError, match=r"^the memory limit of 300 MB was met while growing$"):
+    with pytest.raises(EndedError, match=f"^the memory limit of {limit} MB was met while growing$"):
         supervised(work, context)
 
 

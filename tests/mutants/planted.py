@@ -13,7 +13,7 @@ from tumato_symbolic import Realizable, parse, synthesize
 from tumato_symbolic.game import evaluation, fixpoints, routing
 from tumato_symbolic.policy import Policy
 from tumato_symbolic.spec import GoalList, Spec
-from tumato_symbolic.symbolic import extract, goals, layout, steps
+from tumato_symbolic.symbolic import extract, goals, steps
 from tumato_symbolic.symbolic.encoding import Encoding
 from tumato_symbolic.synthesis import restoring
 
@@ -114,9 +114,14 @@ def _goal_activation(patch: pytest.MonkeyPatch) -> None:
 
 
 def _extraction(patch: pytest.MonkeyPatch) -> None:
-    """The values of a variable are written in the order of another numbering."""
-    bits = layout.number_bits
-    patch.setattr(extract, "number_bits", lambda code, number: bits(code, number ^ 1))
+    """The values of a variable are written in the reverse order."""
+    by_value = extract.Extractor._by_value
+
+    def reversed_(self: Any, level: int, place: int, first: int, digits: tuple[Any, ...]) -> list[tuple[Any, ...]]:
+        found = by_value(self, level, place, first, digits)
+        return found if place else found[::-1]
+
+    patch.setattr(extract.Extractor, "_by_value", reversed_)
 
 
 BUGS = (
