@@ -157,13 +157,18 @@ def _silences(spec: Spec, variable: int, value: int) -> bool:
     return left < asked
 
 
+def _unsaid(spec: Spec, states: Sequence[State], kept: set[State], report: str) -> Iterator[str]:
+    """Whether the report leaves out what is taken from the environment where only some states are kept."""
+    said = _said_of_the_part(report)
+    if any(spec.variables[variable].name not in said for variable in _taken(spec, states, kept)):
+        yield UNSAID
+
+
 def _bad_part(spec: Spec, text: str, assumption: str, report: str) -> Iterator[str]:
     formula = read_predicate(spec, assumption)
     valid = [state for state in all_states(spec) if is_valid(spec, state)]
     kept = {state for state in valid if holds(formula, state)}
-    said = _said_of_the_part(report)
-    if any(spec.variables[variable].name not in said for variable in _taken(spec, valid, kept)):
-        yield UNSAID
+    yield from _unsaid(spec, valid, kept, report)
     guards = {rule.span for rule in spec.state_rules if spec.environment & variables_of(rule.formula)}
     idle = {each.span for each in lint(spec)}
     written = parse(with_assumption(Source("x.tum", text), assumption))
@@ -176,9 +181,7 @@ def _bad_starts(spec: Spec, text: str, condition: str, report: str, decide: Deci
     formula = read_predicate(spec, condition)
     starts = [state for state in all_states(spec) if is_start(spec, state)]
     kept = {state for state in starts if holds(formula, state)}
-    said = _said_of_the_part(report)
-    if any(spec.variables[variable].name not in said for variable in _taken(spec, starts, kept)):
-        yield UNSAID
+    yield from _unsaid(spec, starts, kept, report)
     written = parse(with_starts(Source("x.tum", text), condition))
     if {state for state in all_states(spec) if is_start(written, state)} != kept or not decide(written):
         yield USELESS

@@ -16,11 +16,11 @@ from tests.export.compiler import Case, Library
 from tests.profiles import ALL_PROFILES
 
 
-def cases(first_seed: int) -> Iterator[Case]:
-    """The profiles in turn, and the ways to restore safety, without end."""
+def cases(first_seed: int, policies: int = 12) -> Iterator[Case]:
+    """The profiles in turn, so many policies of each, and the ways to restore safety, without end."""
     for seed in count(first_seed):
         for profile in ALL_PROFILES:
-            yield from generated(profile, seed, 12)
+            yield from generated(profile, seed, policies)
         for restoration, tiers in MODES:
             yield from stepwise(seed, restoration, tiers)
 

@@ -14,17 +14,14 @@ import time
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from itertools import count, islice
+from itertools import islice
 from pathlib import Path
 from random import Random
 
-from tests.checker.stepwise import MODES
-from tests.export import mixed
-from tests.export.cases import generated, stepwise
+from tests.export import campaign, mixed
 from tests.export.compiler import Case
 from tests.export.judges import JUDGES, PROVED, Judge, disagreements
 from tests.export.policies import EXAMPLES, example, exported
-from tests.profiles import ALL_PROFILES
 from tumato_symbolic.policy import as_table, policy_from_rows
 from tumato_symbolic.semantics import State, all_states, count_states, is_valid, judge
 from tumato_symbolic.spec import Spec
@@ -48,19 +45,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if options.of == "examples":
         bad = sum(_example(options.tool, name, options.policies, options.seed) for name in options.only or EXAMPLES)
     else:
-        cases = _generated(options.seed) if options.of == "generated" else mixed.cases(options.seed)
+        cases = campaign.cases(options.seed, 6) if options.of == "generated" else mixed.cases(options.seed)
         bad = _all(tool, list(islice(cases, options.policies)))
     print(f"{options.tool}: {bad} disagree; {time.monotonic() - started:.0f} s")
     return 1 if bad else 0
-
-
-def _generated(first_seed: int) -> Iterator[Case]:
-    """Those of every profile and way to restore safety, without end."""
-    for seed in count(first_seed):
-        for profile in ALL_PROFILES:
-            yield from generated(profile, seed, 6)
-        for restoration, tiers in MODES:
-            yield from stepwise(seed, restoration, tiers)
 
 
 def _all(tool: Judge, cases: Sequence[Case]) -> int:
