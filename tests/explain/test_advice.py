@@ -212,6 +212,34 @@ def test_a_long_core_has_few_repairs() -> None:
     assert all(len(repair.changes) <= 1 for repair in found.repairs)
 
 
+BARRED = """\
+BEGIN STATE VECTOR
+state Place can be dock, hall, rack
+END STATE VECTOR
+BEGIN ACTIONS
+action out
+preconditions: Place is dock
+nominal effects: Place is hall
+WAYS
+END ACTIONS
+BEGIN REACTION RULES
+rule: NOT executing out
+END REACTION RULES
+BEGIN GOALS
+goal type: priority
+goal: Place is rack
+END GOALS
+""".replace(
+    "WAYS", "".join(f"action way{n}\npreconditions: Place is hall\nnominal effects: Place is rack\n" for n in range(4))
+)
+
+
+def test_each_kind_of_line_is_told_before_more_of_one() -> None:
+    """Any of four actions might start elsewhere; that a reaction rule is at fault is told before the second of them."""
+    kinds = [[change.element.kind for change in repair.changes] for repair in _explained(BARRED).repairs]
+    assert kinds == [["precondition"], ["reaction-rule"], ["precondition"]]
+
+
 THREE_OBSTACLES = """\
 BEGIN STATE VECTOR
 state Human can be away, here

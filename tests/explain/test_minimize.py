@@ -100,6 +100,9 @@ def test_both_searches_for_hitting_sets_answer_alike() -> None:
                 excluded = sorted(found[0]) if answers % 3 else sorted(random.sample(range(size), min(2, size)))
                 for search in searches:
                     search.exclude(excluded)
+            else:
+                for search in searches:
+                    search.penalize(numbers[:1], 2)
 
 
 @pytest.mark.parametrize("kind", [HittingSets, SearchedHittingSets])

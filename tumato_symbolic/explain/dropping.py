@@ -34,6 +34,9 @@ _PENALTIES: dict[ElementKind, int] = {
 }
 """Of repairs of one size, those come first that add what the robot can do, and last those that give up safety."""
 
+_TOLD = 10
+"""What speaks against a kind of line that is told: of one size, each kind comes once before any comes again."""
+
 
 def _hitting_sets(
     penalties: Sequence[int], seconds_left: Callable[[], float | None]
@@ -65,6 +68,7 @@ class Search:
         penalties = [_penalty(requirements.spec, element) for element in self._numbers]
         self._hitting = _hitting_sets(penalties, requirements.manager.context.seconds_left)
         self._rounds = ROUNDS
+        self._untold: set[ElementKind] = {element.kind for element in self._numbers}
         self._among = among
         self.complete = False
         """Whether there are no other repairs than those that were found."""
@@ -94,9 +98,15 @@ class Search:
                 continue
             self.exclude(dropped)
             if self._among is None or not serves_without(self._oracle.requirements, dropped - self._among):
+                self._tell({element.kind for element in dropped})
                 return dropped
             self.exclude(dropped - self._among)
         return None
+
+    def _tell(self, kinds: set[ElementKind]) -> None:
+        new = kinds & self._untold
+        self._untold -= new
+        self._hitting.penalize((number for element, number in self._numbers.items() if element.kind in new), _TOLD)
 
     def any_repair(self) -> Elements:
         """A minimal repair of whatever size; dropping everything that can be chosen must be one."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 
 class SearchedHittingSets:
@@ -13,7 +13,7 @@ class SearchedHittingSets:
     """
 
     def __init__(self, penalties: Sequence[int], seconds_left: Callable[[], float | None] = lambda: None) -> None:
-        self._penalties, self._seconds_left = penalties, seconds_left
+        self._penalties, self._seconds_left = list(penalties), seconds_left
         self._required: list[frozenset[int]] = []
         self._excluded: list[frozenset[int]] = []
         self._least = 0
@@ -26,6 +26,11 @@ class SearchedHittingSets:
     def exclude(self, numbers: Sequence[int]) -> None:
         """Not all of these numbers may be chosen."""
         self._excluded.append(frozenset(numbers))
+
+    def penalize(self, numbers: Iterable[int], more: int) -> None:
+        """Add to the penalties of some numbers."""
+        for number in numbers:
+            self._penalties[number] += more
 
     def smallest(self) -> frozenset[int] | None:
         """A set of the smallest size; None where there is none. Sizes never fall from one answer to the next."""

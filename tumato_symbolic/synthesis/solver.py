@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any, TypeAlias
 
 import z3
@@ -202,7 +202,7 @@ class HittingSets:
         self._context = z3.Context()
         self._solver = _finite_domain_solver(self._context)
         self._literals = [z3.Bool(f"h{number}", self._context) for number in range(len(penalties))]
-        self._penalties = penalties
+        self._penalties = list(penalties)
         self._useful: set[int] = set()
         self._least = 0
 
@@ -214,6 +214,11 @@ class HittingSets:
     def exclude(self, numbers: Sequence[int]) -> None:
         """Not all of these numbers may be chosen."""
         self._solver.add(_any([z3.Not(self._literals[number]) for number in numbers], self._context))
+
+    def penalize(self, numbers: Iterable[int], more: int) -> None:
+        """Add to the penalties of some numbers."""
+        for number in numbers:
+            self._penalties[number] += more
 
     def smallest(self) -> frozenset[int] | None:
         """A set of the smallest size; None where there is none. Sizes never fall from one answer to the next."""
