@@ -78,7 +78,7 @@ public:
     }
 
 private:
-    /// An action of the robot. Results come only while somebody keeps the goal.
+    /// An action of the robot. Results are promised only while somebody keeps the goal.
     struct Execution {
         Client::SharedPtr client;
         Goal::SharedPtr goal;
