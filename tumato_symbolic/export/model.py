@@ -134,10 +134,15 @@ class Claims:
             "possible": self.possible(),
             "met": self.met(self.language.safe),
         }
-        below = {name: self.language.and_below.join(parts) or by.constant(True) for name, parts in listed.items()}
+        below = {name: self._below(parts) for name, parts in listed.items()}
         states = {"valid": self.now(loop.valid), "safe": self.now(loop.safe)}
         runs = {"begins": self.begins(), "complete": self.complete()}
         return {"decided": decided, "quiet": self.quiet(), **states, **below, **runs}
+
+    def _below(self, parts: Iterable[str]) -> str:
+        """Conditions below each other, without those that always hold."""
+        true = self.language.by.constant(True)
+        return self.language.and_below.join(part for part in parts if part != true) or true
 
     def begins(self) -> str:
         """Where runs begin: in the valid states; with starts, in these, and in all other decided states."""
@@ -207,6 +212,10 @@ class Claims:
         """Whether a nominal run has anything to reach."""
         return bool(self.model.loop.goals) or self.model.loop.several_steps
 
+    def same(self, one: str, other: str) -> str:
+        """Where both of two conditions hold, or none."""
+        return self.language.by.equivalence(one, other)
+
     def implied(self, condition: str, then: str) -> str:
         """A condition and what follows from it."""
         return self.language.by.disjunction([self.language.by.negation(condition), then])
@@ -226,15 +235,28 @@ class Claims:
 def infix(
     *, true: str, false: str, negation: str, conjunction: str, disjunction: str, equivalence: str
 ) -> Connectives[str]:
-    """The connectives of a language that writes them between their operands."""
+    """The connectives of a language that writes them between their operands; constants stand only by themselves."""
+    opposites = {true: false, false: true}
 
-    def joined(parts: Sequence[str], by: str, none: str) -> str:
-        return f"({f' {by} '.join(parts)})" if len(parts) > 1 else "".join(parts) or none
+    def negated(text: str) -> str:
+        return opposites.get(text, f"({negation}{text})")
+
+    def joined(texts: Sequence[str], by: str, neutral: str) -> str:
+        parts = [text for text in texts if text != neutral]
+        if opposites[neutral] in parts:
+            return opposites[neutral]
+        return f"({f' {by} '.join(parts)})" if len(parts) > 1 else "".join(parts) or neutral
+
+    def equivalent(left: str, right: str) -> str:
+        for one, other in ((left, right), (right, left)):
+            if one in opposites:
+                return other if one == true else negated(other)
+        return f"({left} {equivalence} {right})"
 
     return Connectives(
         constant=lambda value: true if value else false,
-        negation=lambda text: f"({negation}{text})",
+        negation=negated,
         conjunction=lambda texts: joined(texts, conjunction, true),
         disjunction=lambda texts: joined(texts, disjunction, false),
-        equivalence=lambda left, right: f"({left} {equivalence} {right})",
+        equivalence=equivalent,
     )

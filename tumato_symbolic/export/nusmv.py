@@ -36,20 +36,18 @@ $executed  quiet := $quiet;
   safe := $safe;
   allowed := $allowed;
   as_required := $required;
-  still_possible := $possible;
-  met := $met;
+$lasting  met := $met;
   stays := $stays;
-  remembers := $remembers;
-  nothing_waits := $nothing_waits;
+$remembers  nothing_waits := $nothing_waits;
 
 INIT $begins & !acting & !acted$init
 
 TRANS
-  ( nominal & !next(acting) & !next(acted) & remembers & next(nothing_waits)
+  ( nominal & !next(acting) & !next(acted)$remembered & next(nothing_waits)
 $nominal  )
 | ( !nominal & !acting & next(acting) & (next(acted) <-> quiet) & stays
 $decide  )
-| ( !nominal & acting & acted & !next(acting) & next(acted) & next(nothing_waits) & remembers & stays )
+| ( !nominal & acting & acted & !next(acting) & next(acted) & next(nothing_waits)$remembered & stays )
 $effects
 CTLSPEC NAME total := $complete
 CTLSPEC NAME allowed_at_decisions := AG (!acting & valid & decided -> allowed)
@@ -97,16 +95,20 @@ class _Printer:
 
     def text(self) -> str:
         model, claims = self._model, self._claims
+        places = claims.placeholders()
+        lasting = f"  still_possible := {places['possible']};\n" if self._loop.preconditions_last else ""
         return _MODEL.substitute(
+            places,
             promise=self._promise,
             about=commented(_ABOUT.format(begins=self._loop.begins), "-- "),
             frozen="".join(f"  {name} : boolean;\n" for name in self._frozen()),
             variables="".join(self._variables()),
             rules="".join(self._rules()),
             executed="".join(f"  executed_{name} := {claims.executed(n)};\n" for n, name in enumerate(model.actions)),
-            **claims.placeholders(),
+            lasting=lasting,
             stays=self._all(f"next({name}) = {name}" for name in model.variables),
-            remembers=self._all(f"(next(kept_{number}) <-> kept_{number})" for number in self._claims.kept),
+            remembers="".join(self._remembers()),
+            remembered=self._remembered,
             nothing_waits=self._all(f"!waiting_{name}" for name in model.actions),
             init="".join(f"\n  & {each}" for each in self._init()),
             nominal="".join(f"    & {each}\n" for each in self._nominal("executed")),
@@ -114,6 +116,14 @@ class _Printer:
             effects="".join(self._effects()),
             more="".join(f"CTLSPEC NAME {each}\n" for each in self._more()),
         )
+
+    @property
+    def _remembered(self) -> str:
+        return " & remembers" if self._claims.kept else ""
+
+    def _remembers(self) -> Iterator[str]:
+        if self._claims.kept:
+            yield f"  remembers := {self._all(f'(next(kept_{n}) <-> kept_{n})' for n in self._claims.kept)};\n"
 
     @staticmethod
     def _all(parts: Iterator[str] | Sequence[str]) -> str:
@@ -143,7 +153,8 @@ class _Printer:
 
     def _init(self) -> Iterator[str]:
         yield "nothing_waits"
-        yield from (f"(active_{n} <-> {self._claims.now(goal.when)})" for n, goal in enumerate(self._loop.goals))
+        claims = self._claims
+        yield from (claims.same(f"active_{n}", claims.now(goal.when)) for n, goal in enumerate(self._loop.goals))
         for entry in self._model.named_by_goals:
             name = self._model.actions[entry]
             yield f"(first_{name} <-> executed_{name})"
@@ -158,14 +169,16 @@ class _Printer:
                 for variable, value in entry.nominal
                 if variable == number
             ]
-            yield f"next({name}) = case {' '.join([*writes, f'TRUE : {name};'])} esac"
+            changed = f"case {' '.join([*writes, f'TRUE : {name};'])} esac" if writes else name
+            yield f"next({name}) = {changed}"
 
     def _decide(self) -> Iterator[str]:
         yield from (f"(next(waiting_{name}) <-> executed_{name})" for name in self._model.actions)
-        yield from (f"(next(kept_{n}) <-> {self._claims.now(self._loop.required[n].when)})" for n in self._claims.kept)
+        claims, required = self._claims, self._loop.required
+        yield from (claims.same(f"next(kept_{n})", claims.now(required[n].when)) for n in claims.kept)
 
     def _effects(self) -> Iterator[str]:
-        before = "!nominal & acting & next(acting) & next(acted) & remembers"
+        before = f"!nominal & acting & next(acting) & next(acted){self._remembered}"
         if self._loop.ordering == "first":
             before += " & !acted"
         for entry, effect in self._model.effects:

@@ -31,8 +31,7 @@ formula valid = $valid;
 formula safe = $safe;
 formula allowed = $allowed;
 formula as_required = $required;
-formula still_possible = $possible;
-formula met = $met;
+${lasting}formula met = $met;
 
 module robot
   nominal : bool;
@@ -104,15 +103,18 @@ class _Printer:
     def model(self) -> str:
         """The closed loop."""
         model, claims = self._model, self._claims
+        places = claims.placeholders()
+        lasting = f"formula still_possible = {places['possible']};\n" if self._loop.preconditions_last else ""
         executed = (f"formula executed_{name} = {claims.executed(n)};" for n, name in enumerate(model.actions))
         return _MODEL.substitute(
+            places,
             name=self._name,
             promise=self._promise,
             about=commented(_ABOUT.format(begins=self._loop.begins), "// "),
             constants="".join(self._constants()),
             rule=self._rule(),
             executed="\n".join(executed),
-            **claims.placeholders(),
+            lasting=lasting,
             variables="".join(self._variables()),
             step="".join(self._nominal("executed")),
             decide="".join(self._decide()),
@@ -148,7 +150,8 @@ class _Printer:
     def _init(self) -> Iterator[str]:
         yield from (f"!waiting_{name}" for name in self._model.actions)
         yield from (f"!kept_{number}" for number in self._claims.kept)
-        yield from (f"(active_{n} = {self._claims.now(goal.when)})" for n, goal in enumerate(self._loop.goals))
+        claims = self._claims
+        yield from (claims.same(f"active_{n}", claims.now(goal.when)) for n, goal in enumerate(self._loop.goals))
         for entry in self._model.named_by_goals:
             name = self._model.actions[entry]
             yield f"(first_{name} = executed_{name})"

@@ -38,8 +38,7 @@ $executed#define QUIET $quiet
 #define SAFE ($safe)
 #define ALLOWED ($allowed)
 #define AS_REQUIRED ($required)
-#define STILL_POSSIBLE ($possible)
-#define MET ($met)
+$lasting#define MET ($met)
 
 inline find_rule()
 {
@@ -201,6 +200,7 @@ class _Printer:
         fair = loop.several_steps and loop.restoration == "fair"
         counts = loop.several_steps and not fair
         places = claims.placeholders()
+        lasting = f"#define STILL_POSSIBLE ({places['possible']})\n" if loop.preconditions_last else ""
         return _MODEL.substitute(
             places,
             promise=self._promise,
@@ -208,6 +208,7 @@ class _Printer:
             begin=_BEGIN if loop.starts is None else _BEGIN_DECIDED.substitute(places),
             constants="".join(self._constants()),
             variables="".join(self._variables()),
+            lasting=lasting,
             executed="".join(f"#define executed_{name} {claims.executed(n)}\n" for n, name in enumerate(model.actions)),
             rules="".join(self._rules()),
             forget="".join(f"    {name} = false;\n" for name in self._passing()) or "    skip;\n",
@@ -274,7 +275,8 @@ class _Printer:
         required = "assert(AS_REQUIRED)"
         if self._loop.starts is not None:
             required = f"find_rule(); {required}; rule = 0"
-        after = f"acted = true; {required}; assert(STILL_POSSIBLE) }}\n"
+        lasting = "; assert(STILL_POSSIBLE)" if self._loop.preconditions_last else ""
+        after = f"acted = true; {required}{lasting} }}\n"
         for entry, effect in self._model.effects:
             name = self._model.actions[entry]
             yield f"       :: atomic {{ waiting_{name}{once} ->\n"

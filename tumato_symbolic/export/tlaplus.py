@@ -59,7 +59,8 @@ class _Claims(Claims):
 
     def implied(self, condition: str, then: str) -> str:
         """A condition and what follows from it."""
-        return f"{condition} => {then}"
+        true = self.language.by.constant(True)
+        return true if then == true else f"{condition} => {then}"
 
 
 class _Printer:
@@ -83,6 +84,8 @@ class _Printer:
         model, loop = self._model, self._loop
         listed = self._variables()
         places = self._claims.placeholders()
+        for name in ("allowed", "required", "possible", "met"):
+            places[name] = " TRUE" if places[name] == "TRUE" else f"\n  /\\ {places[name]}"
         return MODULE.substitute(
             places,
             module=self._module,

@@ -37,21 +37,20 @@ Executed == $executed_set
 \\* No action that is executed has effects.
 Quiet == $quiet
 
+\\* What is assumed of every state.
 Valid == $valid
 
+\\* And all state rules.
 Safe == $safe
 
 \\* Preconditions, what excludes each other, and reaction rules: at every decision.
-Allowed ==
-  /\\ $allowed
+Allowed ==$allowed
 
 \\* After every effect.
-AsRequired ==
-  /\\ $required
+AsRequired ==$required
 $lasting
 \\* The goals that were active where a nominal run began.
-Met ==
-  /\\ $met
+Met ==$met
 
 \\* All nominal effects of some actions at once.
 AfterNominal(actions) == $nominal
@@ -111,8 +110,7 @@ ABOUT: Final = (
 LASTING = Template("""\
 
 \\* Preconditions of what has not taken effect yet.
-StillPossible ==
-  /\\ $possible
+StillPossible ==$possible
 """)
 
 
