@@ -4,7 +4,6 @@ import json
 import os
 import pty
 import re
-import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -115,37 +114,6 @@ def test_answers_come_at_once(folder: Path) -> None:
             assert process.stdout.readline() == '["move_to_charger"]\n'
         process.stdin.close()
         assert process.wait(timeout=10) == 0
-
-
-HEED_CTRL_C = """
-import os, signal, sys
-signal.signal(signal.SIGINT, signal.SIG_DFL)
-os.execv(sys.argv[1], sys.argv[1:])
-"""
-"""Shells start background jobs, such as a whole test run, with Ctrl-C ignored, and children inherit that."""
-
-
-def test_ctrl_c_is_130_and_leaves_nothing(folder: Path) -> None:
-    """Ctrl-C: exit 130, a word instead of a traceback, and no half-written file."""
-    before = set(folder.iterdir())
-    with subprocess.Popen(
-        [sys.executable, "-c", HEED_CTRL_C, TUMATO, "decide", "amr.json", "--stdin"],
-        cwd=folder,
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    ) as process:
-        assert process.stdin is not None
-        assert process.stdout is not None
-        assert process.stderr is not None
-        process.stdin.write(json.dumps(state("corridor", "low", "free", "off")) + "\n")
-        process.stdin.flush()
-        process.stdout.readline()  # the program is up and waits for more
-        process.send_signal(signal.SIGINT)
-        assert process.wait(timeout=10) == 130
-        assert process.stderr.read() == "tumato-sym: interrupted\n"
-    assert set(folder.iterdir()) == before
 
 
 @pytest.mark.parametrize("command", ["synth amr.tum -o -", "check amr.tum typo.tum", "--help"])

@@ -62,6 +62,11 @@ def test_check_loads_neither_solver_nor_lark() -> None:
     assert _loaded("check", str(ROOT / "examples" / "amr.tum")) == (0, set())
 
 
+def test_format_loads_neither_solver_nor_lark() -> None:
+    """`format` imports none of z3, dd and lark."""
+    assert _loaded("format", "--check", str(ROOT / "examples" / "amr.tum"))[1] == set()
+
+
 def test_synth_loads_solvers_only(tmp_path: Path) -> None:
     """`synth` imports dd and z3, no lark, and, where there is a policy, nothing that only unrealizability needs."""
     output = str(tmp_path / "policy.json")

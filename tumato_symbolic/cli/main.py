@@ -34,6 +34,8 @@ def entry() -> None:
     code = BUG
     try:
         code = main(may_fork=True)
+    except KeyboardInterrupt:  # a second one, while the first was reported
+        code = INTERRUPTED
     finally:
         os._exit(code)
 
@@ -41,7 +43,8 @@ def entry() -> None:
 def main(arguments: Sequence[str] | None = None, *, may_fork: bool = False) -> int:
     """Run one command and return its exit code; no exception leaves this function.
 
-    With `may_fork` a command that has limits is done by a child process, so that they hold whatever it is at.
+    With `may_fork` a command that has limits, or may take long, is done by a child process, so that its limits and
+    Ctrl-C end it whatever it is at.
     """
     prepare_streams()
     return _guarded(partial(_run, arguments, may_fork))
@@ -99,9 +102,8 @@ def _settled(line: CommandLine) -> CommandLine:
 
 
 def _is_watched(context: Context, options: CommandOptions) -> bool:
-    """Whether there is something to keep watch over: limits, or a terminal that shows how long work gets on."""
-    shown = options.shows_progress and sys.stderr is not None and sys.stderr.isatty()
-    return shown or context.limits != NO_LIMITS
+    """Whether there is something to keep watch over: limits, or work in which Ctrl-C may have to wait for a solver."""
+    return options.may_take_long or context.limits != NO_LIMITS
 
 
 def _supervised(work: Callable[[], int], line: CommandLine, context: Context) -> int:

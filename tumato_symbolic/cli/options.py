@@ -36,8 +36,8 @@ class CommandOptions:
     """Whether what is known is reported after Ctrl-C as well."""
 
     @property
-    def shows_progress(self) -> bool:
-        """Whether a terminal shows how long the work gets on."""
+    def may_take_long(self) -> bool:
+        """Whether there may be much to do: a child does it, which Ctrl-C ends, and a terminal shows the progress."""
         return True
 
     @property

@@ -41,7 +41,7 @@ class Options(CommandOptions):
     memory: int | None = arguments.memory()
     output_format: OutputFormat = arguments.output_format("json", "github", "sarif")
 
-    shows_progress: ClassVar[bool] = False
+    may_take_long: ClassVar[bool] = False
 
 
 def run(options: Options, context: Context) -> int:

@@ -47,7 +47,7 @@ class Options(CommandOptions):
         "--stdin", action="store_true", help="read states from the standard input, one JSON object a line"
     )
 
-    shows_progress: ClassVar[bool] = False
+    may_take_long: ClassVar[bool] = False
 
     def inputs(self) -> list[str]:
         """The policy, and the states where they are read as well."""

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from tumato_symbolic.cli import arguments
 from tumato_symbolic.cli.console import note, wants_colour, write
@@ -40,6 +40,8 @@ class Options(CommandOptions):
     specs: tuple[str, ...] = arguments.specs("+", "specifications, .tum files; - for the standard input")
     check: bool = arguments.check("write nothing; name the files whose layout is another, and exit with 1")
     diff: bool = argument("--diff", action="store_true", help="the same, and show what would change")
+
+    may_take_long: ClassVar[bool] = False
 
 
 def run(options: Options, context: Context) -> int:

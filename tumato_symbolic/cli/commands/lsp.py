@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, NoReturn
 
 from tumato_symbolic.cli.console import note
-from tumato_symbolic.cli.exits import UNDECIDED, YES
+from tumato_symbolic.cli.exits import INTERRUPTED, UNDECIDED, YES
 from tumato_symbolic.cli.numbers import seconds
 from tumato_symbolic.cli.options import CommandOptions, argument
 from tumato_symbolic.limits import Context
@@ -37,7 +38,7 @@ class Options(CommandOptions):
     )
     synthesize: bool = argument("--no-synthesis", action="store_false", help="do not synthesize what is saved")
 
-    shows_progress: ClassVar[bool] = False
+    may_take_long: ClassVar[bool] = False
 
 
 def run(options: Options, context: Context) -> int:
@@ -52,6 +53,14 @@ def run(options: Options, context: Context) -> int:
     from tumato_symbolic.lsp.server import make_server
 
     context.enter("serving an editor")
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, _leave)
     with os.fdopen(os.dup(sys.stdin.fileno()), "rb") as asked, os.fdopen(os.dup(sys.stdout.fileno()), "wb") as told:
         make_server(options.synthesis if options.synthesize else 0.0).start_io(asked, told)  # which closes them
     return YES
+
+
+def _leave(*_: object) -> NoReturn:
+    """Ctrl-C: a thread that waits for the editor cannot be woken, so that nothing but the end of all ends it."""
+    note("tumato-sym: interrupted")
+    os._exit(INTERRUPTED)

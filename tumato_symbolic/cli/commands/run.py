@@ -92,7 +92,7 @@ class Options(CommandOptions):
         return any(each is not None for each in (self.faults, self.disturb, self.steps, self.runs))
 
     @property
-    def shows_progress(self) -> bool:
+    def may_take_long(self) -> bool:
         """Not where every step is shown."""
         return self.by_itself
 
