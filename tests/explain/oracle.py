@@ -92,10 +92,10 @@ def _fails(spec: Spec, ordering: Ordering, reason: Reason, state: State, kept: f
     world = World(rest, ordering)
     if reason.kind == "no-plan":
         return not any(map(world.has_plan, world.options[state]))
-    return _TogetherWhereDefined(world).serve(reason.together) is None
+    return TogetherWhereDefined(world).serve(reason.together) is None
 
 
-class _TogetherWhereDefined(Together):
+class TogetherWhereDefined(Together):
     """Policies that need not be defined where no set is allowed: dropping assumptions makes such states."""
 
     def _choose_one(self, state: State) -> None:

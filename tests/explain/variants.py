@@ -9,10 +9,10 @@ from tests.repo.documents import ROOT
 _AMR = (ROOT / "examples" / "amr.tum").read_text()
 _CHARGE = """\
 action charge
-duration: 50
-controlled resources: MOTORS
-preconditions: S_Location is charger
-nominal effects: S_Battery is ok
+  duration: 50
+  controlled resources: MOTORS
+  preconditions: S_Location is charger
+  nominal effects: S_Battery is ok
 """
 
 
@@ -60,7 +60,7 @@ VARIANTS = (
     Variant(
         "alternative_too_many",
         "nominal effects: S_Location is charger\n",
-        "nominal effects: S_Location is charger\nalternative effects: S_Conveyor is on\n",
+        "nominal effects: S_Location is charger\n  alternative effects: S_Conveyor is on\n",
         "alternative effects: S_Conveyor is on",
     ),
     Variant(

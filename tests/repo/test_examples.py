@@ -17,6 +17,7 @@ from tests.repo.examples import (
 )
 from tumato_symbolic import Policy, Realizable, verify
 from tumato_symbolic.diagnostics import Source
+from tumato_symbolic.editor.format import format_text
 from tumato_symbolic.policy.unrealizability import load as load_certificate
 from tumato_symbolic.spec import load
 from tumato_symbolic.verify import verify_unrealizable
@@ -29,6 +30,13 @@ def test_an_example_has_no_findings(example: Path) -> None:
     """`check` finds nothing to complain about in an example; what is worth knowing is remarked."""
     found = load(Source(example.name, example.read_text())).diagnostics
     assert [each for each in found if each.severity != "remark"] == []
+
+
+@_names
+def test_an_example_is_laid_out_as_format_does_it(example: Path) -> None:
+    """`format --check` has nothing to change."""
+    source = Source(example.name, example.read_text())
+    assert format_text(source) == source.text
 
 
 @_names
