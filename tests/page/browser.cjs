@@ -21,8 +21,8 @@ async function used(browser, { page: path, other }) {
   seen.title = await page.textContent("h1");
   const text = (selector) => page.textContent(selector);
   if (!(await page.locator("#tab-table").count())) {
-    await page.locator("header [role=status] p:not(:has-text('is looking'))").waitFor({ timeout: 60000 });
-    seen.check = await text("header [role=status]");
+    await page.locator(".check p:not(:has-text('by now'))").first().waitFor({ timeout: 60000 });
+    seen.check = await text(".check");
     seen.reasons = await text("#panel-reasons");
     const link = page.locator("#panel-reasons a.line").first();
     if (await link.count()) {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -28,20 +29,33 @@ def test_pages_open_filter_step_and_compare(cli: Cli, tmp_path: Path) -> None:
         assert (each["errors"], each["requests"]) == ([], [])
     assert "Proved by Z3, for all 32 valid states" in right["title"]
     assert "checked 32 decisions and their runs itself, and found nothing wrong" in right["check"]
-    assert right["filtered"] == "8 of 32 decided states"
+    assert right["filtered"] == "8 of 32 states"
     assert (right["lit"], right["steps"]) == (1, 1)
     assert right["boxes"] == 8
     assert right["itf"]["vars"][:2] == ["S_Location", "S_Battery"]
     assert len(right["itf"]["states"]) == 2
-    assert "slower.json decides otherwise in 1 state:" in right["compared"]
+    for line in [line for line in cli("diff", "amr.json", "slower.json").out.splitlines() if line[:1].strip()]:
+        assert line in right["compared"]
     assert "Refuted" in wrong["title"]
     assert "1 are wrong" in wrong["check"]
     assert "would be restored better by stop_conveyor" in wrong["check"]
-    assert "slower.json decides the same everywhere" in wrong["compared"]
+    assert wrong["compared"] == cli("diff", "slower.json", "slower.json").out.strip()
     assert "There is no policy: proved by" in none["title"]
-    assert "tried all" in none["check"]
+    assert "all 112 states said to fail do fail, so there is no policy" in none["check"]
+    assert "they suffice for that, and none of them can be left out" in none["check"]
+    assert "Not checked by this page: whether more states fail; what would help" in none["check"]
     assert "These lines together suffice" in none["reasons"]
     assert none["line"]
+
+
+@needs_browser
+def test_a_page_contradicts_what_is_not_so(cli: Cli, tmp_path: Path) -> None:
+    """A page whose specification has no state rules says that no state fails for them."""
+    assert cli("synth", "two_robots.tum", "-o", "no.json", "--html", "no.html").code == 1
+    page = tmp_path / "no.html"
+    page.write_text(re.sub(r'"state_rules":\[.*?\],"assumptions"', '"state_rules":[],"assumptions"', page.read_text()))
+    (none,) = seen([(page, page)])
+    assert "This page finds that 112 states do not fail as is said" in none["check"]
 
 
 @needs_browser

@@ -37,6 +37,14 @@ export function start(app, { check, filter, parts, explain }) {
     app.selected = selected;
     app.change();
   };
+  // Where the state is not at the side, it is shown, and there is a way back.
+  app.visit = (selected) => {
+    const from = state.element.contains(document.activeElement) ? app.from : scrollY;
+    app.select(selected);
+    if (!matchMedia("(max-width: 900px)").matches) return;
+    app.from = from;
+    state.element.scrollIntoView();
+  };
   app.show = (name) => {
     app.tab = name;
     app.change();

@@ -3,6 +3,7 @@ import { dice } from "./chance.mjs";
 import { button, h, link, redraw } from "./dom.mjs";
 import { fault, Judge } from "./judge.mjs";
 import { decided } from "./policy.mjs";
+import { inSlices } from "./slices.mjs";
 import { everyState } from "./spec.mjs";
 import { faultText } from "./state.mjs";
 import { agree, successor } from "./steps.mjs";
@@ -12,8 +13,6 @@ const MOST_CHECKED = 400_000;
 const DRAWN = 2_000;
 const MOST_WRONG = 10;
 const MOST_LOOKED_AT = 20_000;
-const SLICE = 14;
-const BETWEEN = 250;
 
 export function checkView(app) {
   const element = h("div.check", { role: "status" });
@@ -22,36 +21,29 @@ export function checkView(app) {
   app.found = { checked: 0, wrong: [], faults: 0, done: false };
   app.decisions = new Decisions(app.model);
   const { found } = app;
-  let drawn = 0;
-  const look = (state) => {
-    const wrong = fault(app.model, state, app.judge);
+  const draw = () => redraw(element, told(app, whole),
+    !whole && found.done ? button(`check ${grouped(DRAWN)} more`, () => go(chosenByChance(app, found.checked)), { key: "more" }) : null,
+    found.wrong.length ? h("ul", found.wrong.map(([state, wrong]) => h("li", link(app, stateText(app.spec, state), state), " ", faultText(app, wrong)))) : null);
+  const go = (states) => inSlices(checkAll(app, states), draw, () => app.change());
+  go(whole ? everyState(app.spec) : chosenByChance(app, 1));
+  draw();
+  return element;
+}
+
+function* checkAll(app, states) {
+  const { found, model } = app;
+  found.done = false;
+  for (const state of states) {
+    const wrong = fault(model, state, app.judge);
     if (wrong) {
       found.faults += 1;
       if (found.wrong.length < MOST_WRONG) found.wrong.push([state, wrong]);
     }
-    if (wrong || app.model.decide(state) !== null) found.checked += 1;
+    if (wrong || model.decide(state) !== null) found.checked += 1;
     app.decisions.note(state);
-  };
-  const draw = () => redraw(element, told(app, whole),
-    !whole && found.done ? button(`check ${grouped(DRAWN)} more`, () => { found.done = false; go(chosenByChance(app, found.checked)); }, { key: "more" }) : null,
-    found.wrong.length ? h("ul", found.wrong.map(([state, wrong]) => h("li", link(app, stateText(app.spec, state), state), " ", faultText(app, wrong)))) : null);
-  const go = (left) => {
-    const until = performance.now() + SLICE;
-    while (!found.done && performance.now() < until) {
-      const { value, done } = left.next();
-      if (done) found.done = true;
-      else look(value);
-    }
-    if (found.done || until > drawn + BETWEEN) {
-      drawn = until;
-      draw();
-    }
-    if (found.done) app.change();
-    else setTimeout(() => go(left), 0);
-  };
-  setTimeout(() => go(whole ? everyState(app.spec) : chosenByChance(app, 1)), 50);
-  draw();
-  return element;
+    yield;
+  }
+  found.done = true;
 }
 
 function* chosenByChance(app, seed) {

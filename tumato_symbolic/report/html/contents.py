@@ -9,7 +9,8 @@ from tumato_symbolic.explain.explanation import Explanation
 from tumato_symbolic.policy import Policy, RuleList
 from tumato_symbolic.report.explained import Explained
 from tumato_symbolic.report.explained_data import as_json as explanation_json
-from tumato_symbolic.report.html.record import Json, policy_record, spec_record
+from tumato_symbolic.report.explained_data import largest_first
+from tumato_symbolic.report.html.record import Json, alternatives_record, elements_record, policy_record, spec_record
 from tumato_symbolic.report.objections import Place
 from tumato_symbolic.report.possible_changes import left_out_lines, repair_pieces
 from tumato_symbolic.report.proof import claim_of, prover_names, provers, refutation_text, states_covered
@@ -53,6 +54,7 @@ def contents(page: PolicyPage | NoPolicyPage) -> dict[str, Json]:
     """All that the page carries."""
     record = {"spec": spec_record(page.spec, page.source, page.ordering), "file": page.name}
     if isinstance(page, NoPolicyPage):
+        record |= {"alternatives": alternatives_record(page.spec)}
         return record | {"verdict": _no_verdict(page), "no": _explanation(page)}
     return record | {
         "verdict": _verdict(page),
@@ -123,10 +125,15 @@ def _explanation(page: NoPolicyPage) -> dict[str, Json]:
     done = page.explained
     record = explanation_json(done)
     wanted = ("verdict", "failing_states", "groups", "failures", "omitted", "realizable_part", "limit")
-    found = {name: record[name] for name in wanted}
+    found: dict[str, Json] = {name: record[name] for name in wanted}
     if not isinstance(done.found, Explanation):
         return found | {"repairs": [], "left_out": []}
+    reasons = [
+        failure | {"elements": elements_record(done.spec, reason.core), "later": reason.later}
+        for failure, reason in zip(found["failures"], largest_first(done.found.reasons), strict=True)
+    ]
     return found | {
+        "failures": reasons,
         "repairs": [piece.strip("\n") for piece in repair_pieces(done.place, done.found)],
         "left_out": [each.strip() for each in left_out_lines(done.found)] if done.found.left_out else [],
     }

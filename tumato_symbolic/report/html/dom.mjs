@@ -31,7 +31,7 @@ export function redraw(element, ...children) {
 export const button = (text, onclick, more) => h("button", { type: "button", onclick, ...more }, text);
 
 // A button that looks like a link, and has another state looked at.
-export const link = (app, text, state, key) => button(text, () => app.select(state), { class: "link", key: key });
+export const link = (app, text, state, key) => button(text, () => app.visit(state), { class: "link", key });
 
 // A toggle; `pressed` is what it is now.
 export const chip = (text, pressed, onclick, more) => button(text, onclick, { class: "chip", "aria-pressed": String(pressed), ...more });

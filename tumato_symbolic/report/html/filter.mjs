@@ -19,7 +19,7 @@ export function filterView(app) {
     app.executed = executed.value === "" ? null : Number(executed.value);
     looked(app);
   } }, h("option", { value: "" }, "whatever is done"), spec.actions.map((action, number) => h("option", { value: number }, `where ${action.name} is done`)));
-  const clear = button("all states", () => {
+  const clear = button("clear", () => {
     app.filter = spec.names.map(() => null);
     app.executed = null;
     executed.value = "";
@@ -31,10 +31,14 @@ export function filterView(app) {
     clear.disabled = !some && app.executed === null;
     if (!app.data.policy) return;
     const found = decided(spec, app.data.policy, app.filter).count;
-    count.textContent = some ? `${grouped(found)} of ${app.data.policy.decided} decided states` : `all ${app.data.policy.decided} decided states`;
+    const part = some ? `${grouped(found)} of` : "all";
+    count.textContent = `${part} ${app.data.policy.decided}${spec.starts.length ? " decided" : ""} states`;
   };
+  const example = spec.environment[0] ?? 0;
+  const hint = h("p.quiet", "Press values to ask what is done where they hold, for instance ",
+    button(`${spec.names[example]} is ${spec.values[example].at(-1)}`, () => toggle(app, example, spec.sizes[example] - 1), { class: "link" }), ".");
   const element = h("section.filter", { "aria-label": "which states" },
-    h("div", { class: "line-of" }, h("h2", "In which states?"), count, executed, clear, spec.names.length > 12 ? search : null),
+    h("div", { class: "line-of" }, h("h2", "In which states?"), count, executed, clear, spec.names.length > 12 ? search : null), hint,
     h("div.variables", rows));
   return { element, update };
 }

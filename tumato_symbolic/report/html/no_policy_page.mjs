@@ -1,10 +1,13 @@
 // The page of a specification without a policy.
 import { readApp, start } from "./app.mjs";
 import { listingView } from "./listing.mjs";
-import { exampleOf, possibleIn, reasonsView, triedView } from "./reasons.mjs";
+import { h } from "./dom.mjs";
+import { exampleOf, possibleIn, reasonsView } from "./reasons.mjs";
+import { triedView } from "./tried.mjs";
 
 const app = readApp();
 app.selected = exampleOf(app) ?? app.selected;
+app.marks = app.data.no.failures.map(() => h("small.good"));
 start(app, {
   check: triedView(app),
   explain: (state) => possibleIn(app, state),

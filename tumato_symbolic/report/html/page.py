@@ -26,6 +26,7 @@ _SHARED: Final = (
     "dom",
     "state",
     "verdict",
+    "slices",
     "listing",
     "app",
 )
@@ -35,7 +36,10 @@ _OF_A_POLICY: Final = (
     *("decision", "execution", "compare", "policy_page"),
 )
 
-MODULES: Final = {PolicyPage: (*_SHARED, *_OF_A_POLICY), NoPolicyPage: (*_SHARED, "reasons", "no_policy_page")}
+MODULES: Final = {
+    PolicyPage: (*_SHARED, *_OF_A_POLICY),
+    NoPolicyPage: (*_SHARED, "failing", "tried", "reasons", "no_policy_page"),
+}
 """The program of each kind of page: a module stands behind what it imports. The names of all share one scope."""
 
 
@@ -62,7 +66,7 @@ def sources(kind: type[PolicyPage | NoPolicyPage]) -> dict[str, str]:
 def bundle(kind: type[PolicyPage | NoPolicyPage]) -> str:
     """The program of a kind of page as one module."""
     texts = ((_FOLDER / f"{name}.mjs").read_text(encoding="utf-8") for name in MODULES[kind])
-    return "".join(_tight(_plain(_alone(text))) for text in texts)
+    return "".join(_tight(_plain(_joined(_alone(text)))) for text in texts)
 
 
 def data_text(record: Mapping[str, object]) -> str:
@@ -76,6 +80,14 @@ def data_text(record: Mapping[str, object]) -> str:
 def _alone(text: str) -> str:
     """A module without what ties it to others."""
     return re.sub(r"^export ", "", re.sub(r"^import [^;]*;\n", "", text, flags=re.MULTILINE), flags=re.MULTILINE)
+
+
+_DECLARATIONS: Final = re.compile(r"^( *)(const|let) ([^\n]*);\n(\1\2 [^\n]*;\n)+", re.MULTILINE)
+
+
+def _joined(text: str) -> str:
+    """Declarations that follow each other, each on a line of its own, as one."""
+    return _DECLARATIONS.sub(lambda found: re.sub(rf";\n *{found[2]} ", ",\n", found[0]), text)
 
 
 def _plain(text: str) -> str:
@@ -92,7 +104,7 @@ def _tight(program: str) -> str:
     """Without the spaces and ends of lines that nobody but people needs: every statement ends with `;` or `}`."""
     parts = _PIECES.split(program)
     parts[::2] = [re.sub(r"\n(?!\w)|(?<!\w)\n| *([-{}()\[\],;:?<>=|&!+*/]) *", r"\1", part) for part in parts[::2]]
-    return "".join(parts) + "\n"
+    return "".join(parts).replace(";}", "}") + "\n"
 
 
 def _style() -> str:

@@ -42,27 +42,66 @@ export function decisionsFrom(spec, diagram) {
 const free = (spec, filter, n) => (filter[n] ? [...filter[n]].sort((a, b) => a - b) : upTo(spec.sizes[n]));
 
 // Disjoint cubes of the decided states that a filter leaves, each with its decision and its number of states; those where
-// an action is executed, if one is named. Large ones tend to come first: what may hold many states is looked at first.
+// an action is executed, if one is named.
 export function* cubes(spec, diagram, filter, executed = null) {
+  const roots = [diagram.defined, ...diagram.roots];
+  const nothing = (here) => here[0] === 0 || (executed !== null && here[executed + 1] === 0);
+  for (const { values, count, leaves } of cubesOf(spec, diagram, roots, filter, nothing)) {
+    yield { values, count, chosen: decisionOf(leaves) };
+  }
+}
+
+const decisionOf = ([defined, ...roots]) => (defined ? roots.flatMap((root, number) => (root ? [number] : [])) : null);
+
+// Disjoint cubes in which two diagrams of one order decide otherwise, with the decisions of both.
+export function* differing(spec, ours, theirs) {
+  const { at, order, nodes } = together(ours, theirs);
+  const [here, there] = [ours, theirs].map((each, n) => [each.defined, ...each.roots].map((root) => at[n][root]));
+  const half = here.length;
+  const same = (roots) => (roots[0] === 0 && roots[half] === 0) || roots.slice(0, half).join() === roots.slice(half).join();
+  for (const { values, count, leaves } of cubesOf(spec, { order, nodes }, [...here, ...there], spec.names.map(() => null), same)) {
+    yield { values, count, chosen: decisionOf(leaves.slice(0, half)), theirs: decisionOf(leaves.slice(half)) };
+  }
+}
+
+// The nodes of two diagrams of one order, each once, and where the references of each are among them.
+function together(...diagrams) {
+  const nodes = [];
+  const known = new Map();
+  const at = diagrams.map((diagram) => {
+    const found = [0, 1];
+    for (const [level, below] of diagram.nodes) {
+      const moved = below.map((root) => found[root]);
+      const name = `${level};${moved}`;
+      if (!known.has(name)) known.set(name, moved.every((root) => root === moved[0]) ? moved[0] : nodes.push([level, moved]) + 1);
+      found.push(known.get(name));
+    }
+    return found;
+  });
+  return { at, order: diagrams[0].order, nodes };
+}
+
+// Disjoint cubes of the states that a filter leaves, each with where it leads from some roots, but for what is passed over.
+// Large ones tend to come first: what may hold many states is looked at first.
+function* cubesOf(spec, diagram, start, filter, passed) {
   const levels = diagram.order.length;
   const level = (root) => (root > 1 ? diagram.nodes[root - 2][0] : levels);
   const sizes = spec.sizes.map((_, n) => free(spec, filter, n));
   const pending = [];
   const add = (roots, fixed, count) => (pending[Math.floor(Math.log2(count))] ??= []).push([roots, fixed, count]);
-  add([diagram.defined, ...diagram.roots], [], sizes.reduce((all, some) => all * some.length, 1));
+  add(start, [], sizes.reduce((all, some) => all * some.length, 1));
   while (pending.length) {
     if (!pending.at(-1)?.length) {
       pending.pop();
       continue;
     }
     const [roots, fixed, count] = pending.at(-1).pop();
-    if (roots[0] === 0 || (executed !== null && roots[executed + 1] === 0)) continue;
+    if (passed(roots)) continue;
     const first = Math.min(...roots.map(level));
     if (first === levels) {
-      const chosen = roots.slice(1).flatMap((root, number) => (root ? [number] : []));
       const values = sizes.slice();
       for (const [n, some] of fixed) values[n] = some;
-      yield { values, chosen, count };
+      yield { values, count, leaves: roots };
       continue;
     }
     const variable = diagram.order[first];

@@ -1,8 +1,8 @@
 // Why there is no policy: failing states, the lines to blame, and what could be changed.
-import { button, conditions, h, lineLink, link, redraw } from "./dom.mjs";
-import { reached, residual } from "./runs.mjs";
+import { button, conditions, h, lineLink, link } from "./dom.mjs";
 import { goalsIn, others, section } from "./state.mjs";
 import { allowedSets, isValid, successor } from "./steps.mjs";
+import { stateOf } from "./tried.mjs";
 import { actionsText, changeText, counted, grouped } from "./words.mjs";
 
 const KINDS = {
@@ -14,9 +14,6 @@ const KINDS = {
 
 const MOST_SHOWN = 12;
 const MOST_SETS = 2_000;
-const MOST_VISITED = 2_000;
-
-const stateOf = (app, named) => app.spec.names.map((name, n) => app.spec.values[n].indexOf(String(named[name])));
 
 const firstFailure = ({ no }) => no.failures[0] ?? no.groups[0];
 
@@ -25,67 +22,13 @@ export function exampleOf(app) {
   return failure && stateOf(app, failure.example);
 }
 
-// What the page finds itself in a state that fails; it is found once the page is shown.
-export function triedView(app) {
-  const element = h("div", { role: "status" }, h("p", "This page is looking at a state that fails …"));
-  setTimeout(() => redraw(element, foundIn(app)), 50);
-  return element;
-}
-
-function foundIn(app) {
-  const failure = firstFailure(app.data);
-  const state = exampleOf(app);
-  if (failure?.kind === "no-allowed-set") {
-    const { found, tried, whole } = tryAll(app, state);
-    if (found.length) return h("p.bad", "✘ This page finds a set of actions that is allowed in a state said to have none.");
-    return h("p", { class: whole ? "good" : "doubt" }, whole ? `✔ This page tried all ${counted(tried, "set")} of actions that may run together in one of these states: none is allowed.`
-      : `This page tried ${counted(tried, "set")} of actions in one of these states, and none is allowed; there are more.`);
-  }
-  if (failure?.kind === "no-plan") {
-    const found = planFrom(app, state);
-    if (found === null) return h("p.doubt", "This page looked for a run from one of these states and found none; it did not look at all.");
-    return found ? h("p.bad", "✘ This page finds a run that reaches the goal from a state said to have none.") : h("p.good", "✔ This page followed every run of allowed steps from one of these states: none reaches the goal.");
-  }
-  return h("p.quiet", "This page does not check itself that there is no policy for such a reason.");
-}
-
-// The allowed sets in a state, how many were tried, and whether these are all.
-function tryAll(app, state) {
-  const budget = { left: MOST_SETS };
-  const found = [...allowedSets(app.model, state, Infinity, budget)];
-  return { found, tried: MOST_SETS - Math.max(0, budget.left), whole: budget.left >= 0 };
-}
-
-// Whether a run of allowed steps from a state reaches its goal; null where that is too much to look at.
-function planFrom(app, state) {
-  const { model, spec } = app;
-  let left = MOST_VISITED;
-  for (const first of tryAll(app, state).found) {
-    const goal = residual(spec, state, first);
-    const seen = new Set();
-    let here = [successor(spec, state, first)];
-    for (let steps = 1; here.length && steps <= (spec.bound ?? Infinity); steps++) {
-      const next = [];
-      for (const each of here) {
-        if (reached(model, goal, each)) return true;
-        if (seen.has(spec.key(each))) continue;
-        seen.add(spec.key(each));
-        if (left-- <= 0) return null;
-        const { found, whole } = tryAll(app, each);
-        if (!whole) return null;
-        next.push(...found.map((chosen) => successor(spec, each, chosen)));
-      }
-      here = next;
-    }
-  }
-  return false;
-}
-
 // What could be done in a state, without a policy.
 export function possibleIn(app, state) {
   if (!isValid(app.model, state)) return null;
-  const { found, tried, whole } = tryAll(app, state);
-  const head = `${whole ? "All" : "The first"} ${counted(tried, "set")} of actions that may run together here were tried: ${found.length ? grouped(found.length) : "none"} ${found.length > 1 ? "are" : "is"} allowed.`;
+  const budget = { left: MOST_SETS };
+  const found = [...allowedSets(app.model, state, Infinity, budget)];
+  const all = budget.left < 0 ? grouped(MOST_SETS) : "all";
+  const head = `Of ${all} sets of actions that may run together here ${found.length ? grouped(found.length) : "none"} ${found.length > 1 ? "are" : "is"} allowed.`;
   return [goalsIn(app, state), section("What could be done", [h("p", { class: found.length ? "quiet" : "bad" }, head),
     h("ul", found.slice(0, MOST_SHOWN).map((chosen) => {
       const after = successor(app.spec, state, chosen);
@@ -98,7 +41,7 @@ export function reasonsView(app) {
   const unknown = no.verdict === "realizable" ? "There is a policy after all: this certificate proves nothing." : `Why there is none was not found out: ${no.limit}.`;
   const element = h("div", no.verdict !== "unrealizable" ? h("p.doubt", unknown) : [
     no.failing_states ? h("p", `${counted(no.failing_states, "state")} ${no.failing_states === 1 ? "fails" : "fail"}.`) : null,
-    no.failures.length ? no.failures.map((each) => reason(app, each)) : no.groups.map((each) => failing(app, each)),
+    no.failures.length ? no.failures.map((each, n) => reason(app, each, app.marks[n])) : no.groups.map((each) => failing(app, each)),
     no.repairs.length ? [h("h3", "What would help"), no.repairs.map(repair)] : null,
     part(no.realizable_part), no.left_out.map((each) => h("p.doubt", each))]);
   return { element };
@@ -114,14 +57,14 @@ function failing(app, { count, kind, cubes, omitted, example }) {
     h("p", look(app, example, "look at one of them")));
 }
 
-const look = (app, named, words) => button(words, () => app.select(stateOf(app, named)));
+const look = (app, named, words) => button(words, () => app.visit(stateOf(app, named)));
 
-function reason(app, each) {
+function reason(app, each, mark) {
   const element = failing(app, each);
   const parts = [
     each.states.length ? h("p", each.states.map((named, n) => [look(app, named, `state ${n + 1} of the conflict`), " "])) : null,
     each.summary ? h("p", each.summary) : null,
-    each.core.length ? [h("p", "These lines together suffice for that; without any one of them they do not:"), h("ol", each.core.map((line) =>
+    each.core.length ? [h("p", "These lines together suffice for that; without any one of them they do not:", mark), h("ol", each.core.map((line) =>
       h("li", h("code", line.action ? `${line.action}: ${line.text}` : line.text), " ", line.line ? lineLink(app, line) : null, h("br"), h("small", line.role))))] : null,
     each.goals.length ? [h("p", "Its goals:"), h("ul", each.goals.map((goal) =>
       h("li", h("code", goal.text), " ", lineLink(app, goal), goal.never_true.length ? ` no effect ever makes this true: ${goal.never_true.join(", ")}` : "")))] : null,

@@ -7,6 +7,7 @@ from typing import Any, TypeAlias
 
 from tumato_symbolic.diagnostics import CopySpan, Source, Span
 from tumato_symbolic.diagrams import rebuild
+from tumato_symbolic.explain.elements import Element
 from tumato_symbolic.policy import Policy, as_diagram, count_defined
 from tumato_symbolic.semantics import count_states
 from tumato_symbolic.spec import (
@@ -75,6 +76,26 @@ def policy_record(policy: Policy, name: str) -> dict[str, Json]:
         "roots": roots,
         "defined": defined,
     }
+
+
+def alternatives_record(spec: Spec) -> Json:
+    """For each case of each action, and each alternative, the numbers of the effects that it may have."""
+    return [
+        [
+            [[case.effects.index(outcome) for outcome in entry.outcomes if case.effects] for entry in case.alternatives]
+            for case in (spec.actions[number] for number in cases)
+        ]
+        for cases in spec.cases
+    ]
+
+
+def elements_record(spec: Spec, elements: Iterable[Element]) -> list[Json]:
+    """Elements in the numbers of the page: kind, number of the rule or the action, part."""
+    of_actions = ("precondition", "alternative", "resource")
+    return [
+        [each.kind, spec.action_of(each.number) if each.kind in of_actions else each.number, each.part]
+        for each in elements
+    ]
 
 
 class _Predicates:

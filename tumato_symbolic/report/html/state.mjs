@@ -1,5 +1,5 @@
 // One state: what holds in it, and why things are not done in it.
-import { h, lineLink, redraw, ruleText } from "./dom.mjs";
+import { button, h, lineLink, redraw, ruleText } from "./dom.mjs";
 import { smaller } from "./restoring.mjs";
 import { activeGoals, run } from "./runs.mjs";
 import { duration, isSafe, objection } from "./steps.mjs";
@@ -12,7 +12,8 @@ export function stateView(app, explain) {
     app.select(app.selected.map((value, at) => (at === n ? Number(event.target.value) : value)));
   } }, spec.values[n].map((value, number) => h("option", { value: number }, value))));
   const body = h("div");
-  const element = h("section.state", { "aria-label": "one state" }, h("h2", "One state"),
+  const element = h("section.state", { "aria-label": "one state" },
+    button("↑ back", () => scrollTo(0, app.from ?? 0), { class: "back" }), h("h2", "One state"),
     h("div.selects", spec.names.map((name, n) => h("label", h("span", name), selects[n]))), body);
   const update = () => {
     selects.forEach((each, n) => {

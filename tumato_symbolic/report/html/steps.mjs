@@ -163,7 +163,8 @@ export function objection(model, state, chosen) {
   return fault ? { kind: "nominal-unsafe", actions: chosen, rule: fault, way: [], state: end } : null;
 }
 
-// Every allowed set of at most `most` duration, smaller sets first; `budget.left` is how many sets may be looked at.
+// Every allowed set of at most `most` duration, smaller sets first; `budget.left` is how many sets may be looked at. What
+// effects of some actions break is broken whatever is executed beside them.
 export function* allowedSets(model, state, most = Infinity, budget = { left: Infinity }) {
   const { spec } = model;
   const lasts = (number) => spec.actions[number].duration;
@@ -173,7 +174,9 @@ export function* allowedSets(model, state, most = Infinity, budget = { left: Inf
     const larger = [];
     for (const { chosen, lasting, next } of sets) {
       if (budget.left-- <= 0) return;
-      if (!objection(model, state, chosen)) yield chosen;
+      const found = objection(model, state, chosen);
+      if (!found) yield chosen;
+      if (found?.way?.length) continue;
       for (let n = next; n < able.length; n++) {
         const more = { chosen: [...chosen, able[n]], lasting: lasting + lasts(able[n]), next: n + 1 };
         if (more.lasting <= most && !clash(spec, state, more.chosen)) larger.push(more);

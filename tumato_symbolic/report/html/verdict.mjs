@@ -35,7 +35,7 @@ export function headView(app, check) {
 
 function property(app, { name, verdict, by, claim, reason, refutation, state }) {
   return h("li", h("b", { class: verdict === "proved" ? "good" : "bad" }, `${MARKS[verdict]} ${name}`), ` ${verdict}${by ? " by " : ""}${by ?? ""}: ${claim}`, reason ? ` (${reason})` : "",
-    refutation ? h("pre", refutation) : null, state ? button("look at that state", () => app.select(state)) : null);
+    refutation ? h("pre", refutation) : null, state ? button("look at that state", () => app.visit(state)) : null);
 }
 
 function meaning(spec) {
