@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
+from itertools import product
 from typing import Any
 from xml.etree import ElementTree
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from tests.repo.documents import ROOT
 from tumato_symbolic import Policy, Realizable, Undecided, Unrealizable, Verification, parse, synthesize, verify
 from tumato_symbolic.limits import Context, Limits
+from tumato_symbolic.notebook.failing import failing_html, merged
 from tumato_symbolic.policy import Table, Vocabulary, as_diagram, minimal_rules
 
 ODD = Policy(
@@ -74,7 +79,37 @@ def test_a_refutation() -> None:
     assert repr(found) == "<Verification: refuted (goals), proved (total, safe, minimal), 32 valid states>"
     texts = text_of(found._repr_html_())
     assert texts[0] == "Refuted"
-    assert texts[texts.index("goals") :][:3] == ["goals", "refuted", "goal-missed"]
+    name, verdict, how = texts[texts.index("goals") :][:3]
+    assert (name, verdict) == ("goals", "refuted")
+    state = r"S_Location=\w+ S_Battery=low S_Load=\w+ S_Conveyor=\w+"
+    assert re.fullmatch(rf"goal-missed in {state}, where it executes stop_conveyor", how)
+
+
+def test_which_states_fail() -> None:
+    """In groups by names, with their numbers, and one state."""
+    texts = text_of(example("two_robots.tum")._repr_html_())
+    assert "No set of actions is allowed in 112 states." in texts
+    at = texts.index(
+        "S_Loc0 in {corridor, charger} AND S_Conv0 is on AND S_Loc1 in {corridor, charger} AND S_Conv1 is on"
+    )
+    assert texts[at - 1] == "64"
+    assert any(text.startswith("for example S_Loc0=corridor S_Bat0=low") for text in texts)
+    assert "others" not in texts
+
+
+def test_of_many_groups_the_largest_are_shown() -> None:
+    """What is not shown is counted."""
+    spec = parse("BEGIN STATE VECTOR " + " ".join(f"state v{n} can be a, b" for n in range(6)) + " END STATE VECTOR")
+    odd = [state for state in product((0, 1), repeat=6) if sum(state) % 2]
+    texts = text_of(failing_html(spec, [("It fails.", 40, odd)]))
+    assert texts.count("1") == 8
+    assert texts[texts.index("others") - 1] == "32"
+
+
+@given(st.lists(st.tuples(*3 * [st.integers(0, 2)]), unique=True))
+def test_groups_hold_the_states_each_once(states: list[tuple[int, ...]]) -> None:
+    """And nothing else."""
+    assert sorted(state for cube in merged(states) for state in product(*cube)) == sorted(states)
 
 
 def test_the_rules_of_a_policy() -> None:

@@ -17,7 +17,7 @@ from tumato_symbolic.semantics import (
     holds,
     in_json,
     is_safe,
-    named,
+    state_text,
 )
 from tumato_symbolic.spec import Assignment, Ordering, Rule, Spec
 
@@ -38,7 +38,7 @@ class Place:
 
     def state(self, state: State) -> str:
         """A state as `decide` reads it."""
-        return " ".join(f"{name}={value}" for name, value in named(self.spec, state).items())
+        return state_text(self.spec, state)
 
     def actions(self, chosen: ActionSet) -> str:
         """A set of actions; the empty one is `nothing`."""

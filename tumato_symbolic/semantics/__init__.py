@@ -33,6 +33,7 @@ from tumato_symbolic.semantics.states import (
     level,
     named,
     required_rules,
+    state_text,
 )
 from tumato_symbolic.semantics.step import (
     EffectSequence,
@@ -125,6 +126,7 @@ __all__ = [
     "restored",
     "settled_truth",
     "shows",
+    "state_text",
     "steps_from",
     "successor",
     "takes_effect",

@@ -108,6 +108,11 @@ def named(spec: Spec, state: State) -> dict[str, str]:
     return {variable.name: variable.values[value] for variable, value in zip(spec.variables, state, strict=True)}
 
 
+def state_text(spec: Spec, state: State) -> str:
+    """A state as `decide` reads it."""
+    return " ".join(f"{name}={value}" for name, value in named(spec, state).items())
+
+
 def action_names(spec: Spec, chosen: ActionSet) -> tuple[str, ...]:
     """The names of a set of actions, in the order of declaration."""
     return tuple(spec.actions[number].name for number in sorted(chosen))

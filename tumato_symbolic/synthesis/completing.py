@@ -31,7 +31,7 @@ def unrealizable(
     problem: Problem, failures: tuple[Failure, ...], statistics: Statistics, warnings: tuple[Diagnostic, ...]
 ) -> Unrealizable:
     """*Unrealizable*, before there is a certificate for it."""
-    answer = Unrealizable(failures, statistics, None, warnings)
+    answer = Unrealizable(failures, statistics, None, warnings, spec=problem.spec)
     if problem.spec.starts:  # a smaller part may do
         return answer
     problem.context.learn(answer)

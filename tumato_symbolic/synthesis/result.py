@@ -9,7 +9,7 @@ from tumato_symbolic.diagnostics import Diagnostic
 from tumato_symbolic.diagnostics.wording import count
 from tumato_symbolic.policy import Policy
 from tumato_symbolic.semantics import State
-from tumato_symbolic.spec import Formula, Ordering
+from tumato_symbolic.spec import Formula, Ordering, Spec
 
 if TYPE_CHECKING:
     from tumato_symbolic.policy.unrealizability import Unrealizability
@@ -124,7 +124,7 @@ class Unrealizable:
     """There is no policy: these states fail, or these goals conflict; `certificate` proves it.
 
     It is None where `limit` was met before it was made. `restorability` tells what would restore the states that
-    cannot be restored as the specification asks, where there are any and that was asked for.
+    cannot be restored as the specification asks, where there are any and that was asked for. `spec` names the states.
     """
 
     failures: tuple[Failure, ...]
@@ -133,18 +133,22 @@ class Unrealizable:
     warnings: tuple[Diagnostic, ...] = ()
     limit: str | None = None
     restorability: Restorability | None = None
+    spec: Spec | None = field(default=None, repr=False, compare=False)
 
     def __repr__(self) -> str:
         proof = "with a certificate" if self.certificate is not None else "without a certificate"
         return f"<Unrealizable: {'; '.join(map(_failure_text, self.failures))}; {proof}>"
 
     def _repr_html_(self) -> str:
-        from tumato_symbolic.notebook import panel
+        from tumato_symbolic.notebook import failing_html, panel
 
         proof = "`tumato-sym verify` proves it by the certificate." if self.certificate is not None else ""
-        failures = (f"{text[0].upper()}{text[1:]}." for text in map(_failure_text, self.failures))
-        lines = (*failures, *([proof] if proof else []), *_remarks(self.warnings))
-        return panel("bad", "Unrealizable", lines)
+        texts = [f"{text[0].upper()}{text[1:]}." for text in map(_failure_text, self.failures)]
+        lines = (*([proof] if proof else []), *_remarks(self.warnings))
+        if self.spec is None:
+            return panel("bad", "Unrealizable", (*texts, *lines))
+        failures = ((text, each.count, each.states) for text, each in zip(texts, self.failures, strict=True))
+        return panel("bad", "Unrealizable", lines, failing_html(self.spec, failures))
 
 
 @dataclass(frozen=True, slots=True, repr=False)

@@ -16,6 +16,7 @@ from tumato_symbolic.game import Problem
 from tumato_symbolic.policy.unrealizability import Reason
 from tumato_symbolic.semantics import named
 from tumato_symbolic.semantics.lint_findings import no_start
+from tumato_symbolic.spec import Spec
 from tumato_symbolic.symbolic import Bdd
 from tumato_symbolic.synthesis.failing import reason_of
 from tumato_symbolic.synthesis.parts import Part, Search, Solve, greatest
@@ -42,12 +43,12 @@ def solve_from_starts(problem: Problem, so_far: Undecided, solve: Solve, *, cert
     so_far = replace(so_far, statistics=replace(so_far.statistics, part=_counted(whole, starts)))
     search = Search(problem, so_far, solve)
     if failures := whole.left_out(starts):
-        return _certified(search, whole, _unrealizable(so_far, failures), starts, certify=certify)
+        return _certified(search, whole, _unrealizable(so_far, failures, problem.spec), starts, certify=certify)
     problem.context.learn(so_far)
     found = search.first(whole, starts)
     if found is None:
         states = search.minimal(whole, [*search.blamed])
-        answer = _unrealizable(so_far, (Failure("conflict", len(states), states[0], states),))
+        answer = _unrealizable(so_far, (Failure("conflict", len(states), states[0], states),), problem.spec)
         return _certified(search, whole, answer, starts, certify=certify)
     if isinstance(found, Undecided):
         return found
@@ -96,9 +97,9 @@ def _certified(search: Search, whole: Part, answer: Unrealizable, starts: Bdd, *
     return answer if reason is None else replace(answer, certificate=certified(problem, reason))
 
 
-def _unrealizable(so_far: Undecided, failures: tuple[Failure, ...]) -> Unrealizable:
+def _unrealizable(so_far: Undecided, failures: tuple[Failure, ...], spec: Spec) -> Unrealizable:
     assert so_far.statistics is not None, "states are counted first"
-    return Unrealizable(failures, so_far.statistics, None, so_far.warnings)
+    return Unrealizable(failures, so_far.statistics, None, so_far.warnings, spec=spec)
 
 
 def _counted(part: Part, starts: Bdd) -> DecidedPart:

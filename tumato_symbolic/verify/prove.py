@@ -89,7 +89,7 @@ def verify(
 def _nothing_known(spec: Spec, ordering: Ordering | None) -> Verification:
     """The answer before anything is asked."""
     used, source = _ordering(spec, ordering)
-    answer = Verification("undecided", (), used, source, CertificateUse("unneeded"), None)
+    answer = Verification("undecided", (), used, source, CertificateUse("unneeded"), None, spec=spec)
     if spec.starts:
         answer = replace(answer, from_starts=True)
     return replace(answer, restoration=spec.restoration) if spec.restores_stepwise else answer

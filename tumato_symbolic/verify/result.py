@@ -2,11 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
+from tumato_symbolic.diagnostics.cubes import actions_text
 from tumato_symbolic.diagnostics.wording import count
-from tumato_symbolic.semantics import ActionSet, EffectSequence, Objection, Quality, Run, State
+from tumato_symbolic.semantics import (
+    ActionSet,
+    EffectSequence,
+    Objection,
+    Quality,
+    Run,
+    State,
+    action_names,
+    state_text,
+)
 from tumato_symbolic.spec import Ordering, Restoration, Spec
 
 if TYPE_CHECKING:
@@ -115,7 +125,7 @@ class Verification:
     It is about the valid states that the policy decides, and of how many is `decided_states`, out of `valid_states`;
     each is None where it could not be counted cheaply. `from_starts`: it has to decide the starts, and all that follows
     from them. `restoration` is how safety is to be restored, where that may
-    take several steps.
+    take several steps. `spec` names the states of refutations.
     """
 
     verdict: Verdict
@@ -127,6 +137,7 @@ class Verification:
     decided_states: int | None = None
     restoration: Restoration | None = None
     from_starts: bool = False
+    spec: Spec | None = field(default=None, repr=False, compare=False)
 
     @property
     def decides_all(self) -> bool:
@@ -146,7 +157,7 @@ class Verification:
     def _repr_html_(self) -> str:
         from tumato_symbolic.notebook import panel, table
 
-        rows = ((each.name, each.verdict, _why(each)) for each in self.properties)
+        rows = ((each.name, each.verdict, _why(each, self.spec)) for each in self.properties)
         tone = _TONES[self.verdict]
         return panel(tone, self.verdict.capitalize(), self._states, table(("property", "verdict", ""), rows))
 
@@ -159,10 +170,17 @@ class Verification:
 _TONES: Final[dict[Verdict, Tone]] = {"proved": "good", "refuted": "bad", "undecided": "doubt"}
 
 
-def _why(result: PropertyResult) -> str:
-    """By whom it is proved, how it fails, or why it is undecided."""
-    if result.refutation is not None:
-        return result.refutation.kind
+def _why(result: PropertyResult, spec: Spec | None) -> str:
+    """By whom it is proved, how and where it fails, or why it is undecided."""
+    if (refuted := result.refutation) is not None:
+        if spec is None or refuted.state is None:
+            return refuted.kind
+        decision = (
+            ""
+            if refuted.decision is None
+            else f", where it executes {actions_text(action_names(spec, refuted.decision))}"
+        )
+        return f"{refuted.kind} in {state_text(spec, refuted.state)}{decision}"
     if result.proved_by:
         return f"by {' and '.join(PROVERS.get(name, name) for name in result.proved_by.split('+'))}"
     return result.reason or ""

@@ -11,7 +11,7 @@ from typing import TypeAlias
 import z3
 
 from tumato_symbolic.policy.unrealizability import Conflict, Cut
-from tumato_symbolic.semantics import Residual, is_valid, reached, residual_goal
+from tumato_symbolic.semantics import Residual, is_valid, reached, residual_goal, state_text
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.verify.by_z3.goal_terms import reached_term
 from tumato_symbolic.verify.by_z3.solver import Solver, UndecidedError
@@ -19,7 +19,7 @@ from tumato_symbolic.verify.by_z3.terms import Context, Term, at_most_one, conju
 from tumato_symbolic.verify.unrealizability.allowed_step import AllowedStep, is_state
 from tumato_symbolic.verify.unrealizability.distances import Distances
 from tumato_symbolic.verify.unrealizability.false_claim import FalseClaimError
-from tumato_symbolic.verify.unrealizability.named_goals import goal_text, named_goal, set_text, state_text
+from tumato_symbolic.verify.unrealizability.named_goals import goal_text, named_goal, set_text
 
 Pick: TypeAlias = tuple[int, int]
 """An option (by number) of a choice (by number)."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from tumato_symbolic.semantics import ActionSet, Residual, State, action_names, named
+from tumato_symbolic.semantics import ActionSet, Residual, action_names
 from tumato_symbolic.spec import Spec, canonical_text
 from tumato_symbolic.verify.unrealizability.false_claim import FalseClaimError
 
@@ -24,11 +24,6 @@ def goal_text(spec: Spec, goal: Residual) -> str:
     bodies = " AND ".join(f"({' '.join(spec.bodies[body].text.split())})" for body in sorted(goal.bodies))
     executed = ", ".join(action_names(spec, goal.executed))
     return (bodies or "no goal") + (f" while executing {executed}" if executed else "")
-
-
-def state_text(spec: Spec, state: State) -> str:
-    """A state as `decide` reads it."""
-    return " ".join(f"{name}={value}" for name, value in named(spec, state).items())
 
 
 def set_text(spec: Spec, chosen: ActionSet) -> str:

@@ -17,6 +17,7 @@ from tumato_symbolic.semantics import (
     is_valid,
     nominal_agrees,
     settled_truth,
+    state_text,
     successor,
     without_cases,
 )
@@ -27,7 +28,7 @@ from tumato_symbolic.verify.by_z3.solver import Solver, UndecidedError
 from tumato_symbolic.verify.by_z3.terms import Term
 from tumato_symbolic.verify.unrealizability.allowed_step import AllowedStep, is_state
 from tumato_symbolic.verify.unrealizability.false_claim import FalseClaimError
-from tumato_symbolic.verify.unrealizability.named_goals import set_text, state_text
+from tumato_symbolic.verify.unrealizability.named_goals import set_text
 
 _CLAIM: Final = "no set is allowed in the state"
 

@@ -7,11 +7,10 @@ from collections.abc import Iterator
 from tumato_symbolic.limits import Budget
 from tumato_symbolic.policy import formula_of
 from tumato_symbolic.policy.unrealizability import Conflict, Divided, NoPart, Removal, StartRemoved
-from tumato_symbolic.semantics import State, is_start, is_valid
+from tumato_symbolic.semantics import State, is_start, is_valid, state_text
 from tumato_symbolic.semantics.judge import one_of
 from tumato_symbolic.spec import And, Formula, Not, Ordering, Spec
 from tumato_symbolic.verify.unrealizability.false_claim import FalseClaimError
-from tumato_symbolic.verify.unrealizability.named_goals import state_text
 from tumato_symbolic.verify.unrealizability.obligations import Obligations
 from tumato_symbolic.verify.unrealizability.removal import check_removal, removed
 

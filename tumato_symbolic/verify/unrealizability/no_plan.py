@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from tumato_symbolic.diagrams import Diagram
 from tumato_symbolic.policy.unrealizability import Layers, NoPlan
-from tumato_symbolic.semantics import Residual, State, is_valid, residual_goal
+from tumato_symbolic.semantics import Residual, State, is_valid, residual_goal, state_text
 from tumato_symbolic.verify.by_diagrams.functions import BudgetError
 from tumato_symbolic.verify.by_z3.encoding import diagram_terms
 from tumato_symbolic.verify.by_z3.goal_terms import reached_term
@@ -13,7 +13,7 @@ from tumato_symbolic.verify.by_z3.terms import Term, conjunction, disjunction, n
 from tumato_symbolic.verify.unrealizability.allowed_step import AllowedStep, Step, is_state
 from tumato_symbolic.verify.unrealizability.false_claim import FalseClaimError
 from tumato_symbolic.verify.unrealizability.layers_by_diagrams import first_left
-from tumato_symbolic.verify.unrealizability.named_goals import goal_text, named_goal, set_text, state_text
+from tumato_symbolic.verify.unrealizability.named_goals import goal_text, named_goal, set_text
 
 MANY_NODES = 1000
 """Layers with more nodes tend to count, and then Z3 takes long."""

@@ -5,13 +5,12 @@ from __future__ import annotations
 from typing import Final
 
 from tumato_symbolic.policy.unrealizability import NoRestoration
-from tumato_symbolic.semantics import is_safe, is_valid, level
+from tumato_symbolic.semantics import is_safe, is_valid, level, state_text
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.by_diagrams.functions import FALSE, BudgetError, Function, given_up
 from tumato_symbolic.verify.by_diagrams.steps import Steps
 from tumato_symbolic.verify.undecided import UndecidedError
 from tumato_symbolic.verify.unrealizability.false_claim import FalseClaimError
-from tumato_symbolic.verify.unrealizability.named_goals import state_text
 
 _CLAIM: Final = "nothing is sure to lead out of the trap"
 

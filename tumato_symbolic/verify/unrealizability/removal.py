@@ -6,14 +6,14 @@ import operator
 
 from tumato_symbolic.diagrams import Diagram, Reference
 from tumato_symbolic.policy.unrealizability import Removal
-from tumato_symbolic.semantics import Residual
+from tumato_symbolic.semantics import Residual, state_text
 from tumato_symbolic.spec import Ordering, Spec, executing_atoms
 from tumato_symbolic.verify.by_diagrams.functions import FALSE, BudgetError, Function, given_up
 from tumato_symbolic.verify.by_diagrams.goals import StepGoals
 from tumato_symbolic.verify.by_diagrams.steps import Steps
 from tumato_symbolic.verify.undecided import UndecidedError
 from tumato_symbolic.verify.unrealizability.false_claim import FalseClaimError
-from tumato_symbolic.verify.unrealizability.named_goals import goal_text, named_goal, state_text
+from tumato_symbolic.verify.unrealizability.named_goals import goal_text, named_goal
 from tumato_symbolic.verify.unrealizability.no_restoration import states_let_out
 
 

@@ -16,13 +16,12 @@ from tumato_symbolic.policy.unrealizability import (
     Unrealizability,
     bind,
 )
-from tumato_symbolic.semantics import State, is_safe, is_start, is_valid
+from tumato_symbolic.semantics import State, is_safe, is_start, is_valid, state_text
 from tumato_symbolic.spec import Ordering, Spec, digest
 from tumato_symbolic.spec.support import require_one_step
 from tumato_symbolic.verify.result import UnrealizabilityKind, UnrealizabilityVerdict
 from tumato_symbolic.verify.undecided import UndecidedError
 from tumato_symbolic.verify.unrealizability.false_claim import FalseClaimError
-from tumato_symbolic.verify.unrealizability.named_goals import state_text
 from tumato_symbolic.verify.unrealizability.no_part import check_no_part, conflicts_of
 from tumato_symbolic.verify.unrealizability.no_restoration import check_no_restoration
 from tumato_symbolic.verify.unrealizability.obligations import Obligations
