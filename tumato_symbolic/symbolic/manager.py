@@ -17,6 +17,9 @@ from tumato_symbolic.limits import Context, LimitReachedError, MissingPackageErr
 
 Backend: TypeAlias = Literal["cudd", "autoref"]
 
+_FEW_BITS, _MANY_BITS = 10, 18
+"""With as many bits or more, CUDD expects what it does by itself: a cache of 2^18 results, and a gigabyte."""
+
 
 class Bdd(Protocol):
     """A set, or the predicate that is true in it. Equality is equality of sets."""
@@ -76,6 +79,15 @@ def _raised_by_cudd(error: Exception) -> bool:
     return place is not None and place.tb_frame.f_code.co_filename.endswith("cudd.pyx")
 
 
+def _settings(backend: Backend, bits: int) -> Mapping[str, int]:
+    """How large a problem CUDD is told to expect; whatever it is told, its cache and its tables grow by themselves.
+
+    What it expects by itself takes longer to set up than most problems of a few bits take to solve.
+    """
+    scale = min(max(bits, _FEW_BITS), _MANY_BITS)
+    return {"initial_cache_size": 2**scale, "memory_estimate": 2 ** (scale + 12)} if backend == "cudd" else {}
+
+
 class Manager:
     """Bits in a fixed order and the operations on sets of bit vectors.
 
@@ -86,7 +98,7 @@ class Manager:
         self.backend = backend
         self.context = context or Context()
         self._module: Any = _import_dd(backend)
-        self._bdd: Any = self._module.BDD()
+        self._bdd: Any = self._module.BDD(**_settings(backend, len(bits)))
         self._bdd.configure(reordering=False)
         megabytes = self.context.limits.megabytes
         if megabytes is not None and backend == "cudd":
