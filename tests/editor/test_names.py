@@ -98,6 +98,66 @@ def test_what_cannot_be_renamed(piece: str, name: str, why: str) -> None:
         rename(KNOWN, *_at(piece), name)
 
 
+COPIES = Source(
+    "copies.tum",
+    """\
+BEGIN STATE VECTOR
+for R in a, b, c, Q in 1..2 where R != c
+  state S_{R}_{Q} can be x, y
+  for P in a where P != R
+    state T_{R}_{P} can be x{Q}, y
+  end for
+end for
+for R in a, b
+  state U_{R} can be x, y
+end for
+END STATE VECTOR
+BEGIN STATE RULES
+rule: all R in a, b: U_{R} is x OR some Q in 1..2: S_{R}_{Q} is y
+rule: S_a_1 is x
+END STATE RULES
+""",
+)
+
+
+@pytest.mark.parametrize(
+    ("place", "said"),
+    [
+        ((2, 5), "parameter `R`, which stands in 4 places"),
+        ((3, 12), "parameter `R`, which stands in 4 places"),
+        ((3, 16), "parameter `Q`, which stands in 2 places"),
+        ((4, 25), "parameter `R`, which stands in 4 places"),
+        ((8, 5), "parameter `R`, which stands in 1 place"),
+        ((13, 25), "parameter `R`, which stands in 2 places"),
+    ],
+)
+def test_parameters_are_told_apart(place: tuple[int, int], said: str) -> None:
+    """Each belongs to its copies, in braces, in conditions, in quantifiers; its header is shown."""
+    text = hover(index(COPIES), *place)
+    assert text is not None
+    assert said in text
+
+
+@pytest.mark.parametrize("place", [(2, 5), (3, 12), (4, 25)])
+def test_a_parameter_is_renamed_in_its_copies_only(place: tuple[int, int]) -> None:
+    """The names that are made stay."""
+    renamed = edited(COPIES, tuple(rename(index(COPIES), *place, "Row")))
+    assert renamed.count("Row") == 5
+    assert renamed.split("\n")[1:5] == [
+        "for Row in a, b, c, Q in 1..2 where Row != c",
+        "  state S_{Row}_{Q} can be x, y",
+        "  for P in a where P != Row",
+        "    state T_{Row}_{P} can be x{Q}, y",
+    ]
+
+
+@pytest.mark.parametrize(("place", "name"), [((2, 5), "Q"), ((2, 5), "P"), ((4, 7), "R"), ((2, 5), "c")])
+def test_a_parameter_keeps_apart_from_others(place: tuple[int, int], name: str) -> None:
+    """Around it, in it, beside it, and from words that it is compared with."""
+    with pytest.raises(CannotRenameError, match="something else"):
+        rename(index(COPIES), *place, name)
+
+
 def test_named_lists_are_found_in_headers() -> None:
     """Their declaration, and each use after `in`."""
     known = index(Source("fleet.tum", (EXAMPLES / "fleet.tum").read_text(encoding="utf-8")))

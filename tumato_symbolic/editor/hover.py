@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from tumato_symbolic.diagnostics.wording import count
 from tumato_symbolic.editor.mentions import Index, Mention, Symbol, Use
 
 _MOST = 12
@@ -32,7 +33,7 @@ def _about(known: Index, symbol: Symbol) -> Iterator[str]:
             yield f"written by {written}" if written else "no action writes it: it is the environment's"
             yield from _told("read by", _inside(mentions, "read"))
         case "value":
-            yield f"value `{symbol.name}` of `{symbol.variable}`" if declared else _unknown(symbol)
+            yield f"value `{symbol.name}` of `{symbol.of}`" if declared else _unknown(symbol)
             yield from _told("set by", _inside(mentions, "written"))
             yield from _told("asked for by", _inside(mentions, "read"))
         case "action":
@@ -47,6 +48,9 @@ def _about(known: Index, symbol: Symbol) -> Iterator[str]:
         case "resource":
             yield f"resource `{symbol.name}`" if declared else _unknown(symbol)
             yield from _told("needed by", _inside(mentions, "needed"))
+        case "parameter":
+            uses = sum(each.use == "read" for each in mentions)
+            yield f"parameter `{symbol.name}`, which stands in {count(uses, 'place')}"
     text = _declaration(known, symbol)
     if text:
         yield f"```tumato\n{text}\n```"

@@ -8,11 +8,12 @@ from functools import cached_property
 from typing import Final, Literal, NamedTuple, TypeAlias
 
 from tumato_symbolic.diagnostics import CopySpan, Source, Span
+from tumato_symbolic.editor.parameters import parameter_places
 from tumato_symbolic.spec.collector import Findings
 from tumato_symbolic.spec.copies import copies_in, written_out
 from tumato_symbolic.syntax import Parsed, ast, parse
 
-SymbolKind: TypeAlias = Literal["state variable", "value", "alias", "named list", "resource", "action"]
+SymbolKind: TypeAlias = Literal["state variable", "value", "alias", "named list", "resource", "action", "parameter"]
 
 Use: TypeAlias = Literal["declared", "read", "written", "needed", "executed"]
 """What is done with a symbol: an action needs resources, and rules and goals ask what is executed."""
@@ -22,11 +23,11 @@ MAX_RANGE: Final = 1_000
 
 
 class Symbol(NamedTuple):
-    """What a name stands for; of a value, `variable` is the state variable that has it."""
+    """What a name stands for; `of` is the state variable that has a value, and where a parameter is declared."""
 
     kind: SymbolKind
     name: str
-    variable: str = ""
+    of: str = ""
 
 
 class Mention(NamedTuple):
@@ -55,10 +56,10 @@ class Index:
 
     @cached_property
     def mentions(self) -> tuple[Mention, ...]:
-        """Every mention, in the order of the text but for named lists, which come last."""
+        """Every mention, in the order of the text but for named lists and parameters, which come last."""
         names = dict(_declared(self.tree))
-        found = [*_Walk(names).tree(self.tree), *_lists_used(self.parsed.tree, names)]
-        return tuple(found)
+        lists, parameters = _lists_used(self.parsed.tree, names), _parameters(self.parsed.tree)
+        return (*_Walk(names).tree(self.tree), *lists, *parameters)
 
     @cached_property
     def of_symbol(self) -> Mapping[Symbol, tuple[Mention, ...]]:
@@ -87,7 +88,7 @@ class Index:
         return [
             symbol.name
             for symbol in self.of_symbol
-            if symbol.kind == "value" and symbol.variable == variable and self.declarations(symbol)
+            if symbol.kind == "value" and symbol.of == variable and self.declarations(symbol)
         ]
 
 
@@ -140,6 +141,12 @@ def _lists_used(tree: ast.Specification | None, names: Mapping[str, SymbolKind])
             yield Mention(Symbol("named list", node.name.text), node.name.span, "declared", f"`{node.name.text}`")
         elif isinstance(node, ast.Node) and not isinstance(node, ast.Name):
             waiting += [getattr(node, each) for each in node.__slots__ if each != "span"]
+
+
+def _parameters(tree: ast.Specification | None) -> Iterator[Mention]:
+    for each in parameter_places(tree):
+        symbol = Symbol("parameter", each.name, f"{each.declared.line}:{each.declared.column}")
+        yield Mention(symbol, each.span, "declared" if each.span == each.declared else "read", "copies")
 
 
 class _Walk:

@@ -30,8 +30,7 @@ def rename(known: Index, line: int, column: int, name: str) -> list[Edit]:
     symbol = _symbol(known, line, column)
     if not _NAME.fullmatch(name) or name in HARD:
         raise CannotRenameError(f"{quoted(name)} is not a name")
-    taken = known.values(symbol.variable) if symbol.kind == "value" else [each.name for each in _declared(known)]
-    if name in taken and name != symbol.name:
+    if name in _taken(known, symbol) and name != symbol.name:
         raise CannotRenameError(f"{quoted(name)} is in use already")
     edits = _edits(known, symbol, name)
     if not _keeps_meaning(known, symbol, symbol._replace(name=name), edits):
@@ -44,15 +43,27 @@ def _keeps_meaning(known: Index, old: Symbol, new: Symbol, edits: list[Edit]) ->
     text = Source(known.source.name, edited(known.source, edits))
     after = index(text)
     uses = [[each.use for each in some.of_symbol.get(symbol, ())] for some, symbol in ((known, old), (after, new))]
+    if old.kind == "parameter" and _others(known) != _others(after):
+        return False
     return uses[0] == uses[1] and _errors(text) <= _errors(known.source)
+
+
+def _others(known: Index) -> list[Symbol]:
+    """What names stand for that are not parameters."""
+    return [each.symbol for each in known.mentions if each.symbol.kind != "parameter"]
 
 
 def _errors(source: Source) -> int:
     return sum(each.severity == "error" for each in load(source).diagnostics)
 
 
-def _declared(known: Index) -> list[Symbol]:
-    return [symbol for symbol in known.of_symbol if symbol.kind != "value" and known.declarations(symbol)]
+def _taken(known: Index, symbol: Symbol) -> list[str]:
+    """The names that would be confused with a new name of a symbol."""
+    if symbol.kind == "value":
+        return known.values(symbol.of)
+    return [
+        each.name for each in known.of_symbol if each.kind not in ("value", "parameter") and (known.declarations(each))
+    ]
 
 
 def _symbol(known: Index, line: int, column: int) -> Symbol:
