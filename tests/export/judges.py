@@ -114,7 +114,7 @@ JUDGES: Final[Mapping[str, Judge]] = {
 _MODELS: tuple[PropertyName, ...] = ("total", "safe", "restoring", "goals")
 
 PROVED: Final[Mapping[str, Sequence[PropertyName]]] = {
-    **dict.fromkeys(("nusmv", "spin", "storm", "c"), _MODELS),
+    **dict.fromkeys(("nusmv", "spin", "storm", "tla", "c"), _MODELS),
     "esbmc": ("total", "safe"),
     "coq": (*_MODELS, "minimal"),
 }

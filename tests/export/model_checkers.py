@@ -10,6 +10,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache
+from math import prod
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -120,22 +121,35 @@ needs_spin = pytest.mark.skipif(
 needs_storm = pytest.mark.skipif(stormpy is None, reason="stormpy is not installed: no model is checked by Storm")
 
 
+MOST_STATES_LISTED = 500
+"""Above, Storm takes diagrams: it finds states in which runs begin by solving, a second for some hundred of them."""
+
+
 def storm_verdicts(models: Sequence[tuple[str, ...]], folder: Path) -> list[dict[str, bool]]:
     """What Storm says of models, of all initial states."""
     found = []
     for text, properties in models:
-        (folder / "model.prism").write_text(text, encoding="utf-8")
-        program = stormpy.parse_prism_program(str(folder / "model.prism"))
-        claims = stormpy.parse_properties(properties, program)
-        model = stormpy.build_model(program, claims)
-        first = stormpy.create_filter_initial_states(model)
-        verdicts = {}
-        for claim in claims:
-            result = stormpy.model_checking(model, claim)
-            result.filter(first)
-            verdicts[claim.get_name()] = result.forall_true()
-        found.append(verdicts)
+        states = prod(int(most) + 1 for most in re.findall(r": \[0\.\.(\d+)\];", text))
+        found.append(by_storm(text, properties, folder, diagrams=states > MOST_STATES_LISTED))
     return found
+
+
+def by_storm(text: str, properties: str, folder: Path, *, diagrams: bool) -> dict[str, bool]:
+    """The verdicts on one model, of which the states are listed, or are diagrams (`--engine dd`)."""
+    (folder / "model.prism").write_text(text, encoding="utf-8")
+    program = stormpy.parse_prism_program(str(folder / "model.prism"))
+    claims = stormpy.parse_properties(properties, program)
+    if diagrams:
+        model = stormpy.build_symbolic_model(program.substitute_constants().substitute_formulas(), claims)
+    else:
+        model = stormpy.build_model(program, claims)
+    first = stormpy.create_filter_initial_states(model)
+    verdicts = {}
+    for claim in claims:
+        result = stormpy.model_checking(model, claim)
+        result.filter(first)
+        verdicts[claim.get_name()] = result.forall_true()
+    return verdicts
 
 
 TLA = shutil.which("tla")

@@ -12,7 +12,9 @@ import pytest
 from tests.export.cases import generated, stepwise
 from tests.export.compiler import Case
 from tests.export.model_checkers import (
+    MOST_STATES_LISTED,
     Verdicts,
+    by_storm,
     needs_nusmv,
     needs_storm,
     needs_tla,
@@ -28,9 +30,8 @@ from tumato_symbolic.policy import Table
 from tumato_symbolic.semantics import count_states, judge
 from tumato_symbolic.spec import Restoration
 
-MOST_STATES = {"prism": 500, "tlaplus": 500}
-"""Storm has to find the states in which runs begin by solving, which takes seconds for some thousands; `tla` does some
-hundred states in a second."""
+MOST_STATES = {"prism": MOST_STATES_LISTED, "tlaplus": 500}
+"""Larger examples take Storm seconds, and `tla` minutes: `python -m tests.export.trial storm --of examples`."""
 
 CHECKERS = (
     pytest.param("nusmv", nusmv_verdicts, marks=needs_nusmv),
@@ -108,6 +109,20 @@ def test_where_safety_takes_several_steps(
     cases = [case for seed in (51, 52) for case in stepwise(seed, restoration, 1 + seed % 3)]
     right, wrong = _compare(target, verdicts, cases[:24], tmp_path)
     assert right + wrong > 10
+
+
+@needs_storm
+def test_storm_says_the_same_by_diagrams(tmp_path: Path) -> None:
+    """Of a right policy, and of wrong ones."""
+    made = example("amr")
+    assert isinstance(made.policy.decisions, Table)
+    rows = made.policy.decisions.rows
+    (first, *_), *_ = rows.items()
+    for changed in (rows, {**rows, first: frozenset((7,))}, {**rows, first: frozenset()}):
+        text, properties = load("prism")(request(made.spec, changed))
+        listed, diagrams = (by_storm(text, properties, tmp_path, diagrams=way) for way in (False, True))
+        assert listed == diagrams
+        assert all(listed.values()) == (changed is rows)
 
 
 @by_each

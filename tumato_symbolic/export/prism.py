@@ -62,7 +62,7 @@ _ABOUT: Final = (
     "From {begins}: the policy decides; then effects of the set occur, in any order, until the robot halts what is "
     "left, after any of them. Where `nominal` is chosen, a step is all nominal effects of a set at once. No "
     "probability is assumed: what occurs is a choice that may be made for ever. Whether a cheaper set would restore "
-    "safety as well is not asked."
+    "safety as well is not asked. Where there are more than some hundred states, have Storm take diagrams: --engine dd"
 )
 
 _WORDS: Final = """
