@@ -1,6 +1,6 @@
 ;;; tumato-mode.el --- Specifications of tumato-symbolic  -*- lexical-binding: t -*-
 
-;; Colours, comments, and `tumato-sym lsp` for eglot (part of Emacs 29).
+;; Colours, comments, and `tumato-sym lsp` for eglot (part of Emacs 29, a package for 28).
 
 ;;; Code:
 
