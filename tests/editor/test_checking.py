@@ -8,10 +8,10 @@ from tests.repo.documents import ROOT
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.editor.answer import answer, dumps, loads
 from tumato_symbolic.editor.checking import findings, fixes
-from tumato_symbolic.editor.edits import edited
 from tumato_symbolic.editor.outline import outline
 from tumato_symbolic.limits import Context
 from tumato_symbolic.spec import load
+from tumato_symbolic.syntax.edits import edited
 from tumato_symbolic.synthesis import Realizable, synthesize
 
 

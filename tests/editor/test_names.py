@@ -6,11 +6,11 @@ import pytest
 
 from tests.generate import random_text
 from tumato_symbolic.diagnostics import Source
-from tumato_symbolic.editor.edits import edited
 from tumato_symbolic.editor.hover import hover
 from tumato_symbolic.editor.mentions import Symbol, index
 from tumato_symbolic.editor.renaming import CannotRenameError, rename
 from tumato_symbolic.spec import load
+from tumato_symbolic.syntax.edits import edited
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SPRAYER = Source("sprayer.tum", (EXAMPLES / "sprayer.tum").read_text(encoding="utf-8"))

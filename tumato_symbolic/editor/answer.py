@@ -9,10 +9,10 @@ from typing import Any, Literal, NamedTuple
 from tumato_symbolic.diagnostics import Source, Span, UserError
 from tumato_symbolic.diagnostics.wording import count
 from tumato_symbolic.editor.checking import Fix
-from tumato_symbolic.editor.edits import Edit
 from tumato_symbolic.limits import Context, LimitReachedError
 from tumato_symbolic.spec import Spec, load
 from tumato_symbolic.syntax import ast, parse
+from tumato_symbolic.syntax.edits import Edit
 from tumato_symbolic.synthesis import Realizable, SynthesisResult, Unrealizable, synthesize
 from tumato_symbolic.synthesis.result import Statistics
 
@@ -126,7 +126,7 @@ def _repairs(source: Source, spec: Spec, context: Context) -> Iterator[Fix]:
 
 
 def _has_policy(source: Source, fix: Fix, context: Context) -> bool:
-    from tumato_symbolic.editor.edits import edited
+    from tumato_symbolic.syntax.edits import edited
 
     spec = load(Source(source.name, edited(source, fix.edits))).spec
     return spec is not None and isinstance(synthesize(spec, context=context.within(), certify=False), Realizable)

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from tumato_symbolic.diagnostics import Diagnostic, Source, not_allowed
-from tumato_symbolic.editor.edits import Edit, edited
 from tumato_symbolic.spec import load
+from tumato_symbolic.syntax.edits import Edit, edited
 
 _MEANT = re.compile(r"`([^`]+)`")
 

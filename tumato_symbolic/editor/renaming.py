@@ -6,9 +6,9 @@ import re
 
 from tumato_symbolic.diagnostics import Source, Span
 from tumato_symbolic.diagnostics.wording import quoted
-from tumato_symbolic.editor.edits import Edit, edited
 from tumato_symbolic.editor.mentions import Index, Symbol, index
 from tumato_symbolic.spec import load
+from tumato_symbolic.syntax.edits import Edit, edited
 from tumato_symbolic.syntax.tokens import HARD
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")

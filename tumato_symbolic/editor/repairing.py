@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 
 from tumato_symbolic.diagnostics import CopySpan, Source, Span
 from tumato_symbolic.editor.checking import Fix
-from tumato_symbolic.editor.edits import Edit
 from tumato_symbolic.explain.additions import Addition, NewAction, NoGoalWhile, Setting
 from tumato_symbolic.explain.elements import span_of
 from tumato_symbolic.explain.explanation import Change, Repair
@@ -14,8 +13,9 @@ from tumato_symbolic.report.element_roles import declared
 from tumato_symbolic.report.possible_changes import added_lines, controlled
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.syntax import ast, parse
+from tumato_symbolic.syntax.edits import Edit
+from tumato_symbolic.syntax.leaving_out import is_after, place_of, without_entry, without_line, without_member
 from tumato_symbolic.syntax.parser import read_terminals
-from tumato_symbolic.syntax.tokens import Token
 
 NEW_ACTION = "new_action"
 """The name of an action that is added."""
@@ -54,38 +54,21 @@ def _changed(source: Source, spec: Spec, change: Change) -> Edit | None:
         return None
     if element.kind == "plan-bound":
         return (
-            Edit(span, declared(spec, element, change.text)) if change.text is not None else _without_line(source, span)
+            Edit(span, declared(spec, element, change.text)) if change.text is not None else without_line(source, span)
         )
     if element.kind == "resource":
         return None
     if change.text is not None:
         return Edit(span, change.text)
     _, tokens, _ = read_terminals(source)
-    first = next(
-        (place for place, each in enumerate(tokens) if (each.line, each.column) == (span.line, span.column)), None
-    )
+    first = place_of(tokens, span)
     if first is None:
         return None
     if element.kind == "precondition":
-        return _without_precondition(tokens, first, span)
+        return without_member(tokens, first, span)
     if element.kind == "alternative":
         return _without_alternative(source, span)
-    return _without_line(source, _join(tokens[first - 2].span, span))
-
-
-def _without_precondition(tokens: Sequence[Token], first: int, span: Span) -> Edit:
-    """A predicate of a list is left out with a comma beside it; of a list with no other, `none` is left."""
-    after = next(place for place in range(first, len(tokens)) if _is_after(tokens[place], span))
-    if tokens[first - 1].text == ",":
-        return Edit(_join(tokens[first - 1].span, span), "")
-    if tokens[after].text == ",":
-        start = tokens[after + 1].span
-        return Edit(Span(span.line, span.column, start.line, start.column), "")
-    return Edit(span, "none")
-
-
-def _is_after(token: Token, span: Span) -> bool:
-    return token.kind == "end" or (token.line, token.column) >= (span.end_line, span.end_column)
+    return without_entry(source, tokens, first, span)
 
 
 def _without_alternative(source: Source, span: Span) -> Edit | None:
@@ -94,7 +77,7 @@ def _without_alternative(source: Source, span: Span) -> Edit | None:
             (span.end_line, span.end_column) <= (field.span.end_line, field.span.end_column)
         )
         if inside:
-            return None if field.clauses else _without_line(source, field.span)
+            return None if field.clauses else without_line(source, field.span)
     return None
 
 
@@ -104,15 +87,6 @@ def _fields(tree: ast.Specification | None) -> Iterator[ast.AlternativeEffects]:
         for action in block.actions if isinstance(block, ast.Actions) else ():
             if isinstance(action, ast.ActionDeclaration):
                 yield from (each for each in action.fields if isinstance(each, ast.AlternativeEffects))
-
-
-def _without_line(source: Source, span: Span) -> Edit:
-    """What stands at a span is left out, with its lines where nothing else stands on them."""
-    lines = source.text.split("\n")
-    before, after = lines[span.line - 1][: span.column - 1], lines[span.end_line - 1][span.end_column - 1 :]
-    if before.strip() or after.strip() or span.end_line == len(lines):
-        return Edit(span, "")
-    return Edit(Span(span.line, 1, span.end_line + 1, 1), "")
 
 
 def _added(source: Source, spec: Spec, addition: Addition) -> Edit | None:
@@ -135,7 +109,7 @@ def _added(source: Source, spec: Spec, addition: Addition) -> Edit | None:
     if isinstance(addition, Setting) and any(isinstance(each, ast.Restoration) for each in block.settings):  # type: ignore[union-attr]
         return None
     _, tokens, _ = read_terminals(source)
-    closing = max(place for place, each in enumerate(tokens) if each.text == "END" and not _is_after(each, block.span))
+    closing = max(place for place, each in enumerate(tokens) if each.text == "END" and not is_after(each, block.span))
     return _inserted(tokens[closing].span, lines)
 
 
@@ -155,7 +129,3 @@ def _before_goals(source: Source, blocks: Sequence[ast.Block], lines: list[str])
 def _inserted(before: Span, lines: Sequence[str]) -> Edit:
     """Lines of their own before something that begins a line."""
     return Edit(Span(before.line, before.column, before.line, before.column), "".join(f"{line}\n" for line in lines))
-
-
-def _join(first: Span, last: Span) -> Span:
-    return Span(first.line, first.column, last.end_line, last.end_column)

@@ -15,11 +15,12 @@ from pygls.lsp.server import LanguageServer
 
 import tumato_symbolic
 from tumato_symbolic.diagnostics import UserError
-from tumato_symbolic.editor import checking, completion, edits, format, hover, mentions, outline, renaming
+from tumato_symbolic.editor import checking, completion, format, hover, mentions, outline, renaming
 from tumato_symbolic.editor.answer import Answer
 from tumato_symbolic.lsp import translate
 from tumato_symbolic.lsp.answering import ask
 from tumato_symbolic.lsp.document import Document
+from tumato_symbolic.syntax.edits import Edit, whole
 
 TRIGGERS = (" ", ":", ",", "{")
 """Characters after which editors ask for completions by themselves."""
@@ -208,7 +209,7 @@ class _Service:
             text = format.format_text(shown.source)
         except UserError:
             return None
-        changed = [edits.Edit(edits.whole(shown.source), text)] if text != shown.source.text else []
+        changed = [Edit(whole(shown.source), text)] if text != shown.source.text else []
         return translate.edits(shown.positions, changed)
 
     def hints(self, params: types.InlayHintParams) -> list[types.InlayHint]:

@@ -11,9 +11,9 @@ from tumato_symbolic.diagnostics import Diagnostic, Span
 from tumato_symbolic.editor.answer import Failure, Hint
 from tumato_symbolic.editor.checking import Fix
 from tumato_symbolic.editor.completion import Completion
-from tumato_symbolic.editor.edits import Edit
 from tumato_symbolic.editor.outline import Entry
 from tumato_symbolic.editor.positions import Position, Positions
+from tumato_symbolic.syntax.edits import Edit
 
 _SEVERITIES: Final = {
     "error": types.DiagnosticSeverity.Error,

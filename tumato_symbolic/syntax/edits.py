@@ -28,6 +28,11 @@ def edited(source: Source, edits: Iterable[Edit]) -> str:
     return text
 
 
+def at(line: int, column: int) -> Span:
+    """A place between two characters, where something may be inserted."""
+    return Span(line, column, line, column)
+
+
 def whole(source: Source) -> Span:
     """The span of all text."""
     lines = source.text.split("\n")
