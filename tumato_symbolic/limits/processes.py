@@ -61,5 +61,6 @@ def _family(process: int) -> list[int]:
     found = [process]
     for each in found:
         with suppress(OSError, ValueError):
-            found += map(int, Path(f"/proc/{each}/task/{each}/children").read_text().split())
+            for thread in Path(f"/proc/{each}/task").iterdir():
+                found += map(int, (thread / "children").read_text().split())
     return found

@@ -8,6 +8,7 @@ from tumato_symbolic.views.selected import OTHER, Label, Selected, select
 from tumato_symbolic.views.selection import Selection, parse_selection
 
 if TYPE_CHECKING:
+    from tumato_symbolic.views.counting import Counted, counted
     from tumato_symbolic.views.meaning import Altered, altered
     from tumato_symbolic.views.placing import NamesChanged
     from tumato_symbolic.views.two_policies import ByAction, Change, Decided, Difference, difference
@@ -21,6 +22,7 @@ __all__ = [
     "ByAction",
     "Change",
     "Condition",
+    "Counted",
     "Decided",
     "Difference",
     "Folded",
@@ -33,6 +35,7 @@ __all__ = [
     "Selection",
     "Tree",
     "altered",
+    "counted",
     "difference",
     "parse_selection",
     "rows",
@@ -42,6 +45,7 @@ __all__ = [
 _HOMES = {
     **dict.fromkeys(("ByAction", "Change", "Decided", "Difference", "difference"), "two_policies"),
     **dict.fromkeys(("Altered", "altered"), "meaning"),
+    **dict.fromkeys(("Counted", "counted"), "counting"),
     "NamesChanged": "placing",
 }
 

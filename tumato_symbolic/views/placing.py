@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 
-from tumato_symbolic.diagrams import NOTHING, Diagram, Reference, Sets
+from tumato_symbolic.diagrams import NOTHING, Diagram, Reference, Sets, room_for
 from tumato_symbolic.limits import Context
 from tumato_symbolic.policy import Policy, Vocabulary, as_diagram
 
@@ -98,6 +99,17 @@ class Placed:
     known: Reference
     decided: Reference
     executed: tuple[Reference, ...]
+
+
+@contextmanager
+def placed_together(old: Policy, new: Policy, context: Context) -> Iterator[tuple[Sets, Vocabulary, Placed, Placed]]:
+    """Two policies as sets of the same states, those of the names of both."""
+    old, new = (replace(policy, decisions=as_diagram(policy)) for policy in (old, new))
+    vocabulary = joint_vocabulary(old.vocabulary, new.vocabulary)
+    with room_for(len(vocabulary.variables)):
+        sets = Sets(joint_order((old, new), vocabulary), vocabulary.sizes)
+        before, after = (place(policy, sets, vocabulary, context) for policy in (old, new))
+        yield sets, vocabulary, before, after
 
 
 def place(policy: Policy, sets: Sets, vocabulary: Vocabulary, context: Context) -> Placed:

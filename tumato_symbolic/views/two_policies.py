@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TypeAlias
 
 from tumato_symbolic.diagnostics import UserError
@@ -15,10 +15,9 @@ from tumato_symbolic.diagrams import (
     Reference,
     Sets,
     TooManyCubes,
-    room_for,
 )
 from tumato_symbolic.limits import Context, LimitReachedError
-from tumato_symbolic.policy import Policy, Vocabulary, as_diagram
+from tumato_symbolic.policy import Policy, Vocabulary
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.views.compared import states_changed, states_compared
 from tumato_symbolic.views.joint import MOST_LABELS, Joint
@@ -26,10 +25,8 @@ from tumato_symbolic.views.placing import (
     NamesChanged,
     Placed,
     Values,
-    joint_order,
-    joint_vocabulary,
     names_changed,
-    place,
+    placed_together,
 )
 
 MOST_CHANGES = 50
@@ -117,11 +114,7 @@ def difference(
     """
     context = context or Context()
     context.tell("comparing the policies")
-    old, new = (replace(policy, decisions=as_diagram(policy)) for policy in (old, new))
-    vocabulary = joint_vocabulary(old.vocabulary, new.vocabulary)
-    with room_for(len(vocabulary.variables)):
-        sets = Sets(joint_order((old, new), vocabulary), vocabulary.sizes)
-        before, after = (place(policy, sets, vocabulary, context) for policy in (old, new))
+    with placed_together(old, new, context) as (sets, vocabulary, before, after):
         looked_at = states_compared(sets, vocabulary, spec, sets.either(before.decided, after.decided))
         changed = sets.both(looked_at, states_changed(sets, before, after))
         found = Difference(
