@@ -106,10 +106,10 @@ def check(help_: str) -> Any:  # noqa: ANN401
     return argument("--check", action="store_true", help=help_)
 
 
-def output_format(*formats: OutputFormat) -> Any:  # noqa: ANN401
+def output_format(*formats: OutputFormat, json: str = "one JSON object") -> Any:  # noqa: ANN401
     """`--output-format`, with the formats that there are beside the text for a person."""
     readers = {
-        "json": "for a program (one JSON object)",
+        "json": f"for a program ({json})",
         "github": "as workflow commands of GitHub",
     }
     said = ["for a person", *(readers[each] for each in formats if each in readers)]

@@ -34,6 +34,8 @@ class Code(Enum):
     TUM116 = ("error", "too many mistakes to go on")
     TUM117 = ("error", "output cannot be written")
     TUM118 = ("error", "output that is an input or another output")
+    TUM119 = ("error", "a cluster that cannot be used")
+    TUM120 = ("error", "results of another sweep")
 
     TUM201 = ("error", "an unknown name")
     TUM202 = ("error", "a value that the variable does not have")

@@ -45,6 +45,11 @@ def need_networkx(purpose: str) -> None:
     _need("networkx", "networkx", "notebook", purpose)
 
 
+def need_distributed(purpose: str) -> None:
+    """Raise `MissingPackageError` where distributed cannot be imported."""
+    _need("distributed", "distributed", "cluster", purpose)
+
+
 def _need(module: str, name: str, extra: str, purpose: str) -> None:
     """Raise `MissingPackageError` where a module of a package, which an extra of ours brings, cannot be imported."""
     try:

@@ -23,6 +23,7 @@ COMMANDS: Final = {
     "run": "execute a policy, step by step or many times",
     "report": "a policy as a page for a browser",
     "why": "why a policy decides as it does in a state",
+    "sweep": "solve many variants of one specification",
     "check": "look for mistakes in specifications",
     "format": "lay out specifications, and keep their comments",
     "lsp": "serve an editor",

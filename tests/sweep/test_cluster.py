@@ -1,0 +1,88 @@
+"""The same work by the workers of a Dask cluster."""
+
+import os
+import signal
+import threading
+import time
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+from tests.sweep.here import AMR, run, shuffling
+from tumato_symbolic.diagnostics import UserError
+from tumato_symbolic.sweep import Plan, Task, cluster, kept, mutated, sweep
+
+distributed = pytest.importorskip("distributed", reason="distributed is not installed (make tools)")
+
+PLAN = Plan("mutate", AMR, mutated(AMR, 12, 0)[0])
+
+
+@pytest.fixture(scope="module")
+def workers() -> Iterator[Any]:
+    """A scheduler and two workers, which are processes of their own."""
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=50
+    ) as found:
+        yield found
+
+
+def swept(hired: Any, plan: Plan = PLAN) -> str:
+    """All results as text."""
+    with kept(None, plan.header("0")) as results:
+        sweep(plan, Task("", "", prove=False), hired, results, heard=lambda: None)
+        return results.text()
+
+
+def test_a_worker_that_is_killed_loses_nothing(workers: Any) -> None:
+    """The results are the same bytes as on one machine."""
+    alone = run(None, shuffling(0, {}), PLAN)
+
+    def kill() -> None:
+        time.sleep(0.4)
+        os.kill(next(each.pid for each in workers.workers.values()), signal.SIGKILL)
+
+    threading.Thread(target=kill).start()
+    assert swept(lambda: cluster.cluster(workers.scheduler_address)) == alone
+
+
+def test_other_versions_are_refused(workers: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With the worker, the package, and both versions."""
+    here = {**cluster._versions()(), "dd": "0.0.1"}
+    monkeypatch.setattr(cluster, "_versions", lambda: _Pretending(here))
+    with pytest.raises(UserError, match=r"TUM119: the worker .* and dd here is 0\.0\.1"):
+        swept(lambda: cluster.cluster(workers.scheduler_address))
+
+
+class _Pretending:
+    """What tells other versions here than in a worker."""
+
+    def __init__(self, here: dict[str, str | None]) -> None:
+        self._here, self._owner = here, os.getpid()
+
+    def __call__(self) -> dict[str, str | None]:
+        return self._here if os.getpid() == self._owner else {**self._here, "dd": "0.6"}
+
+
+@pytest.mark.parametrize(
+    ("address", "said"),
+    [("127.0.0.1:9", "cannot be reached"), ("nowhere", "missing port"), ("http://a:b/", "unknown address scheme")],
+)
+def test_a_scheduler_that_is_not_there(address: str, said: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Is an error with a way out, soon."""
+    monkeypatch.setattr(cluster, "_PATIENCE", 0.3)
+    with pytest.raises(UserError) as error:
+        swept(lambda: cluster.cluster(address))
+    (diagnostic,) = error.value.diagnostics
+    assert said in diagnostic.message
+    assert diagnostic.help
+
+
+def test_a_scheduler_without_workers(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Is not waited for."""
+    monkeypatch.setattr(cluster, "_PATIENCE", 0.5)
+    with (
+        distributed.LocalCluster(n_workers=0, processes=False, dashboard_address=None, silence_logs=50) as empty,
+        pytest.raises(UserError, match="has no workers"),
+    ):
+        swept(lambda: cluster.cluster(empty.scheduler_address))
