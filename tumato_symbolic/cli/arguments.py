@@ -48,6 +48,31 @@ def restoration() -> Any:  # noqa: ANN401
     )
 
 
+def each_timeout(what: str) -> Any:  # noqa: ANN401
+    """`--timeout`, where it bounds each of several pieces of work."""
+    return argument("--timeout", type=seconds, metavar="SECONDS", help=f"how long {what} may take (default: no limit)")
+
+
+def each_memory(what: str) -> Any:  # noqa: ANN401
+    """`--memory`, where it bounds each of several pieces of work."""
+    return argument(
+        "--memory",
+        type=whole(1, "megabytes"),
+        metavar="MB",
+        help=f"how much memory {what} may use (default: no limit)",
+    )
+
+
+def no_verify(help_: str) -> Any:  # noqa: ANN401
+    """`--no-verify`."""
+    return argument("--no-verify", action="store_false", help=help_)
+
+
+def seed(help_: str, default: int | None) -> Any:  # noqa: ANN401
+    """`--seed`."""
+    return argument("--seed", type=whole(0), default=default, metavar="N", help=help_)
+
+
 def timeout(default: str = "no limit") -> Any:  # noqa: ANN401
     """`--timeout`; `default` is how long a command takes at most by itself."""
     return argument(

@@ -67,13 +67,7 @@ class Options(CommandOptions):
         "--steps", type=whole(1), metavar="N", help=f"how many steps a run has at most (default: {_STEPS:,})"
     )
     runs: int | None = argument("--runs", type=whole(1), metavar="N", help="how many runs there are (default: 1)")
-    seed: int = argument(
-        "--seed",
-        type=whole(0),
-        default=0,
-        metavar="N",
-        help="what chance depends on: the same seed gives the same runs (default: 0)",
-    )
+    seed: int = arguments.seed("what chance depends on: the same seed gives the same runs (default: 0)", 0)
     itf: str | None = argument(
         "--itf",
         metavar="FILE",

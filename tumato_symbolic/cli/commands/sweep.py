@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 from tumato_symbolic.cli import arguments
 from tumato_symbolic.cli.console import note, write
 from tumato_symbolic.cli.exits import NO, UNDECIDED, USAGE, YES
-from tumato_symbolic.cli.numbers import seconds, whole, whole_or_all
+from tumato_symbolic.cli.numbers import whole, whole_or_all
 from tumato_symbolic.cli.options import STANDARD_OUTPUT, CommandOptions, OutputFormat, Target, argument
 from tumato_symbolic.limits import Context
 
@@ -64,9 +64,7 @@ class Options(CommandOptions):
     mutate: int | Literal["all"] | None = argument(
         "--mutate", type=whole_or_all(1), metavar="N", help="N variants with one small mistake each, or `all`"
     )
-    seed: int | None = argument(
-        "--seed", type=whole(0), metavar="N", help="which mistakes are drawn by --mutate (default: 0)"
-    )
+    seed: int | None = arguments.seed("which mistakes are drawn by --mutate (default: 0)", None)
     show: int | None = argument(
         "--show", type=whole(0), metavar="N", help="print the text of variant N, and solve nothing"
     )
@@ -77,15 +75,8 @@ class Options(CommandOptions):
         help="add each result to this file, as a line of JSON; the same command goes on where it stopped",
         writes=Target("results file", "-o", "results.jsonl"),
     )
-    each_seconds: float | None = argument(
-        "--timeout", type=seconds, metavar="SECONDS", help="how long each variant may take (default: no limit)"
-    )
-    each_megabytes: int | None = argument(
-        "--memory",
-        type=whole(1, "megabytes"),
-        metavar="MB",
-        help="how much memory each variant may use (default: no limit)",
-    )
+    each_seconds: float | None = arguments.each_timeout("each variant")
+    each_megabytes: int | None = arguments.each_memory("each variant")
     scheduler: str | None = argument(
         "--scheduler",
         metavar="ADDRESS",
@@ -96,7 +87,7 @@ class Options(CommandOptions):
     effect_ordering: Ordering | None = arguments.effect_ordering("the specification's, else any")
     restoration: Restoration | None = arguments.restoration()
     prover: ProverName = arguments.prover()
-    prove: bool = argument("--no-verify", action="store_false", help="do without proofs (the results say so)")
+    prove: bool = arguments.no_verify("do without proofs (the results say so)")
     output_format: OutputFormat = arguments.output_format("json", "github", json="a JSON object a line")
 
     reports_interruption: ClassVar[bool] = True

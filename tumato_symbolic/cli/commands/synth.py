@@ -51,9 +51,7 @@ class Options(CommandOptions):
         default="auto",
         help="a row for every state, or a decision diagram (default: auto, a table up to about 10,000 valid states)",
     )
-    prove: bool = argument(
-        "--no-verify", action="store_false", help="write the policy without a proof (the report says so)"
-    )
+    prove: bool = arguments.no_verify("write the policy without a proof (the report says so)")
     html: str | None = argument(
         "--html",
         metavar="FILE",
