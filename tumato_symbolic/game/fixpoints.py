@@ -42,21 +42,34 @@ def attractor(problem: Problem, target: Bdd, predecessor: Predecessor, within: B
 
 def by_any_step(problem: Problem, relation: Bdd) -> Predecessor:
     """The predecessor when any pair of a relation may be taken."""
-    return lambda states, target: states & problem.steps.predecessor(relation & states, target)
+    moves = problem.steps.moves(relation, most_moves(problem))
+    if moves is None:
+        return lambda states, target: states & problem.steps.predecessor(relation & states, target)
+    leading = _leading(problem, moves)
+    return lambda states, target: states & leading.into(target)
+
+
+def _leading(problem: Problem, moves: Mapping[Assignment, Bdd]) -> Leading:
+    return Leading(problem.encoding.manager, moves.items(), problem.encoding.assignment_bits)
+
+
+def most_moves(problem: Problem) -> int:
+    """How many different things the sets of a relation may do so that it is taken move by move.
+
+    Those of a single group always are, however many: taking them as a whole would try each of its moves as well.
+    """
+    return max(MOST_MOVES, *map(len, problem.encoding.nominal_moves), 0)
 
 
 def preimage(problem: Problem, relation: Bdd) -> Callable[[Bdd], Bdd]:
     """Those pairs of a relation that lead into a set of states.
 
-    Where the pairs do few different things they are taken move by move: the predecessor under one is a cofactor. So are
-    those of a single group, however many: taking them as a whole would try each of its moves as well.
+    Where the pairs do few different things they are taken move by move: the predecessor under one is a cofactor.
     """
-    steps, manager = problem.steps, problem.encoding.manager
-    exclusive = max(map(len, problem.encoding.nominal_moves), default=0)
-    moves = steps.moves(relation, max(MOST_MOVES, exclusive), keep_sets=True)
+    moves = problem.steps.moves(relation, most_moves(problem), keep_sets=True)
     if moves is None:
-        return lambda target: relation & steps.before(target)
-    return Leading(manager, [(problem.encoding.assignment_bits(effect), pairs) for effect, pairs in moves.items()]).into
+        return lambda target: relation & problem.steps.before(target)
+    return _leading(problem, moves).into
 
 
 def distances(problem: Problem, pairs: Bdd | None = None) -> tuple[Layers, ...]:
@@ -86,9 +99,8 @@ class ClosedLoop:
     following: Mapping[str, Bdd]
 
     @cached_property
-    def _cofactors(self) -> list[tuple[Mapping[str, bool], Bdd]]:
-        moves = self.moves or {}
-        return [(self.problem.encoding.assignment_bits(effect), acting) for effect, acting in moves.items()]
+    def _acting(self) -> Leading:
+        return _leading(self.problem, self.moves or {})
 
     @cached_property
     def _size(self) -> int:
@@ -99,9 +111,7 @@ class ClosedLoop:
         """Those of some states that the policy leads into a set in one step."""
         manager = self.problem.encoding.manager
         if self.moves is not None:
-            return states & manager.union(
-                acting & manager.cofactor(target, effect) for effect, acting in self._cofactors
-            )
+            return states & self._acting.into(target)
         if self._size * manager.nodes(target) > MOST_COMPOSED:
             return self.problem.steps.predecessor(self.policy & states, target)
         return states & self.decided & manager.compose(target, self.following)
@@ -112,10 +122,13 @@ class ClosedLoop:
         return self.problem.encoding.manager.compose(found, self.meaning[number])
 
 
-def closed_loop(problem: Problem, policy: Bdd, most: int = MOST_MOVES) -> ClosedLoop:
-    """The closed loop of a policy, which is a function where it is defined; `moves` where there are at most so many."""
+def closed_loop(problem: Problem, policy: Bdd, most: int | None = None) -> ClosedLoop:
+    """The closed loop of a policy, which is a function where it is defined; `moves` where there are at most so many.
+
+    None stands for `most_moves`.
+    """
     steps = problem.steps
-    moves = steps.moves(policy, most)
+    moves = steps.moves(policy, most_moves(problem) if most is None else most)
     following = steps.next_state(policy) if moves is None else {}
     pending = tuple(steps.states_of(policy & target.pending) for target in problem.targets)
     meaning = tuple(_decided_meaning(problem, policy, target) for target in problem.targets)

@@ -56,8 +56,8 @@ class Encoding(Layout):
 
     @cached_property
     def leading(self) -> list[Leading]:
-        """`nominal_writes` by where they lead."""
-        return [Leading(self.manager, moves) for moves in self.nominal_writes]
+        """`nominal_moves` by where they lead."""
+        return [Leading(self.manager, moves, self.assignment_bits) for moves in self.nominal_moves]
 
     def writes_in(self, group: int, relation: Bdd) -> Sequence[tuple[Mapping[str, bool], Bdd]]:
         """Those of `nominal_writes` of a group that choices in a relation make; perhaps some others."""

@@ -5,37 +5,83 @@ An action with clauses has a move for each of its cases, most of which have noth
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
+from tumato_symbolic.spec import Assignment
 from tumato_symbolic.symbolic.manager import Bdd, Manager
 
 FEW_MOVES = 32
 """So many moves are all tried."""
 
 
-class Leading:
-    """Moves by what they write, as constants for bits, each with what stands for it."""
+@dataclass(frozen=True, slots=True)
+class _Moves:
+    """Moves by what they write. `ends` has what stands for those that write nothing (more).
 
-    def __init__(self, manager: Manager, moves: Sequence[tuple[Mapping[str, bool], Bdd]]) -> None:
-        self._manager, self._moves = manager, moves
-        self._by_bits: dict[tuple[str, ...], dict[tuple[bool, ...], list[int]]] = {}
-        for number, (written, _) in enumerate(moves):
-            bits = tuple(sorted(written))
-            values = tuple(written[bit] for bit in bits)
-            self._by_bits.setdefault(bits, {}).setdefault(values, []).append(number)
+    `branches` has, by bits and then by their values, these values and the moves that go on from there.
+    """
+
+    ends: Bdd
+    branches: dict[tuple[str, ...], dict[tuple[bool, ...], list[tuple[Mapping[str, bool], _Moves]]]]
+
+
+class Leading:
+    """Moves by what they write, each with what stands for it; `bits` turns what is written into constants for bits.
+
+    Moves that write the same value are looked at together, what most of them write first: one cofactor serves all.
+    """
+
+    def __init__(
+        self,
+        manager: Manager,
+        moves: Iterable[tuple[Assignment, Bdd]],
+        bits: Callable[[Assignment], Mapping[str, bool]],
+    ) -> None:
+        self._manager, self._bits = manager, bits
+        self._moves = self._together(list(moves))
+
+    def _together(self, moves: Sequence[tuple[Assignment, Bdd]]) -> _Moves:
+        often = Counter(each for written, _ in moves for each in written)
+        ends = self._manager.union(pairs for written, pairs in moves if not written)
+        by_most_often: dict[tuple[int, int], list[tuple[Assignment, Bdd]]] = {}
+        for written, pairs in moves:
+            if written:
+                by_most_often.setdefault(max(written, key=often.__getitem__), []).append((written, pairs))
+        found = _Moves(ends, {})
+        for first, several in by_most_often.items():
+            shared = several[0][0] if len(several) == 1 else (first,)
+            rests = [(tuple([each for each in written if each not in shared]), pairs) for written, pairs in several]
+            values = self._bits(shared)
+            by_values = found.branches.setdefault(tuple(values), {})
+            by_values.setdefault(tuple(values.values()), []).append((values, self._together(rests)))
+        return found
 
     def into(self, target: Bdd) -> Bdd:
         """What stands for a move, where the move leads into a set of states, for all moves together."""
-        cofactor = self._manager.cofactor
-        return self._manager.union(pairs & cofactor(target, written) for written, pairs in self._relevant(target))
+        return self._into(self._moves, target)
 
-    def _relevant(self, target: Bdd) -> Iterator[tuple[Mapping[str, bool], Bdd]]:
-        for bits, by_values in self._by_bits.items():
-            values = present(self._manager, target, bits, len(by_values) // 2) if len(by_values) > FEW_MOVES else None
-            if values is None:
-                yield from (self._moves[number] for numbers in by_values.values() for number in numbers)
-            else:
-                yield from (self._moves[number] for each in values for number in by_values.get(each, ()))
+    def _into(self, moves: _Moves, target: Bdd) -> Bdd:
+        manager = self._manager
+        if target == manager.false:
+            return target
+        parts = (
+            self._into(below, manager.cofactor(target, values))
+            for bits, by_values in moves.branches.items()
+            for values, below in self._relevant(target, bits, by_values)
+        )
+        return manager.union([moves.ends & target, *parts])
+
+    def _relevant(
+        self,
+        target: Bdd,
+        bits: tuple[str, ...],
+        by_values: Mapping[tuple[bool, ...], list[tuple[Mapping[str, bool], _Moves]]],
+    ) -> Iterator[tuple[Mapping[str, bool], _Moves]]:
+        met = present(self._manager, target, bits, len(by_values) // 2) if len(by_values) > FEW_MOVES else None
+        for values in by_values if met is None else met:
+            yield from by_values.get(values, ())
 
 
 def present(manager: Manager, found: Bdd, bits: Sequence[str], most: int) -> list[tuple[bool, ...]] | None:

@@ -82,8 +82,8 @@ class Steps:
                     if part != manager.false:
                         both = tuple(sorted({*written, *effect}))
                         split[both] = split.get(both, manager.false) | part
-            if len(split) > most:
-                return None
+                if len(split) > most:
+                    return None
             found = split
         return found
 
