@@ -5,7 +5,6 @@ import json
 from pathlib import Path
 
 import pytest
-import z3
 
 from tests.cli.conftest import Cli
 from tumato_symbolic.cli import console
@@ -61,6 +60,8 @@ def test_ctrl_c_inside_z3_is_no_verdict(
     cli: Cli, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, command: str
 ) -> None:
     """Z3 answers Ctrl-C with `unknown`: the exit code is 130, and no verdict or file comes of it."""
+    import z3
+
     monkeypatch.setattr(z3.Solver, "check", lambda *_: z3.unknown)
     monkeypatch.setattr(z3.Solver, "reason_unknown", lambda _: "interrupted from keyboard")
     ran = cli(*command.split())

@@ -16,7 +16,6 @@ from tumato_symbolic.policy import Certificate, RankedGoal, policy_from_rows
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import digest
 from tumato_symbolic.verify import verify
-from tumato_symbolic.verify.by_z3.step_counts import StepCounts
 from tumato_symbolic.verify.result import ProverName
 
 ONE_STEP_FROM_NONE = """\
@@ -58,6 +57,8 @@ def test_none_is_no_number(prover: ProverName) -> None:
 def test_counts_are_compared_as_numbers_with_infinity(largest: int) -> None:
     """Beside powers of two, too: never is larger than everything, and one more than the largest is not never."""
     import z3
+
+    from tumato_symbolic.verify.by_z3.step_counts import StepCounts
 
     counts = StepCounts(largest, z3.Context())
     every = [None, *range(largest + 1)]

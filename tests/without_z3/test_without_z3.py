@@ -1,13 +1,17 @@
 """Where Z3 cannot be imported: the same policies, other provers, and a message where there is no answer."""
 
 import re
+import subprocess
+import sys
 from dataclasses import replace
+from pathlib import Path
 from random import Random
 
 import pytest
 
 from tests.generate import random_spec
 from tests.profiles import ALL_PROFILES
+from tests.repo.documents import ROOT
 from tests.without_z3.blocking import run_module
 from tumato_symbolic.game import build_problem
 from tumato_symbolic.limits import Context, MissingPackageError, has_z3, need_z3
@@ -99,6 +103,22 @@ def test_what_cannot_be_imported_is_missing(monkeypatch: pytest.MonkeyPatch) -> 
     assert not has_z3()
     with pytest.raises(MissingPackageError, match="Z3 is needed to prove this"):
         need_z3("prove this")
+
+
+def test_what_should_pass_without_it_is_told_from_what_is_about_it(tmp_path: Path) -> None:
+    """By `python -m tests.without_z3`: an answer that Z3 would have given may be missed, and nothing may break."""
+    (tmp_path / "test_some.py").write_text(
+        "from tumato_symbolic.limits import has_z3\n"
+        "def test_wrong(): assert 1 + 1 == 3\n"
+        "def test_about_z3(): assert has_z3()\n"
+        "def test_broken(): import z3\n"
+    )
+    command = [sys.executable, "-m", "tests.without_z3", str(tmp_path), "-p", "no:cacheprovider", "-rfs"]
+    ran = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert ran.returncode == 1
+    assert re.findall(r"FAILED \S+::(\w+)", ran.stdout) == ["test_wrong", "test_broken"], ran.stdout
+    assert "it is about Z3" in ran.stdout
+    assert "2 failed, 1 skipped" in ran.stdout
 
 
 def _broken(_: str) -> None:
