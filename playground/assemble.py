@@ -85,6 +85,7 @@ def _packaged() -> Iterator[tuple[str, Path]]:
                 yield path.relative_to(ROOT).as_posix(), path
     yield "tumato_symbolic/syntax/tumato.lark", ROOT / "grammar" / "tumato.lark"
     yield "tumato_symbolic/LICENSE", ROOT / "LICENSE"
+    yield "proofs/checker.py", ROOT / "proofs" / "checker.py"
     for name in DISTRIBUTIONS:
         for file in distribution(name).files or ():
             if file.suffix == ".py" or "LICENSE" in file.name:

@@ -6,8 +6,12 @@ Answers are JSON. Nothing here makes a child process, and nothing needs Z3.
 from __future__ import annotations
 
 import json
+import tempfile
 from collections.abc import Callable, Iterable
+from contextlib import redirect_stdout
 from dataclasses import replace
+from io import StringIO
+from pathlib import Path
 from typing import TypeAlias
 
 from tumato_symbolic.cli.synthesizing import answer_page, prove, solve
@@ -27,7 +31,10 @@ from tumato_symbolic.synthesis import Realizable, Undecided, Unrealizable
 
 SPEC_NAME, POLICY_NAME, CERTIFICATE_NAME = "specification.tum", "policy.json", "policy.unrealizable.json"
 
-NO_Z3 = f"to check the certificate takes Z3, which does not run here; `tumato-sym verify {CERTIFICATE_NAME} SPEC` does"
+NO_Z3 = (
+    "the certificate was too much for the stand-alone checker, and Z3, which may take it, does not run here; "
+    f"`tumato-sym verify {CERTIFICATE_NAME} SPEC` asks it"
+)
 
 Tell: TypeAlias = Callable[[str], None]
 """Is told the name of every stage."""
@@ -63,7 +70,11 @@ class Session:
             done = replace(done, outcome=Undecided(str(limit), None))
         proved = done.proof is not None and done.proof.verdict == "proved"
         files = _files(done, proved)
-        self._done = done = replace(_without_advice(done), written=proved, certificate=next(iter(files), None))
+        certificate = files.get(CERTIFICATE_NAME)
+        if certificate is not None and not has_z3():
+            tell("checking the certificate")
+            done = _checked(done, certificate)
+        self._done = done = replace(done, written=proved, certificate=next(iter(files), None))
         return json.dumps({**_said(done), "problems": _problems(source, text, done.warnings), "files": files})
 
     def report(self, tell: Tell) -> str:
@@ -91,12 +102,30 @@ def _files(done: Synthesized, proved: bool) -> dict[str, str]:
             return {}
 
 
-def _without_advice(done: Synthesized) -> Synthesized:
-    """Where Z3 would be needed, what to do instead of installing it."""
+def _checked(done: Synthesized, certificate: str) -> Synthesized:
+    """What the stand-alone checker says of a certificate, where Z3 would have been needed."""
     found = done.unrealizability
-    if found is None or found.verdict != "undecided" or has_z3():
+    if found is None or found.verdict != "undecided":
         return done
-    return replace(done, unrealizability=replace(found, reason=NO_Z3))
+    code, said = _by_checker(done.source.text, certificate)
+    if code == 0:
+        found = replace(found, verdict="proved", reason=None, by_checker=True)
+    elif code == 1:
+        found = replace(found, verdict="refuted", reason=said, by_checker=True)
+    else:
+        found = replace(found, reason=NO_Z3)
+    return replace(done, unrealizability=found)
+
+
+def _by_checker(text: str, certificate: str) -> tuple[int, str]:
+    """The exit code of `proofs/checker.py`, and what it prints."""
+    from proofs import checker
+
+    with tempfile.TemporaryDirectory() as folder, redirect_stdout(StringIO()) as said:
+        spec, claim = Path(folder, SPEC_NAME), Path(folder, CERTIFICATE_NAME)
+        spec.write_text(text, encoding="utf-8")
+        claim.write_text(certificate, encoding="utf-8")
+        return checker.main([str(claim), str(spec)]), said.getvalue().strip()
 
 
 def _said(done: Synthesized) -> dict[str, object]:
@@ -123,7 +152,8 @@ def _said(done: Synthesized) -> dict[str, object]:
 def _proof_of_none(done: Synthesized) -> list[str]:
     found, lines = done.unrealizability, [f"Found in {seconds(done.solved_in)}."]
     if found is not None and found.verdict == "proved":
-        lines.append(proof_line(found))
+        line = proof_line(found)
+        lines.append(f"{line[0].upper()}{line[1:]}.")
     elif found is not None and found.reason:
         lines.append(f"Not proved: {found.reason}.")
     return lines

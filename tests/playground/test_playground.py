@@ -14,6 +14,7 @@ import pytest
 from playground.assemble import HERE, PAGE_FILES
 from playground.session import Session, check
 from tests.cli.conftest import Cli, cli
+from tests.page.pages import carried
 from tests.playground.in_browser import AMR, WRONG, missing, used
 from tests.repo.documents import ROOT
 
@@ -60,11 +61,24 @@ def test_a_policy_is_proved_by_the_walk() -> None:
 
 
 def test_where_there_is_none_the_certificate_is_given() -> None:
-    """Without Z3 it is not checked, and nobody is told to install that in a browser."""
+    """Without Z3 the stand-alone checker judges it, and nobody is told to install that in a browser."""
     answer, page, _ = solved(TWO_ROBOTS)
     assert answer["verdict"] == "unrealizable"
+    assert answer["lines"][1].endswith("(no-allowed-set): proved by the stand-alone checker.")
+    verdict = carried(page)["verdict"]
+    assert (verdict["verdict"], verdict["by"]) == ("proved", "the stand-alone checker")
     assert list(answer["files"]) == ["policy.unrealizable.json"]
     assert "pip install" not in page + json.dumps(answer)
+
+
+def test_a_certificate_that_is_too_much_is_said_to_be_unchecked(monkeypatch: pytest.MonkeyPatch) -> None:
+    """And one that is wrong is refuted."""
+    monkeypatch.setattr("proofs.checker.main", lambda _: 3)
+    assert "too much for the stand-alone checker" in solved(TWO_ROBOTS)[0]["lines"][1]
+    monkeypatch.setattr("proofs.checker.main", lambda _: print("unrealizable FAILS: no") or 1)
+    answer, page, _ = solved(TWO_ROBOTS)
+    assert answer["lines"][1] == "Not proved: unrealizable FAILS: no."
+    assert carried(page)["verdict"]["verdict"] == "refuted"
 
 
 @pytest.mark.parametrize(

@@ -74,11 +74,14 @@ def proof_line(found: UnrealizabilityVerdict) -> str:
     """What a certificate that holds proves."""
     by = proved_by(found)
     how = f"proved by {by}" if by else "checked by direct evaluation"
-    return f"{_REASONS[found.kind]} ({found.kind}): {count(found.obligations, 'obligation')} {how}"
+    obligations = "" if found.by_checker else f"{count(found.obligations, 'obligation')} "
+    return f"{_REASONS[found.kind]} ({found.kind}): {obligations}{how}"
 
 
 def proved_by(found: UnrealizabilityVerdict) -> str:
     """The names of the provers that were needed; empty where none was."""
+    if found.by_checker:
+        return "the stand-alone checker"
     return " and ".join(PROVERS[name] for name in _proved_by(found) if name in PROVERS)
 
 

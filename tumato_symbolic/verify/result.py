@@ -193,7 +193,7 @@ class UnrealizabilityVerdict:
     `reason` tells which check failed, or why there is no verdict; `state` and `chosen` are the witness, where there is
     one: an allowed set that the certificate leaves out. `stale`: the certificate was made for another
     specification, and was judged against this one all the same. `by_solver`: Z3 was needed; `by_diagrams`: the walk
-    was.
+    was; `by_checker`: `proofs/checker.py` has judged it instead of all that.
     """
 
     verdict: Verdict
@@ -204,6 +204,7 @@ class UnrealizabilityVerdict:
     obligations: int = 0
     by_solver: bool = False
     by_diagrams: bool = False
+    by_checker: bool = False
     reason: str | None = None
     state: State | None = None
     chosen: ActionSet | None = None
