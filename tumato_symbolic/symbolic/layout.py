@@ -171,19 +171,25 @@ class Layout:
 
     def states_in(self, states: Bdd) -> Iterator[State]:
         """Every state of a set, in the order of declaration, the last variable changing fastest."""
-        stack: list[tuple[State, Bdd]] = [((), states)]
+        rests: dict[tuple[int, Bdd], list[tuple[int, Bdd]]] = {}
+        stack: list[tuple[State, Bdd]] = [] if states == self.manager.false else [((), states)]
         while stack:
             state, rest = stack.pop()
-            if rest == self.manager.false:
-                continue
             if len(state) == len(self.state_bits):
                 yield state
                 continue
-            bits = self.state_bits[len(state)]
-            stack.extend(
-                ((*state, number), self.manager.cofactor(rest, number_bits(bits, number)))
-                for number in reversed(range(self.sizes[len(state)]))
-            )
+            key = len(state), rest
+            if key not in rests:
+                rests[key] = [*self._rests(*key)]
+            stack += [((*state, number), part) for number, part in rests[key]]
+
+    def _rests(self, variable: int, states: Bdd) -> Iterator[tuple[int, Bdd]]:
+        """What is left of a set for the values that a variable has in it, the last value first."""
+        bits = self.state_bits[variable]
+        for number in reversed(range(self.sizes[variable])):
+            rest = self.manager.cofactor(states, number_bits(bits, number))
+            if rest != self.manager.false:
+                yield number, rest
 
     def first_set(self, choices: Bdd) -> ActionSet:
         """Some set of actions of a non-empty set of choices (the only one, where there is one): first actions first."""

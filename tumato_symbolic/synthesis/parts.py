@@ -71,12 +71,15 @@ def _formula(encoding: Encoding, states: Bdd) -> Formula:
 def greatest(whole: Problem, problem: Problem, stages: tuple[Stage, ...]) -> Part:
     """The greatest closed part of the valid states of a problem in which none fails; `whole` has all valid states.
 
-    Those that fail are left out, then those that fail without them, and so on.
+    Those that fail are left out, then those that fail without them, and so on. Where the others lose no step by that,
+    what they can do alone is what they could before: none of them fails.
     """
     while problem.steps.valid != problem.false and (failing := failing_states(problem)).kinds:
         problem.context.check()
-        stages = (*stages, Stage(problem, failing.kinds, failing))
-        problem = _within(whole, problem.steps.valid & ~whole.encoding.manager.union(failing.kinds.values()))
+        stages, before = (*stages, Stage(problem, failing.kinds, failing)), problem
+        problem = _within(whole, before.steps.valid & ~whole.encoding.manager.union(failing.kinds.values()))
+        if problem.steps.allowed == before.steps.allowed & problem.steps.valid:
+            break
     return Part(problem, stages)
 
 
