@@ -2354,18 +2354,23 @@ def judge_no(world: World, document: dict[str, Any]) -> str:
     return check_conflict(world, reason, document["States"])
 
 
+def met_from(world: World, starts: list[State]) -> list[State]:
+    """The states in which runs from some states may be: from safe ones, and wherever one step restores, safe ones."""
+    return world.safe if not world.stepwise or all(map(world.is_safe, starts)) else world.valid
+
+
 @contextmanager
-def runs_from(world: World, starts: list[State]) -> Iterator[list[State]]:
-    """The states in which runs from some states may be: from safe ones, and wherever one step restores, safe ones.
+def runs_from(world: World, start: State) -> Iterator[list[State]]:
+    """The states in which runs from a state may be.
 
     Where unsafe ones count, all sets with `Keep` are looked at there, be it that they do not restore. That proves more
     than has to be proved; so what is refuted then is not known.
     """
-    safe = not world.stepwise or all(map(world.is_safe, starts))
+    met = met_from(world, [start])
     try:
-        yield world.safe if safe else world.valid
+        yield met
     except Refuted as problem:
-        if safe:
+        if met is world.safe:
             raise
         raise NotKnown(f"of runs through unsafe states it is not known how these are restored: {problem}") from None
 
@@ -2622,7 +2627,7 @@ def check_no_plan(world: World, reason: dict[str, Any], states: Numbered) -> str
         need(layers != [], "there is a goal without layers")
         goals.append((read_goal(entry, world.spec), layers))
     check_decides(world, start)
-    with runs_from(world, [start]) as met:
+    with runs_from(world, start) as met:
         check_first_steps(world, start, diagram, goals)
         for state in met:
             check_layers(world, state, diagram, goals)
@@ -2664,9 +2669,11 @@ def check_layers(world: World, state: State, diagram: Diagram, goals: list[Layer
 
 
 # Conflict: for some valid states all *options* are listed, where a set leads and its residual goal. A *cut* is a run
-# that fails unless one of certain options is taken. No choice of one option for every state takes one for every cut.
+# that fails unless one of certain options is taken, or outcomes that restore nothing unless some option prevents them.
+# No choice of one option for every state takes one for every cut.
 
-Option = tuple[State, int]  # the successor, and the goal by its class
+Option = tuple[State, int, list[State]]  # the successor, the goal by its class, and where it may lead as well
+Cut = tuple[int | None, list[int], State | None, int]  # goal and run; the end of a path; where outcomes lead back to
 Pick = tuple[int, int]  # a listed state and one of its options, by number
 
 
@@ -2704,7 +2711,12 @@ class Conflict(Distances):
         super().__init__(reason, states, spec)
         self.choices: list[tuple[State, list[Option]]] = []
         for entry in read_objects(reason, "Choices"):
-            options = [(read_state(o, "Successor", spec), self.goal(o)) for o in read_objects(entry, "Options")]
+            found = [(read_state(o, "Successor", spec), self.goal(o)) for o in read_objects(entry, "Options")]
+            listed = read_list(entry, "Outcomes") if "Outcomes" in entry else [[]] * len(found)
+            need(len(listed) == len(found), "`Outcomes` has an entry for every option")
+            need(all(isinstance(each, list) for each in listed), "`Outcomes` is a list of lists")
+            outcomes = [[read_state({"State": state}, "State", spec) for state in each] for each in listed]
+            options = [(*option, led) for option, led in zip(found, outcomes, strict=True)]
             self.choices.append((read_state(entry, "State", spec), options))
         self.starts = read_numbers(reason, "Starts", len(self.choices))
         self.cuts = [self.cut(entry, spec) for entry in read_objects(reason, "Cuts")]
@@ -2715,13 +2727,21 @@ class Conflict(Distances):
         need(is_number(number) and number < len(self.goals), "`Goal` is the number of a goal")
         return self.goals[int(number)]
 
-    def cut(self, entry: dict[str, Any], spec: Specification) -> tuple[int, list[int], State | None]:
-        """The class of the goal, the listed states on the run, and the end of a path; a loop has none."""
-        need(entry.get("Kind") in ("path", "loop"), "a cut is a `path` or a `loop`")
-        need(("End" in entry) == (entry["Kind"] == "path"), "a path has an `End`, and a loop has none")
+    def cut(self, entry: dict[str, Any], spec: Specification) -> Cut:
+        """The class of the goal, the listed states on the run, and the end of a path; a loop has none.
+
+        Outcomes have no goal, but the place to which they lead back.
+        """
+        kind = entry.get("Kind")
+        need(kind in ("path", "loop", "outcomes"), "a cut is a `path`, a `loop`, or `outcomes`")
+        need(("End" in entry) == (kind == "path"), "a path has an `End`, and no other cut has one")
         run = read_numbers(entry, "States", len(self.choices))
         need(run != [], "there is a cut without states")
-        return self.goal(entry), run, read_state(entry, "End", spec) if "End" in entry else None
+        if kind == "outcomes":
+            back: Any = entry.get("Back")
+            need("Goal" not in entry and is_number(back), "outcomes have no `Goal`, and `Back` is a number")
+            return None, run, None, int(back)
+        return self.goal(entry), run, read_state(entry, "End", spec) if "End" in entry else None, 0
 
 
 def check_conflict(world: World, reason: dict[str, Any], states: Numbered, decided: Iterable[State] = ()) -> str:
@@ -2733,25 +2753,29 @@ def check_conflict(world: World, reason: dict[str, Any], states: Numbered, decid
     begun = {conflict.choices[start][0] for start in conflict.starts}
     for state in begun.difference(decided):
         check_decides(world, state)
-    with runs_from(world, [state for state, _ in conflict.choices]) as met:
-        for state, options in conflict.choices:
-            check_options(world, conflict, state, options)
-        clauses = [clause_of(world, conflict, number) for number in range(len(conflict.cuts))]
-        undecided = int(bool(world.spec.starts))  # one more option, where there is none: not to decide
-        counts = [len(options) or (0 if state in begun else undecided) for state, options in conflict.choices]
-        if Choosing(counts, clauses).succeeds():
-            raise Refuted("there is a choice of options that respects all cuts")
-        for state in met:
-            check_distances(world, conflict, state)
+    for state, options in conflict.choices:
+        check_options(world, conflict, state, options)
+    clauses = [clause_of(world, conflict, number) for number in range(len(conflict.cuts))]
+    undecided = int(bool(world.spec.starts))  # one more option, where there is none: not to decide
+    counts = [len(options) or (0 if state in begun else undecided) for state, options in conflict.choices]
+    if Choosing(counts, clauses).succeeds():
+        raise Refuted("there is a choice of options that respects all cuts")
+    for state in met_from(world, [state for state, _ in conflict.choices]):
+        check_distances(world, conflict, state)
     parts = f"{counted(len(conflict.choices), 'state')} and {counted(len(clauses), 'cut')}"
     return f"no policy serves {counted(len(set(conflict.starts)), 'state')} together, by the options of {parts}"
 
 
 def check_options(world: World, conflict: Conflict, state: State, options: list[Option]) -> None:
-    """Every allowed set leads where one of the options says, and has a residual goal of its class."""
-    for chosen, after in world.steps(state):
+    """Every allowed set leads and may lead where one of the options says, and has a residual goal of its class.
+
+    Sets that a policy never executes in an unsafe state are not looked at.
+    """
+    for chosen, after in world.steps_on(state):
         pending = world.residual_goal(state, chosen)
-        if not any(after == there and pending in conflict.members[goal] for there, goal in options):
+        named = [led for there, goal, led in options if after == there and pending in conflict.members[goal]]
+        led_to = world.next_states(state, chosen) if any(named) else set()
+        if not any(led_to.issuperset(led) for led in named):
             raise Refuted(
                 f"{world.step(state, chosen)} and leaves {goal_text(world, pending)} pending, which is no option there"
             )
@@ -2772,14 +2796,16 @@ def check_distances(world: World, distances: Distances, state: State) -> None:
 
 def clause_of(world: World, conflict: Conflict, number: int) -> list[Pick]:
     """Options of which every policy that serves the first state of a cut takes one."""
-    goal, run, end = conflict.cuts[number]
+    goal, run, end, back = conflict.cuts[number]
     if run[0] not in conflict.starts:
         raise Refuted(f"cut {number} begins in a state that is not among the starts")
+    if goal is None:
+        return avoiding(world, conflict, number, back)
     picks = [(run[0], place) for place, option in enumerate(conflict.choices[run[0]][1]) if option[1] != goal]
     way = [conflict.choices[each][0] for each in run]
     if end is None:  # those that meet the goal, or leave the loop for where it is near enough
         for each in sorted(set(run)):
-            for place, (after, _) in enumerate(conflict.choices[each][1]):
+            for place, (after, _, _) in enumerate(conflict.choices[each][1]):
                 leaves = after not in way and conflict.near(goal, after, 1)
                 if leaves or conflict.distance(goal, after) == 0:
                     picks.append((each, place))
@@ -2791,10 +2817,26 @@ def clause_of(world: World, conflict: Conflict, number: int) -> list[Pick]:
         raise Refuted(f"cut {number} ends in {world.show(end)}, from where its goal may be reached")
     for steps, following in enumerate([*way[1:], end], 1):  # those that turn off to where it is near enough
         each = run[steps - 1]
-        for place, (after, _) in enumerate(conflict.choices[each][1]):
+        for place, (after, _, _) in enumerate(conflict.choices[each][1]):
             if after != following and conflict.near(goal, after, steps):
                 picks.append((each, place))
     return picks
+
+
+def avoiding(world: World, conflict: Conflict, number: int, back: int) -> list[Pick]:
+    """Options that cannot lead to the next state; those that come again and again are unsafe, and of one level."""
+    run = conflict.cuts[number][1]
+    way = [conflict.choices[each][0] for each in run]
+    if world.restoration != "bounded" or back >= len(way):
+        raise Refuted(f"cut {number} is of outcomes that lead back to none of its states, or need not restore safety")
+    if any(world.is_safe(state) or world.level(state) != world.level(way[back]) for state in way[back:]):
+        raise Refuted(f"the outcomes of cut {number} restore something")
+    return [
+        (each, place)
+        for each, following in zip(run, [*way[1:], way[back]], strict=True)
+        for place, (after, _, led) in enumerate(conflict.choices[each][1])
+        if following != after and following not in led
+    ]
 
 
 # No part: states are removed that no policy decides which stays in what is left. Then a start is among them, or goals

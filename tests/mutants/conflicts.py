@@ -79,8 +79,10 @@ def _end(document: Document, random: Random) -> None:
 
 
 def _kind(document: Document, random: Random) -> None:
-    """A loop becomes a path, or the other way round."""
+    """A loop becomes a path, or the other way round; outcomes become one of them."""
     if cut := _cut(document, random):
+        if cut["Kind"] == "outcomes":
+            cut["Goal"] = 0
         if cut["Kind"] == "path":
             cut["Kind"] = "loop"
             del cut["End"]
@@ -90,7 +92,7 @@ def _kind(document: Document, random: Random) -> None:
 
 
 def _goal_of_a_cut(document: Document, random: Random) -> None:
-    if cut := _cut(document, random):
+    if (cut := _cut(document, random)) and "Goal" in cut:
         cut["Goal"] = random.randrange(len(reason(document)["Goals"]))
 
 
@@ -136,6 +138,28 @@ def _starts(document: Document, random: Random) -> None:
         starts.append(random.randrange(count))
 
 
+def _outcomes(document: Document, random: Random) -> None:
+    """What an option may lead to as well: a state less or more, another one; of all options, nothing."""
+    choice = _choice(document, random)
+    if not choice["Options"]:
+        return
+    if "Outcomes" in choice and random.random() < 0.2:
+        del choice["Outcomes"]
+        return
+    led = random.choice(choice.setdefault("Outcomes", [[] for _ in choice["Options"]]))
+    if led and random.random() < 0.5:
+        dropped(led, random)
+    else:
+        led.append(random.choice((random.choice(reason(document)["Choices"])["State"], other_state(document, random))))
+
+
+def _back(document: Document, random: Random) -> None:
+    """Outcomes lead back elsewhere; or a loop becomes one of outcomes."""
+    if (cut := _cut(document, random)) and cut["Kind"] != "path":
+        cut["Kind"], cut["Back"] = "outcomes", random.randrange(len(cut["States"]) + 1)
+        cut.pop("Goal", None)
+
+
 CONFLICT: dict[str, Mutation] = {
     "the starts": _starts,
     "another state": _choice_state,
@@ -150,6 +174,8 @@ CONFLICT: dict[str, Mutation] = {
     "a path cut short": _path_cut_short,
     "the kind of a cut": _kind,
     "the goal of a cut": _goal_of_a_cut,
+    "outcomes": _outcomes,
+    "the way back": _back,
     "a distance": _distance,
     "distances stretched": _distances_stretched,
     "a node's child": another_child,

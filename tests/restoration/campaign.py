@@ -17,6 +17,7 @@ from tumato_symbolic.policy import Policy, as_table
 from tumato_symbolic.semantics import State, count_states, judge
 from tumato_symbolic.spec import Ordering, Restoration, Spec
 from tumato_symbolic.symbolic import Backend
+from tumato_symbolic.verify import verify_unrealizable
 
 STEPWISE = replace(
     INTERACTING,
@@ -101,6 +102,7 @@ def examine(
         answer = outcome.failures[0].kind
         if answer == "conflict":
             yield from _wrong_conflict(world, outcome.failures[0].states, dict(failing))
+            yield from _wrong_certificate(spec, ordering)
         elif {each.kind: each.count for each in outcome.failures} != failing:
             yield f"{[(each.kind, each.count) for each in outcome.failures]}, but {dict(failing)}"
     tally.answers[spec.restoration, len(spec.tiers), answer] += 1
@@ -118,6 +120,15 @@ def _wrong_conflict(world: World, states: tuple[State, ...], failing: dict[str, 
     for state in states:
         if together.serve(other for other in states if other != state) is None:
             yield f"a conflict that is not minimal: {state} is not needed"
+
+
+def _wrong_certificate(spec: Spec, ordering: Ordering) -> Iterator[str]:
+    """There is one for the conflict, and it is a proof."""
+    outcome = synthesize(spec, ordering, diagnose=False)
+    certificate = outcome.certificate if isinstance(outcome, Unrealizable) else None
+    found = None if certificate is None else verify_unrealizable(certificate, spec, ordering=ordering)
+    if found is None or found.verdict != "proved":
+        yield f"of the certificate of a conflict, verify says {found}"
 
 
 def _wrong_policy(world: World, policy: Policy) -> Iterator[str]:

@@ -26,7 +26,7 @@ def main() -> int:
                     ]
     print(f"{count} specifications: {dict(sorted(tally.answers.items()))}")
     print(f"of {tally.tried} every closed set and policy was tried; {tally.parts} policies decide only a part")
-    print(f"certificates that there is no policy: {dict(sorted(tally.certificates.items()))}; none: {tally.without}")
+    print(f"certificates that there is no policy: {dict(sorted(tally.certificates.items()))}")
     print(f"{tally.changed.total()} of them changed, and {tally.changed[True]} still proofs")
     print(f"{tally.judged} policies judged, rejected: {dict(sorted(tally.rejected.items()))}")
     print("\n".join(tally.complaints) or "nothing is wrong")

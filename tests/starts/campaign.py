@@ -105,7 +105,6 @@ class Tally:
     parts: int = 0
     judged: int = 0
     certificates: Counter[str] = field(default_factory=Counter)
-    without: int = 0
     changed: Counter[bool] = field(default_factory=Counter)
     rejected: Counter[str] = field(default_factory=Counter)
     complaints: list[str] = field(default_factory=list)
@@ -222,10 +221,8 @@ def examine(
             if outcome.certificate is not None:
                 asked = Asked(spec, ordering, folder)
                 yield from _wrong_certificate(outcome.certificate, asked, tally, Random(seed))
-            elif lost or not spec.restores_stepwise:
-                yield "there is no certificate"
             else:
-                tally.without += 1
+                yield "there is no certificate"
         case Realizable():
             answer = "realizable"
             table = as_table(outcome.policy, count_states(spec))

@@ -6,7 +6,6 @@ from dataclasses import replace
 from random import Random
 
 import pytest
-import z3
 
 from tests.semantics import literal
 from tests.semantics.build import Build, constraint, priority, when
@@ -85,7 +84,7 @@ def test_the_clause_of_every_cut(name: str) -> None:
     met = {"cut": 0, "none": 0}
     for bound in {spec.max_plan_length, None, 1, 2, 3, 5}:
         bounded = replace(spec, max_plan_length=bound)
-        distances = Distances(reason.distances, bound, z3.Context())
+        distances = Distances(reason.distances, bound)
         for number, cut in enumerate(cuts(reason, literal.states(spec))):
             wanted = literal_clause(bounded, reason, cut)
             try:
@@ -106,7 +105,7 @@ def test_distances_are_cut_off_at_the_bound() -> None:
     assert isinstance(reason, Conflict)
     for bound in (None, 1, 2, 3, 4):
         bounded = replace(spec, max_plan_length=bound)
-        distances = Distances(reason.distances, bound, z3.Context())
+        distances = Distances(reason.distances, bound)
         for goal in reason.goals:
             for state in literal.states(spec):
                 far = distance(bounded, reason, goal.root, state)
@@ -116,7 +115,7 @@ def test_distances_are_cut_off_at_the_bound() -> None:
                     assert distances.near(goal.root, state, steps) == near
     negative = replace(reason.distances, leaves=(-1, *reason.distances.leaves[1:]))
     with pytest.raises(FalseClaimError, match="negative"):
-        Distances(negative, None, z3.Context())
+        Distances(negative, None)
 
 
 def _judged(spec: Spec, certificate: Unrealizability, count: int) -> tuple[int, int]:

@@ -11,7 +11,6 @@ from tumato_symbolic.game import (
     Evaluator,
     Layers,
     Problem,
-    distances,
     route,
     shortest_decisions,
 )
@@ -111,8 +110,7 @@ def _repaired(
     except RoundsExhaustedError:
         return replace(answer, limit=f"{ROUNDS:,} rounds of repair did not settle how the goals interact")
     if isinstance(found, RepairConflict):
-        # In several steps the certificate is about safe states only, and so are the distances in it.
-        return _in_conflict(problem, apart if way is None else None, found, answer, certify=certify)
+        return _in_conflict(problem, found, answer, certify=certify)
     return found
 
 
@@ -143,19 +141,16 @@ def _repaired_or_toured(
     return found, repair.forced if isinstance(repair, StepwiseRepair) else problem.false
 
 
-def _in_conflict(
-    problem: Problem, apart: tuple[Layers, ...] | None, found: RepairConflict, so_far: Undecided, *, certify: bool
-) -> Unrealizable:
-    """That there is no policy since goals are in conflict; `apart` is None where distances have to be measured anew."""
+def _in_conflict(problem: Problem, found: RepairConflict, so_far: Undecided, *, certify: bool) -> Unrealizable:
+    """That there is no policy since goals are in conflict."""
     from tumato_symbolic.synthesis.unrealizability import certified, conflict
 
     assert so_far.statistics is not None, "states are counted first"
     failure = Failure("conflict", len(found.states), found.states[0], found.states)
     answer = unrealizable(problem, (failure,), so_far.statistics, so_far.warnings)
-    if not certify or not all(problem.encoding.contains(problem.steps.safe, state) for state in found.options):
+    if not certify:
         return answer
-    apart = distances(problem) if apart is None else apart
-    return replace(answer, certificate=certified(problem, conflict(problem, apart, found)))
+    return replace(answer, certificate=certified(problem, conflict(problem, found)))
 
 
 def count_decided(problem: Problem, policy: Bdd) -> int:

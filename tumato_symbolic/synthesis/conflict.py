@@ -24,11 +24,15 @@ class Option:
 
 @dataclass(frozen=True, slots=True)
 class FailingRun:
-    """A run whose first step leaves `target` pending: along `states` to `end`, too far away, or among them for ever."""
+    """A run whose first step leaves `target` pending: along `states` to `end`, too far away, or among them for ever.
+
+    Where there is a `back`, outcomes lead along the states, from the last one to that at this place, for ever.
+    """
 
     target: int
     states: tuple[State, ...]
     end: State | None
+    back: int | None = None
 
 
 @dataclass(frozen=True, slots=True)

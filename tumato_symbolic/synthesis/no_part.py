@@ -29,10 +29,7 @@ class _TooMuchError(Exception):
 
 
 def no_part(search: Search, whole: Part, starts: Bdd) -> NoPart | Conflict | None:
-    """Why no part has all starts and a policy; None where there is no form for it, or it would be too large.
-
-    There is none for goals that conflict in unsafe states, where safety may take several steps to restore.
-    """
+    """Why no part has all starts and a policy; None where that would be too large."""
     try:
         found = _Arguments(search, starts).of(whole)
     except _TooMuchError:
@@ -41,14 +38,14 @@ def no_part(search: Search, whole: Part, starts: Bdd) -> NoPart | Conflict | Non
     return first.conflict if isinstance(first, Divided) and not first.removals and not first.cases else NoPart(found)
 
 
-def failing_at_once(problem: Problem, failing: Failing) -> NoPart | None:
-    """That no policy decides the first failing state; None where that takes too much."""
-    try:
-        removals = tuple(_removals(problem, failing))
-    except _TooMuchError:
-        return None
-    first = problem.encoding.first_state(problem.encoding.manager.union(failing.kinds.values()))
-    return NoPart((StartRemoved(removals, first),))
+def failing_at_once(problem: Problem, failing: Failing) -> NoPart:
+    """That no policy decides the first failing state, which has no plan."""
+    encoding, steps = problem.encoding, problem.steps
+    state = encoding.first_state(encoding.manager.union(failing.kinds.values()))
+    alone = encoding.state_cube(state)
+    pairs = alone & (steps.allowed if failing.way is None else failing.way.pairs)
+    removal = _removal(problem, "no-plan", alone, steps.valid, [*_pending(problem, failing.apart, pairs)])
+    return NoPart((StartRemoved((removal,), state),))
 
 
 class _Arguments:

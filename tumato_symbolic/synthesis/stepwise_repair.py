@@ -70,7 +70,7 @@ class StepwiseRepair(Repair):
         if loop is not None:
             self._choices.require(start, list(dict.fromkeys(self._avoiding(way, loop))))
             states = tuple(self._states[number] for number in way)
-            self._cuts.append((start, FailingRun(self._options[start][self._picked[start]].target, states, None)))
+            self._cuts.append((start, FailingRun(self._options[start][self._picked[start]].target, states, None, loop)))
             return set(states)
         done |= {self._numbers[state] for state in run}
         contains, seen = self._problem.encoding.contains, set[State]()

@@ -135,7 +135,7 @@ def _decide(problem: Problem, so_far: Undecided, *, policy_format: PolicyFormat,
             if not certify:
                 return answer
             reason = reason_of(problem, failing) or failing_at_once(problem, failing)
-            return answer if reason is None else replace(answer, certificate=certified(problem, reason))
+            return replace(answer, certificate=certified(problem, reason))
         so_far = replace(so_far, statistics=statistics)
         done = completed(evaluator, policy, failing.apart, so_far, way=failing.way, certify=certify)
         if isinstance(done, Undecided | Unrealizable):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations
 from math import prod
 
@@ -42,7 +42,7 @@ from tumato_symbolic.semantics import (
 from tumato_symbolic.spec import Ordering, Rule, Spec, canonical_text, digest
 from tumato_symbolic.symbolic import Bdd, Extractor, one_by_one
 from tumato_symbolic.synthesis.certificate import goal_names
-from tumato_symbolic.synthesis.conflict import RepairConflict
+from tumato_symbolic.synthesis.conflict import FailingRun, RepairConflict
 
 MOST_CUBES = 2_000
 """A certificate with more cubes leaves the claim to a prover."""
@@ -212,9 +212,9 @@ def _reached(problem: Problem, first: Bdd, most: int) -> list[Bdd] | None:
     return layers
 
 
-def conflict(problem: Problem, distances: Sequence[Ranks], proof: RepairConflict) -> Conflict:
+def conflict(problem: Problem, proof: RepairConflict) -> Conflict:
     """The states that cannot be served together, everything that can be done on the way, and the runs that fail."""
-    deepest = max(len(layers) for layers in distances)
+    deepest = max(len(layers) for _, layers in proof.aims)
     builder: DiagramBuilder[int | None] = DiagramBuilder(problem.encoding.order, (None, *range(deepest)))
     extract = Extractor(problem.encoding, builder, default=None)
     goals: list[RankedGoal] = []
@@ -226,13 +226,23 @@ def conflict(problem: Problem, distances: Sequence[Ranks], proof: RepairConflict
         residuals = [residual for residual, _ in target.residuals]
         goals += [RankedGoal(*goal_names(problem.spec, residual), root) for residual in residuals]
     places = {state: place for place, state in enumerate(proof.options)}
+    looping = {state for run in proof.cuts if run.back is not None for state in run.states}
     choices = [
-        Choice(state, tuple((option.successor, first[option.target]) for option in options))
+        Choice(
+            state,
+            tuple((option.successor, first[option.target]) for option in options),
+            tuple(tuple(sorted(option.following & looping)) for option in options) if state in looping else (),
+        )
         for state, options in proof.options.items()
     ]
-    cuts = [
-        Cut("loop" if run.end is None else "path", first[run.target], tuple(places[s] for s in run.states), run.end)
-        for run in proof.cuts
-    ]
+    cuts = [_cut(run, first, places) for run in proof.cuts]
     starts = tuple(places[state] for state in proof.states)
     return Conflict(starts, tuple(choices), tuple(cuts), builder.finish(), tuple(goals))
+
+
+def _cut(run: FailingRun, first: Mapping[int, int], places: Mapping[State, int]) -> Cut:
+    """A failing run with the numbers of a certificate."""
+    states = tuple(places[state] for state in run.states)
+    if run.back is not None:
+        return Cut("outcomes", 0, states, None, run.back)
+    return Cut("loop" if run.end is None else "path", first[run.target], states, run.end)

@@ -53,7 +53,11 @@ def _bound_cube(cube: Cube, by: Renumbering) -> Cube:
 
 def _bound_conflict(reason: Conflict, by: Renumbering) -> Conflict:
     choices = tuple(
-        Choice(by.state(choice.state), tuple((by.state(after), goal) for after, goal in choice.options))
+        Choice(
+            by.state(choice.state),
+            tuple((by.state(after), goal) for after, goal in choice.options),
+            tuple(tuple(map(by.state, outcomes)) for outcomes in choice.outcomes),
+        )
         for choice in reason.choices
     )
     cuts = tuple(replace(cut, end=None if cut.end is None else by.state(cut.end)) for cut in reason.cuts)

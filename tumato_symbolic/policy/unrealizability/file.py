@@ -6,14 +6,14 @@ from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tumato_symbolic.diagnostics import Source, UserError
+from tumato_symbolic.diagnostics import Code, Source, UserError
 from tumato_symbolic.policy.formats import header, kinds
 from tumato_symbolic.policy.formats.diagrams import DiagramPart, section
 from tumato_symbolic.policy.formats.kinds import Names
 from tumato_symbolic.policy.formats.policies import UNREALIZABLE
 from tumato_symbolic.policy.formats.tables import Entries, Field, Record, Tagged, dotted, plain, text_of, within
 from tumato_symbolic.policy.records import RankedGoal, Vocabulary
-from tumato_symbolic.policy.text import MAX_BYTES, as_object, parse_json, read_text, save_text, too_large
+from tumato_symbolic.policy.text import MAX_BYTES, as_object, fault, parse_json, read_text, save_text, too_large
 from tumato_symbolic.policy.unrealizability.records import (
     Case,
     Choice,
@@ -89,16 +89,41 @@ class _Option(NamedTuple):
 
 _GOAL = Field("Goal", kinds.whole("goal"))
 _OPTION = Record[_Option](_Option, (Field("Successor", kinds.STATE), _GOAL), view=_Option._make)
+_STATES = kinds.listed(kinds.listed(kinds.STATE))
+
+
+def _for_every_option(value: object, where: str, names: Names) -> tuple[tuple[State, ...], ...]:
+    found = _STATES.read(value, where, names)
+    if len(found) != names.counts["option"]:
+        raise fault(Code.TUM502, f"{where} does not have one entry for every option")
+    return found
+
+
 _CHOICE = Record(
     Choice,
-    (Field("State", kinds.STATE), Entries("Options", _OPTION, "option")),
+    (
+        Field("State", kinds.STATE),
+        Entries("Options", _OPTION, "option"),
+        Field(
+            "Outcomes",
+            kinds.Kind(_for_every_option, _STATES.write, _STATES.schema),
+            "For every option, states to which its sets may lead as well.",
+            default=(),
+        ),
+    ),
     "A state, and for every set allowed in it where it leads and its residual goal (by number).",
 )
-_RUN = (_GOAL, Field("States", kinds.listed(kinds.whole("choice"), filled=True), "Numbers of choices."))
+_ALONG = Field("States", kinds.listed(kinds.whole("choice"), filled=True), "Numbers of choices.")
+_RUN = (_GOAL, _ALONG)
 _CUT = Tagged[Cut](
     {
         ("path",): Record(Cut, (*_RUN, Field("End", kinds.STATE))),
         ("loop",): Record(partial(Cut, end=None), _RUN, without=("End",)),
+        ("outcomes",): Record(
+            partial(Cut, goal=0, end=None),
+            (_ALONG, Field("Back", kinds.whole(), "The place to which outcomes of the last state lead.")),
+            without=("Goal", "End"),
+        ),
     },
 )
 

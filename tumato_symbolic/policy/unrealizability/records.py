@@ -130,10 +130,14 @@ class NoPlan:
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """A state and everything that can be done in it: where each allowed set leads, and its residual goal."""
+    """A state and everything that can be done in it: where each allowed set leads, and its residual goal.
+
+    Where there are `outcomes`, they have for each option states to which, under `bounded`, its sets may lead as well.
+    """
 
     state: State
     options: tuple[tuple[State, int], ...]
+    outcomes: tuple[tuple[State, ...], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,13 +146,16 @@ class Cut:
 
     `path`: unless a state of the run turns off, to a state from which the goal is still near enough, the run comes to
     `end`, from where it is not. `loop`: unless a state of the run leaves these states, to where the goal is near
-    enough, or hits the goal, the run stays among them for ever. `states` are numbers of choices.
+    enough, or hits the goal, the run stays among them for ever. `outcomes`: unless a state does what cannot lead to the
+    one after it, outcomes lead along them, from the last one to that at the place `back`, for ever, and restore
+    nothing; whatever the goal. `states` are numbers of choices.
     """
 
-    kind: Literal["path", "loop"]
+    kind: Literal["path", "loop", "outcomes"]
     goal: int
     states: tuple[int, ...]
     end: State | None
+    back: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -156,7 +163,8 @@ class Conflict:
     """No policy serves the states `starts` (numbers of choices) together: every one breaks a cut.
 
     `distances` bound from below how many allowed steps a safe state is away from each goal; None: there is no way, or
-    none that the plan bound leaves room for. Goals with one root are one goal under several names.
+    none that the plan bound leaves room for. Where safety may take several steps to restore and some choice is unsafe,
+    they speak of all valid states. Goals with one root are one goal under several names.
     """
 
     kind: ClassVar = "conflict"

@@ -10,14 +10,14 @@ from typing import TypeAlias
 
 import z3
 
-from tumato_symbolic.policy.unrealizability import Conflict, Cut
-from tumato_symbolic.semantics import Residual, is_valid, reached, residual_goal, state_text
+from tumato_symbolic.policy.unrealizability import Choice, Conflict, Cut
+from tumato_symbolic.semantics import Residual, State, is_valid, level, reached, residual_goal, state_text
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.verify.by_z3.goal_terms import reached_term
 from tumato_symbolic.verify.by_z3.solver import Solver, UndecidedError
 from tumato_symbolic.verify.by_z3.terms import Context, Term, at_most_one, conjunction, disjunction, negation
 from tumato_symbolic.verify.unrealizability.allowed_step import AllowedStep, is_state
-from tumato_symbolic.verify.unrealizability.distances import Distances
+from tumato_symbolic.verify.unrealizability.distances import Distances, DistanceTerms
 from tumato_symbolic.verify.unrealizability.false_claim import FalseClaimError
 from tumato_symbolic.verify.unrealizability.named_goals import goal_text, named_goal, set_text
 
@@ -28,15 +28,20 @@ Pick: TypeAlias = tuple[int, int]
 def check_conflict(reason: Conflict, step: AllowedStep) -> int:
     """How many claims were checked without Z3. Raises `FalseClaimError` and `UndecidedError`."""
     goals = _Goals(reason, step.spec, step.context)
-    for choice in reason.choices:
-        if not is_valid(step.spec, choice.state):
-            text = state_text(step.spec, choice.state)
-            raise FalseClaimError(f"the state {text} is not valid, so no policy has to decide there")
+    check_choices(reason, step.spec)
     _check_distances(goals, step)
     _check_options(reason, goals, step)
-    clauses = [clause(reason, goals.distances, cut, number, step.spec) for number, cut in enumerate(reason.cuts)]
-    _refute(reason, clauses, step)
+    refute_choices(reason, goals.distances, step.spec, step.deadline())
+    step.proved += 1
     return len(reason.choices) + len(reason.cuts)
+
+
+def check_choices(reason: Conflict, spec: Spec) -> None:
+    """Only valid states have choices."""
+    for choice in reason.choices:
+        if not is_valid(spec, choice.state):
+            text = state_text(spec, choice.state)
+            raise FalseClaimError(f"the state {text} is not valid, so no policy has to decide there")
 
 
 class _Goals:
@@ -46,7 +51,7 @@ class _Goals:
         self.members: dict[int, list[Residual]] = {}
         for goal in reason.goals:
             self.members.setdefault(goal.root, []).append(named_goal(spec, goal.bodies, goal.executed))
-        self.distances = Distances(reason.distances, spec.max_plan_length, context)
+        self.distances = DistanceTerms(reason.distances, spec.max_plan_length, context)
 
 
 def _check_distances(goals: _Goals, step: AllowedStep) -> None:
@@ -102,6 +107,8 @@ def clause(reason: Conflict, distances: Distances, cut: Cut, number: int, spec: 
     """
     if cut.states[0] not in reason.starts:
         raise FalseClaimError(f"cut {number} begins in a state that is not among the starts")
+    if cut.kind == "outcomes":
+        return _avoiding(reason, cut, number, spec)
     root = reason.goals[cut.goal].root
     start = reason.choices[cut.states[0]]
     other_goals = [
@@ -146,21 +153,47 @@ def _turning_off(reason: Conflict, distances: Distances, cut: Cut, number: int, 
     ]
 
 
-def _refute(reason: Conflict, clauses: list[list[Pick]], step: AllowedStep) -> None:
+def _avoiding(reason: Conflict, cut: Cut, number: int, spec: Spec) -> list[Pick]:
+    """The options that cannot lead to the state that comes next.
+
+    The states that come again and again must be unsafe and of one level: then none of them is restored by that.
+    """
+    states = [reason.choices[place].state for place in cut.states]
+    if spec.restoration != "bounded":
+        raise FalseClaimError(f"cut {number} is about outcomes, but not all of them have to restore safety")
+    if cut.back is None or cut.back >= len(states):
+        raise FalseClaimError(f"the outcomes of cut {number} do not lead back to one of its states")
+    levels = {level(spec, state) for state in states[cut.back :]}
+    if len(levels) > 1 or levels == {len(spec.tiers)}:
+        raise FalseClaimError(f"the outcomes of cut {number} restore something")
+    return [
+        (place, option)
+        for place, following in zip(cut.states, [*states[1:], states[cut.back]], strict=True)
+        for option, (after, _) in enumerate(reason.choices[place].options)
+        if following not in (after, *outcomes_of(reason.choices[place], option))
+    ]
+
+
+def outcomes_of(choice: Choice, option: int) -> tuple[State, ...]:
+    """The states to which the sets of an option may lead as well, as far as they are listed."""
+    return choice.outcomes[option] if choice.outcomes else ()
+
+
+def refute_choices(reason: Conflict, distances: Distances, spec: Spec, deadline: float) -> None:
     """No choice of one option everywhere respects all cuts."""
+    clauses = [clause(reason, distances, cut, number, spec) for number, cut in enumerate(reason.cuts)]
     solver = Solver()
     picked: list[list[Term]] = [
         [z3.Bool(f"p.{place}.{option}", solver.context) for option in range(len(choice.options))]
         for place, choice in enumerate(reason.choices)
     ]
     for place, terms in enumerate(picked):
-        if terms or place in reason.starts or not step.spec.starts:  # with starts, others need not be decided
+        if terms or place in reason.starts or not spec.starts:  # with starts, others need not be decided
             solver.add(disjunction(terms), at_most_one(terms))
     for picks in clauses:
         solver.add(disjunction(picked[place][option] for place, option in picks))
-    answer = solver.ask(deadline=step.deadline())
+    answer = solver.ask(deadline=deadline)
     if answer == "unknown":
         raise UndecidedError("no choice of options respects all cuts")
     if answer == "sat":
         raise FalseClaimError("there is a choice of options that respects all cuts")
-    step.proved += 1

@@ -18,13 +18,13 @@ class Distances:
     Raises `FalseClaimError` where a distance is negative.
     """
 
-    def __init__(self, diagram: Diagram[int | None], bound: int | None, context: Context) -> None:
+    def __init__(self, diagram: Diagram[int | None], bound: int | None) -> None:
         self._diagram = diagram
         self._bound = bound
         finite = [leaf for leaf in diagram.leaves if leaf is not None]
         if any(leaf < 0 for leaf in finite):
             raise FalseClaimError("a distance is negative")
-        self._counts = StepCounts(max(finite, default=0) if bound is None else bound, context)
+        self._largest = max(finite, default=0) if bound is None else bound
 
     def _cut_off(self, leaf: int | None) -> float:
         limit = math.inf if self._bound is None else self._bound
@@ -38,6 +38,14 @@ class Distances:
         """Whether the goal may still be reached in time from a state that is met after so many steps."""
         far = self.of(root, state)
         return far < math.inf if self._bound is None else steps + far <= self._bound
+
+
+class DistanceTerms(Distances):
+    """The same as terms of Z3."""
+
+    def __init__(self, diagram: Diagram[int | None], bound: int | None, context: Context) -> None:
+        super().__init__(diagram, bound)
+        self._counts = StepCounts(self._largest, context)
 
     def count(self, root: Reference, place: Place) -> Number:
         """`D` of a place; never where it is infinite."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 
 from tumato_symbolic.limits import Budget, Context, LimitReachedError, need_z3
@@ -16,7 +15,7 @@ from tumato_symbolic.policy.unrealizability import (
     Unrealizability,
     bind,
 )
-from tumato_symbolic.semantics import State, is_safe, is_start, is_valid, state_text
+from tumato_symbolic.semantics import is_safe, is_start, is_valid, state_text
 from tumato_symbolic.spec import Ordering, Spec, digest
 from tumato_symbolic.spec.support import require_one_step
 from tumato_symbolic.verify.result import UnrealizabilityKind, UnrealizabilityVerdict
@@ -53,7 +52,7 @@ def verify_unrealizable(
     """
     context = context or Context()
     reason = bind(certificate, spec).reason
-    if not all(is_safe(spec, state) for state in _states_of(reason)):
+    if isinstance(reason, NoAllowedSet | NoPlan) and not is_safe(spec, reason.state):
         require_one_step(spec, "verify")
     used: Ordering = ordering or certificate.ordering
     found = UnrealizabilityVerdict(
@@ -102,19 +101,6 @@ def _check_starts(reason: Reason, spec: Spec) -> None:
     for state in states:
         if is_valid(spec, state) and not is_start(spec, state):
             raise FalseClaimError(f"the state {state_text(spec, state)} is no start, so it need not be decided")
-
-
-def _states_of(reason: Reason) -> Iterator[State]:
-    """States that have to be safe, where safety may take several steps to restore: then so is all that runs meet."""
-    match reason:
-        case NoRestoration():
-            return
-        case Conflict():
-            yield from (choice.state for choice in reason.choices)
-        case NoPart():
-            yield from (choice.state for conflict in conflicts_of(reason) for choice in conflict.choices)
-        case _:
-            yield reason.state
 
 
 def _kind(certificate: Unrealizability) -> UnrealizabilityKind:
