@@ -403,7 +403,25 @@ COPIES = [
     ),
 ]
 
-HABITS = [*PREDICATES, *VALUES, *ENTRIES, *EFFECTS, *GOALS, *BLOCKS, *COPIES]
+LISTED = "BEGIN ALIASES define FAR as {b} END ALIASES "
+ANY_LISTED = LISTED + rules("rule: some V in FAR: S is {V}")
+PARAMETERS = [
+    ("TUM201", rules("for V in a, b rule: S is a OR «V» is b end for"), "write `{V}`", COPIED),
+    ("TUM202", rules("for V in a, b rule: S is not «V» end for"), "write `{V}`: parameters stand in braces", COPIED),
+    ("TUM202", rules("rule: all V in a, b: S is not «V»"), "write `{V}`", rules("rule: all V in a, b: S is not {V}")),
+    ("TUM202", LISTED + rules("rule: S is «FAR»"), "write `some V in FAR: S is {V}`", ANY_LISTED),
+    ("TUM202", LISTED + rules("rule: S in {«FAR»}"), "write `some V in FAR: S is {V}`", ANY_LISTED),
+    ("TUM105", LISTED + rules("rule: S in «FAR»"), "write `some V in FAR: S is {V}`", ANY_LISTED),
+    (
+        "TUM105",
+        LISTED + rules("rule: S not in «FAR»"),
+        "write `all V in FAR: S is not {V}`",
+        LISTED + rules("rule: all V in FAR: S is not {V}"),
+    ),
+    ("TUM113", f"BEGIN ALIASES define FAR as «2» END ALIASES {FULL}", "`define FAR as {2}`", LISTED + FULL),
+]
+
+HABITS = [*PREDICATES, *VALUES, *ENTRIES, *EFFECTS, *GOALS, *BLOCKS, *COPIES, *PARAMETERS]
 
 
 def check_habit(code: str, marked: str, way_out: str, typed: str) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
-from tumato_symbolic.diagnostics import Code, Note
+from tumato_symbolic.diagnostics import Code, CopySpan, Note
 from tumato_symbolic.diagnostics.wording import listed, quoted
 from tumato_symbolic.spec.collector import Findings
 from tumato_symbolic.spec.formula import FALSE, TRUE, And, Formula, Is, Not, Or
@@ -83,16 +83,26 @@ class Comparisons:
         text = item.text if isinstance(item, ast.Name) else f"{item.low.text}..{item.high.text}"
         if text in self._lost:
             return
-        values = list(self._names.values[declared.number])
-        near = None if number_of(text) is not None else self._findings.similar(text, values)
         name = self._names.variables[declared.number].name
         self._findings.add(
             Code.TUM202,
             f"{quoted(name)} has no value {quoted(text)}",
             item.span,
-            f"did you mean `{near}`?" if near else f"its values are {listed(values)}",
+            self._instead_of(text, item, declared),
             (Note(f"{quoted(name)} is declared here", declared.span),),
         )
+
+    def _instead_of(self, text: str, item: ast.Item, declared: Declared) -> str:
+        """The way out where a variable has no such value."""
+        known = self._names.table.get(text)
+        if known is not None and known.kind == "named list":
+            name = self._names.variables[declared.number].name
+            return f"{quoted(text)} is a list of values: write `some V in {text}: {name} is {{V}}`"
+        if isinstance(item.span, CopySpan) and text in dict(item.span.parameters):
+            return f"write `{{{text}}}`: parameters stand in braces"
+        values = list(self._names.values[declared.number])
+        near = None if number_of(text) is not None else self._findings.similar(text, values)
+        return f"did you mean `{near}`?" if near else f"its values are {listed(values)}"
 
     def _in(self, declared: Declared, items: tuple[ast.Item, ...]) -> Written | None:
         found = chosen(items, self._names.values[declared.number], self._findings)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from tumato_symbolic.diagnostics import Code, Note, Span
+from tumato_symbolic.diagnostics import Code, CopySpan, Note, Span
 from tumato_symbolic.diagnostics.wording import listed, quoted
 from tumato_symbolic.spec.alias_uses import Cycle, definitions, mentioned, reachable
 from tumato_symbolic.spec.collector import Findings
@@ -121,6 +121,10 @@ class Predicates:
             meant = self._meant[name.span]
             if meant is not None:
                 self._findings.add(Code.TUM201, f"there is no alias {quoted(name.text)}", name.span, f"write `{meant}`")
+            return
+        if isinstance(name.span, CopySpan) and name.text in dict(name.span.parameters):
+            way_out = f"write `{{{name.text}}}`: parameters stand in braces"
+            self._findings.add(Code.TUM201, f"there is no {kind} {quoted(name.text)}", name.span, way_out)
             return
         where = "a list of resources" if kind == "resource" else self._where
         if name.text in ("none", "nothing") and where in _NONE:

@@ -134,6 +134,16 @@ def _names(here: Situation) -> Diagnostic | None:
     return told(joined(here.at(first), last), f"write `{form}`", message, Code.TUM113)
 
 
+def _constant(here: Situation) -> Diagnostic | None:
+    """`define N as 2`."""
+    token = here.token
+    if token.kind != "number" or [here.at(-1).text, here.at(-3).text] != ["as", "define"]:
+        return None
+    list_of_one = f"define {here.at(-2).text} as {{{token.text}}}"
+    way_out = f"write a predicate, such as `S is {token.text}`, or a list of values: `{list_of_one}`"
+    return told(token.span, way_out, "an alias stands for a predicate", Code.TUM113)
+
+
 def _field(here: Situation) -> Diagnostic | None:
     """A field that actions do not have, or a setting that there is not."""
     if here.token.kind != "word" or here.at(1).text not in (":", "="):
@@ -256,6 +266,7 @@ ENTRIES: tuple[Callable[[Situation], Diagnostic | None], ...] = (
     _range,
     _character,
     *LISTS,
+    _constant,
     _field,
     _none,
     _declaration,

@@ -182,6 +182,9 @@ def _braces(here: Situation) -> Diagnostic | None:
             break
         end += 2
     no = "not " if here.at(-2).text == "not" else ""
+    if here.lists(here.token.text):
+        shown = f"{'all' if no else 'some'} V in {here.token.text}: {name} is {no}{{V}}"
+        return told(here.token.span, f"write `{shown}`", f"{quoted(here.token.text)} is a list of values")
     shown = f"{name} {no}in {{{listing(here.tokens[here.index : end])}}}"
     if len(shown) > MAX_QUOTED:
         shown = f"{name} {no}in {{VALUE, VALUE}}"

@@ -46,6 +46,11 @@ class Situation:
         pairs = zip(self.tokens, self.tokens[1:], strict=False)
         return any(first.text == "state" and second.text == name for first, second in pairs)
 
+    def lists(self, name: str) -> bool:
+        """Whether the text gives a list of values this name."""
+        rows = zip(self.tokens, self.tokens[1:], self.tokens[3:], strict=False)
+        return any((first.text, second.text, third.text) == ("define", name, "{") for first, second, third in rows)
+
     @property
     def begin(self) -> int | None:
         """The position in `open` of the innermost BEGIN."""
