@@ -121,10 +121,15 @@ def test_nor_is_one_on_a_terminal(folder: Path) -> None:
     assert seconds < 5
 
 
-def test_commands_that_only_python_works_for_do_without_a_child() -> None:
+def test_commands_that_only_python_works_for_do_without_a_child(tmp_path: Path) -> None:
     """Every other command is one that a child does; these load no solver (`test_start_up`), and Python hears Ctrl-C."""
     alone = {name for name in COMMANDS if vars(load(name).Options).get("may_take_long") is False}
-    assert alone == {"check", "decide", "format", "lsp"}
+    assert alone == {"decide", "lsp"}
+    large = tmp_path / "large.tum"
+    large.write_text(f"// {'x' * 200_000}")
+    for command in ("check", "format"):
+        assert parse([command, "amr.tum"]).options.may_take_long is False
+        assert parse([command, "amr.tum", str(large)]).options.may_take_long is True
     assert parse(["run", "amr.json", "amr.tum"]).options.may_take_long is False  # step by step
     assert parse(["run", "amr.json", "amr.tum", "--faults", "none"]).options.may_take_long is True
 

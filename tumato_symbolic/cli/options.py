@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, fields
+from pathlib import Path
 from typing import Any, ClassVar, Literal, NamedTuple
 
 OutputFormat = Literal["text", "json", "github", "sarif"]
@@ -19,6 +20,15 @@ class Target(NamedTuple):
     option: str = "-o"
     example: str = "policy.json"
     path: str = ""
+
+
+_LARGE = 200_000
+"""Bytes of specifications that take a second or so to read."""
+
+
+def are_large(paths: Iterable[str]) -> bool:
+    """Whether there is much to read in files."""
+    return sum(Path(path).stat().st_size for path in paths if Path(path).is_file()) > _LARGE
 
 
 @dataclass(frozen=True, slots=True)

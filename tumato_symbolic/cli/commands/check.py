@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 from tumato_symbolic.cli import arguments
 from tumato_symbolic.cli.console import note
 from tumato_symbolic.cli.exits import UNDECIDED, USAGE, YES
-from tumato_symbolic.cli.options import CommandOptions, OutputFormat
+from tumato_symbolic.cli.options import CommandOptions, OutputFormat, are_large
 from tumato_symbolic.cli.output import show_as
 from tumato_symbolic.limits import Context
 
@@ -41,7 +41,10 @@ class Options(CommandOptions):
     memory: int | None = arguments.memory()
     output_format: OutputFormat = arguments.output_format("json", "github", "sarif")
 
-    may_take_long: ClassVar[bool] = False
+    @property
+    def may_take_long(self) -> bool:
+        """Where there is much to read."""
+        return are_large(self.specs)
 
 
 def run(options: Options, context: Context) -> int:

@@ -6,12 +6,12 @@ import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 from tumato_symbolic.cli import arguments
 from tumato_symbolic.cli.console import note, wants_colour, write
 from tumato_symbolic.cli.exits import NO, USAGE, YES
-from tumato_symbolic.cli.options import CommandOptions, argument
+from tumato_symbolic.cli.options import CommandOptions, are_large, argument
 from tumato_symbolic.limits import Context
 
 if TYPE_CHECKING:
@@ -41,7 +41,10 @@ class Options(CommandOptions):
     check: bool = arguments.check("write nothing; name the files whose layout is another, and exit with 1")
     diff: bool = argument("--diff", action="store_true", help="the same, and show what would change")
 
-    may_take_long: ClassVar[bool] = False
+    @property
+    def may_take_long(self) -> bool:
+        """Where there is much to read."""
+        return are_large(self.specs)
 
 
 def run(options: Options, context: Context) -> int:
@@ -51,7 +54,7 @@ def run(options: Options, context: Context) -> int:
 
     codes = {YES}
     for path in options.specs:
-        context.tell(f"reading {path}")
+        context.tell(f"laying out {path}")
         try:
             codes.add(_lay_out(path, options))
         except UserError as error:
