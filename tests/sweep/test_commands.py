@@ -14,7 +14,7 @@ import pytest
 from tests.cli.conftest import Cli
 from tests.repo.documents import ROOT
 from tests.sweep.here import AMR
-from tumato_symbolic.limits.processes import _family
+from tumato_symbolic.limits.processes import descendants
 
 SCHEMA = json.loads((ROOT / "tumato_symbolic" / "report" / "sweep.schema.json").read_text())
 
@@ -116,7 +116,7 @@ def test_ctrl_c(tmp_path: Path) -> None:
         while not results.exists() or results.read_text().count("\n") < 4:
             assert running.poll() is None
             time.sleep(0.01)
-        family = _family(running.pid)
+        family = descendants(running.pid)
         running.send_signal(signal.SIGINT)
         out, err = running.communicate(timeout=10)
     assert running.returncode == 130, err

@@ -36,7 +36,7 @@ def age() -> float:
 
 def megabytes_of(process: int) -> float:
     """How much memory a process and its descendants take together, what they share once; 0 where that is unknown."""
-    family = _family(process)
+    family = descendants(process)
     if len(family) == 1:
         return _resident(process)
     return sum(_proportional(each) for each in family)
@@ -56,8 +56,8 @@ def _proportional(process: int) -> float:
     return 0.0
 
 
-def _family(process: int) -> list[int]:
-    """A process and its descendants."""
+def descendants(process: int) -> list[int]:
+    """A process and all below it."""
     found = [process]
     for each in found:
         with suppress(OSError, ValueError):
