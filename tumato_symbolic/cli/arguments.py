@@ -18,6 +18,11 @@ def specs(number: int | str = 1, help_: str = "the specification, a .tum file") 
     return argument(metavar="SPEC", nargs=number, help=help_)
 
 
+def several_specs() -> Any:  # noqa: ANN401
+    """`SPEC …`, where several may be done."""
+    return specs("+", "the specification, a .tum file; several, or folders of them, for a table with a line for each")
+
+
 def output(writes: Target, default: str, help_: str) -> Any:  # noqa: ANN401
     """`--output`, where that is what the command is for."""
     return argument("-o", "--output", metavar="FILE", default=default, help=help_, writes=writes)

@@ -61,11 +61,11 @@ class Specifications:
         covered = list(covered)
         known = {each.resolve() for each in covered}
         meant = {self._digest(each) for each in covered} - {None}
-        everything = _inside(self._spec_folders or self._beside)
+        everything = inside(self._spec_folders or self._beside)
         return [each for each in everything if each.resolve() not in known and self._digest(each) not in meant]
 
     def _all(self) -> Iterator[Path]:
-        return _inside([*self._spec_folders, *self._beside])
+        return inside([*self._spec_folders, *self._beside])
 
     def _digest(self, path: Path) -> str | None:
         """The digest of a specification; None where it cannot be used."""
@@ -84,7 +84,7 @@ def _names(path: Path) -> list[str]:
     return [name, name.removesuffix(".policy")] if name.endswith(".policy") else [name]
 
 
-def _inside(folders: Iterable[Path]) -> Iterator[Path]:
+def inside(folders: Iterable[Path]) -> Iterator[Path]:
     """The specifications that stand directly in folders."""
     for folder in folders:
         if os.path.isdir(folder):  # noqa: PTH112 - fails for no name

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, fields
 from pathlib import Path
@@ -39,11 +40,13 @@ class CommandOptions:
     takes the place of the default here.
     """
 
-    own_seconds: ClassVar[float | None] = None
-    """How long the command takes at most where no limit is asked for."""
-
     reports_interruption: ClassVar[bool] = False
     """Whether what is known is reported after Ctrl-C as well."""
+
+    @property
+    def own_seconds(self) -> float | None:
+        """How long the command takes at most where no limit is asked for."""
+        return None
 
     @property
     def may_take_long(self) -> bool:
@@ -59,6 +62,11 @@ class CommandOptions:
     def specs(self) -> tuple[str, ...]:
         """The files with specifications."""
         return ()
+
+    @property
+    def is_many(self) -> bool:
+        """Whether there are several files to do one thing with, or folders of them, where a command does that."""
+        return len(self.specs) > 1 or any(map(is_folder, self.specs))
 
     @property
     def timeout(self) -> float | None:
@@ -99,6 +107,11 @@ class CommandOptions:
     def report_apart(self) -> bool:
         """Whether the standard output is for what the command makes, and not for its report."""
         return any(getattr(self, name) == STANDARD_OUTPUT for name in self.outputs())
+
+
+def is_folder(name: str) -> bool:
+    """Whether a name is that of a folder."""
+    return os.path.isdir(name)  # noqa: PTH112 - Path.is_dir() fails for names that are too long
 
 
 def argument(*flags: str, writes: Target | None = None, **settings: Any) -> Any:  # noqa: ANN401 - a field of any type

@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 import stat
 import sys
+from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import replace
-from itertools import combinations
 from pathlib import Path
 from typing import TextIO, TypeVar
 
@@ -27,14 +27,17 @@ def settled(options: AnyOptions) -> AnyOptions:
     """
     named = {field: getattr(options, field) for field in options.outputs()}
     options = replace(options, **{field: _name(output) for field, output in named.items() if output is not None})
+    inputs = [(name, _standard(sys.stdin) if name == "-" else _status(name)) for name in options.inputs()]
+    known: dict[object, Target] = {}
     for target in options.targets():
         if target.path == STANDARD_OUTPUT:
             need_output()
         else:
             _check_file(target)
-        _check_inputs(target, options)
-    for one, other in combinations(options.targets(), 2):
-        _check_apart(one, other)
+        _check_inputs(target, inputs)
+        place = _place(target)
+        if place is not None and known.setdefault(place, target) is not target:
+            raise _not_apart(known[place], target)
     return options
 
 
@@ -107,33 +110,32 @@ def _another(target: Target) -> str:
     return f"name another file with {target.option} FILE"
 
 
-def _check_inputs(target: Target, options: CommandOptions) -> None:
+def _check_inputs(target: Target, inputs: Iterable[tuple[str, os.stat_result | None]]) -> None:
     """Raise `UserError` (TUM118) where the target is an input, be it by another name or through a link."""
     written = _standard(sys.stdout) if target.path == STANDARD_OUTPUT else _status(target.path)
     if written is None or stat.S_ISCHR(written.st_mode):
         return
-    for name in options.inputs():
-        read = _standard(sys.stdin) if name == "-" else _status(name)
+    for name, read in inputs:
         if read is not None and os.path.samestat(read, written):
             there = "the standard output" if target.path == STANDARD_OUTPUT else quoted(target.path)
             message = f"the {target.what} is not written to {there}: that is {_input(name, target.path)}"
             raise UserError((Diagnostic(Code.TUM118, message, help=_another(target)),))
 
 
-def _check_apart(one: Target, other: Target) -> None:
-    """Raise `UserError` (TUM118) where two files that are written are the same."""
+def _not_apart(one: Target, other: Target) -> UserError:
+    """That two files that are written are the same (TUM118)."""
     if one.path == other.path == STANDARD_OUTPUT:
         message = f"the {one.what} and the {other.what} do not both go to the standard output"
-    elif _place(one) is not None and _place(one) == _place(other):
-        message = f"the {one.what} and the {other.what} are not both written to {quoted(one.path)}"
     else:
-        return
-    raise UserError((Diagnostic(Code.TUM118, message, help=_another(one if other.option == "-o" else other)),))
+        message = f"the {one.what} and the {other.what} are not both written to {quoted(one.path)}"
+    return UserError((Diagnostic(Code.TUM118, message, help=_another(one if other.option == "-o" else other)),))
 
 
-def _place(target: Target) -> tuple[int, int] | Path | None:
-    """What two names of the same file have in common; None for the standard output, a device or a pipe."""
-    if target.path == STANDARD_OUTPUT or is_stream(Path(target.path)):
+def _place(target: Target) -> tuple[int, int] | Path | str | None:
+    """What two names of the same file have in common; None for a device or a pipe, which may take several."""
+    if target.path == STANDARD_OUTPUT:
+        return STANDARD_OUTPUT
+    if is_stream(Path(target.path)):
         return None
     found = _status(target.path)
     return Path(target.path).resolve() if found is None else (found.st_dev, found.st_ino)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import sys
 import time
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from tumato_symbolic.cli import arguments
 from tumato_symbolic.cli.console import note, wants_colour, write, writing
@@ -18,8 +19,10 @@ from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.limits import Context
 
 if TYPE_CHECKING:
+    from tumato_symbolic.cli.many import Doing, Work
     from tumato_symbolic.explain.explanation import Explanation, Wanted
     from tumato_symbolic.report.explained import Explained
+    from tumato_symbolic.report.many import Many
     from tumato_symbolic.spec import Ordering, Restoration
 
 ABOUT = """\
@@ -35,6 +38,7 @@ examples:
   tumato-sym explain robots.tum
   tumato-sym explain robots.tum --write robots_assumed.tum       # with the assumption that makes it realizable
   tumato-sym explain robots.tum --output-format sarif > explain.sarif
+  tumato-sym explain robots/                                     # a folder: a line for each, in one table
 """
 
 
@@ -46,7 +50,7 @@ _BETWEEN = 0.5
 class Options(CommandOptions):
     """What may be typed after `explain`."""
 
-    specs: tuple[str, ...] = arguments.specs()
+    specs: tuple[str, ...] = arguments.several_specs()
     max_cubes: int | None = argument(
         "--max-cubes",
         type=whole(1),
@@ -76,8 +80,31 @@ class Options(CommandOptions):
     restoration: Restoration | None = arguments.restoration()
     output_format: OutputFormat = arguments.output_format("json", "github", "sarif")
 
-    own_seconds: ClassVar[float | None] = 58.0
+    jobs: int | None = arguments.jobs("several specifications")
+
     reports_interruption: ClassVar[bool] = True
+
+    @property
+    def own_seconds(self) -> float | None:
+        """A minute for each specification."""
+        return None if self.is_many else 58.0
+
+    def mistake(self) -> str | None:
+        """What is written is written for one specification."""
+        if self.is_many and "-" in self.specs:
+            return "the standard input is one specification; name files or folders for several"
+        if self.is_many and self.write is not None:
+            return "--write writes one specification, and there are several"
+        if self.is_many and self.output_format not in ("text", "json"):
+            return f"--output-format {self.output_format} is for one specification; give them one after the other"
+        return None
+
+    def each(self) -> Iterator[Work]:
+        """Every specification with options of its own. Raises `UserError`."""
+        from tumato_symbolic.cli.many import Work, specifications
+
+        for file in specifications(self.specs):
+            yield Work(file, replace(self, specs=(file,), output_format="json"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,6 +118,11 @@ class _Known:
 
 def run(options: Options, context: Context) -> int:
     """Exit with 1 where there is no policy: that is the answer, and the explanation belongs to it."""
+    if options.is_many:
+        from tumato_symbolic.cli.many import run_many
+        from tumato_symbolic.cli.verifying import wanted_jobs
+
+        return run_many(options.each(), _doing(), options, context, jobs=wanted_jobs(options.jobs))
     from tumato_symbolic.cli.inputs import errors_in, read_spec, show_warnings
     from tumato_symbolic.explain.explain import MAX_CUBES, explained
     from tumato_symbolic.explain.explanation import Explanation, Unexplained
@@ -119,11 +151,32 @@ def run(options: Options, context: Context) -> int:
     return _ended(known, options)
 
 
-def stopped(known: _Known, why: str, options: Options) -> int:
+def stopped(known: _Known | Many, why: str, options: Options) -> int:
     """Report what is known, or what of it is not written yet, when work has to end."""
+    if not isinstance(known, _Known):
+        from tumato_symbolic.cli.many import ended as many_ended
+
+        return many_ended(known, why, _doing(), options)
     from tumato_symbolic.explain.explanation import stopped as what_is_known
 
     return _ended(replace(known, done=replace(known.done, found=what_is_known(known.done.found, why))), options)
+
+
+def _doing() -> Doing:
+    from tumato_symbolic.cli.many import Doing
+
+    return Doing(run, stopped, _said)
+
+
+def _said(report: Mapping[str, Any]) -> str:
+    """What was found of one of several specifications."""
+    if report["verdict"] == "realizable":
+        return "nothing to explain"
+    from tumato_symbolic.report.layout import count
+
+    found = [count(report["failing_states"], "failing state"), f"reasons: {len(report['failures']):,}"]
+    found.append(f"repairs: {len(report['repairs']):,}")
+    return ", ".join(found) + (f"; {report['limit']}" if report["limit"] else "")
 
 
 def _learned(known: _Known, options: Options, context: Context) -> _Known:

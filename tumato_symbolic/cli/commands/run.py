@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from tumato_symbolic.cli import arguments
 from tumato_symbolic.cli.console import note, write, writing
 from tumato_symbolic.cli.exits import NO, YES
 from tumato_symbolic.cli.numbers import probability, whole
-from tumato_symbolic.cli.options import STANDARD_OUTPUT, CommandOptions, OutputFormat, Target, argument
+from tumato_symbolic.cli.options import STANDARD_OUTPUT, CommandOptions, OutputFormat, Target, argument, is_folder
 from tumato_symbolic.cli.output import show_as
 from tumato_symbolic.limits import Context, LimitReachedError
 
 if TYPE_CHECKING:
+    from tumato_symbolic.cli.many import Work
     from tumato_symbolic.explain.decision import Decisions
+    from tumato_symbolic.report.many import Many
     from tumato_symbolic.report.objections import Place
     from tumato_symbolic.semantics import State, Trace
     from tumato_symbolic.simulation import Faults, Starts
@@ -39,6 +41,7 @@ examples:
   tumato-sym run policy.json amr.tum S_Location=corridor S_Battery=low S_Load=free S_Conveyor=on
   tumato-sym run policy.json amr.tum --faults random --disturb 0.1 --runs 1000 --seed 7
   tumato-sym run policy.json amr.tum --faults worst --itf worst.itf.json
+  tumato-sym run proofs/ robots/ --faults worst                   # every NAME.policy.json, in one table
 """
 
 _STEPS = 1_000
@@ -48,8 +51,10 @@ _STEPS = 1_000
 class Options(CommandOptions):
     """What may be typed after `run`."""
 
-    policy: str = arguments.policy()
-    specs: tuple[str, ...] = arguments.specs()
+    policy: str = arguments.policy("the policy, a .json file, or a folder of them")
+    specs: tuple[str, ...] = arguments.specs(
+        help_="the specification, a .tum file; for a folder, that of its specifications"
+    )
     assignments: tuple[str, ...] = arguments.state("*", "where to start: values of variables")
     faults: Literal["none", "random", "worst"] | None = argument(
         "--faults",
@@ -74,6 +79,7 @@ class Options(CommandOptions):
         help="write the run as an ITF trace, the format of Apalache",
         writes=Target("trace", "--itf", "trace.itf.json"),
     )
+    jobs: int | None = arguments.jobs("a folder of policies")
     timeout: float | None = arguments.timeout()
     memory: int | None = arguments.memory()
     effect_ordering: Ordering | None = arguments.effect_ordering("the specification's, else any")
@@ -90,8 +96,23 @@ class Options(CommandOptions):
         """Not where every step is shown."""
         return self.by_itself
 
+    @property
+    def is_many(self) -> bool:
+        """Whether a folder of policies is executed."""
+        return is_folder(self.policy)
+
+    def each(self) -> Iterator[Work]:
+        """Every policy of the folder with options of its own. Raises `UserError` where it has none."""
+        from tumato_symbolic.cli.many import Work, policies_in
+
+        for policy, spec in policies_in(self.policy, self.specs[0]):
+            own = replace(self, policy=policy, specs=(spec,), output_format="json") if isinstance(spec, str) else spec
+            yield Work(policy, own)
+
     def mistake(self) -> str | None:
         """Step by step there is somebody to ask; the worst case leaves nothing to chance."""
+        if self.is_many and (not self.by_itself or self.itf is not None):
+            return "a folder of policies is executed by itself, and no trace written; add --faults none, say"
         if not self.by_itself:
             if "-" in self.inputs():
                 return "step by step, the standard input is for commands; add --faults none for a run by itself"
@@ -119,6 +140,12 @@ def run(options: Options, context: Context) -> int:
     from tumato_symbolic.policy import UndecidedState
     from tumato_symbolic.simulation import NoStartError
 
+    if options.is_many:
+        from tumato_symbolic.cli.many import Doing, run_many
+        from tumato_symbolic.cli.verifying import wanted_jobs
+
+        doing = Doing(run, None, _said)
+        return run_many(options.each(), doing, options, context, jobs=wanted_jobs(options.jobs))
     loaded = _load(options, context)
     try:
         if not options.by_itself:
@@ -127,6 +154,36 @@ def run(options: Options, context: Context) -> int:
     except (NoStartError, UndecidedState) as error:
         note(f"tumato-sym: {error}")
         return NO
+
+
+def stopped(known: Many, why: str, options: Options) -> int:
+    """Report the policies of a folder that were executed when a limit was met."""
+    from tumato_symbolic.cli.many import Doing, ended
+
+    return ended(known, why, Doing(run, None, _said), options)
+
+
+def _said(report: Mapping[str, Any]) -> str:
+    """What was found of one policy of a folder."""
+    from tumato_symbolic.report.layout import count
+
+    if report["faults"] == "worst":
+        steps = (
+            "the goal may be kept away for ever"
+            if report["steps"] is None
+            else f"at most {count(report['steps'], 'step')}"
+        )
+        return f"{report['specification']}: {steps} from {count(report['starts'], 'start')}"
+    ends = (f"{number:,} {_ENDS[end]}" for end, number in report["ends"].items() if number)
+    return f"{report['specification']}: of {count(report['runs'], 'run')} {', '.join(ends)}"
+
+
+_ENDS = {
+    "goal": "met the goal",
+    "bound": "came to the bound",
+    "loop": "came to a loop",
+    "undefined": "were not decided",
+}
 
 
 def _load(options: Options, context: Context) -> _Loaded:

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import os
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from tumato_symbolic.cli import arguments
-from tumato_symbolic.cli.options import CommandOptions, OutputFormat, Target, argument
+from tumato_symbolic.cli.options import CommandOptions, OutputFormat, Target, argument, is_folder
 from tumato_symbolic.limits import Context
 
 if TYPE_CHECKING:
@@ -113,8 +112,7 @@ class Options(CommandOptions):
 
         And with restoring, which is added where it is asked for at all.
         """
-        is_folder = os.path.isdir(self.policy)  # noqa: PTH112 - Path.is_dir() fails for names that are too long
-        if len(self.specs) > 1 or not (self.specs or is_folder):
+        if len(self.specs) > 1 or not (self.specs or is_folder(self.policy)):
             return "give a policy and its specification, or a folder of policies"
         if self.specs and self.spec_folders:
             return "give either the specification, or --specs DIR for a folder of policies"
