@@ -200,7 +200,6 @@ def test_where_nothing_can_be_written_is_2(cli: Cli, output: str) -> None:
         [],
         ["solve"],
         ["synth"],
-        ["synth", "amr.tum", "extra.tum"],
         ["synth", "amr.tum", "--effect-ordering", "last"],
         ["synth", "amr.tum", "-o", ""],
         ["verify", "amr.json"],
