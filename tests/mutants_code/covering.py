@@ -5,14 +5,25 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+RULES = "tests/conformance"
+
+
+def asking(engine: str) -> str:
+    """Of the tests of all engines, those that ask this one."""
+    return f"not (conformance and not {engine})"
+
+
 SEMANTICS = (
     "tests/semantics/test_literal.py",
     "tests/semantics/test_goals.py",
-    "tests/conformance",
+    "tests/semantics/test_restoration.py",
+    RULES,
+    "tests/clauses/test_cases.py",
     "-k",
-    "semantics or explicit",
+    asking("explicit"),
 )
-STEPS = ("tests/symbolic/test_steps.py",)
+EXECUTIONS = ("tests/simulation", "tests/semantics/test_guarantees.py", "tests/cli/test_run.py")
+STEPS = ("tests/symbolic/test_steps.py", "tests/restoration/test_synthesis.py", RULES, "-k", asking("bdd"))
 NUMBERS = ("tests/policy/test_numbers.py",)
 BINDING = (
     *NUMBERS,
@@ -33,13 +44,18 @@ BY_STATES = (
     "tests/verify/test_portfolio.py",
     "tests/verify/test_verify.py",
     "tests/verify/test_forged_ranks.py",
+    "tests/verify/test_without_effects.py",
     f"{JUDGED}::test_a_certificate_changes_no_verdict[explicit]",
     *(
         f"{JUDGED}::test_strangers_are_judged_as_by_the_explicit_meaning[{case}-explicit]"
         for case in ("any-restoring", "first-interacting", "any-concurrent")
     ),
+    "tests/verify/test_restoring_claims.py",
+    "tests/verify/test_several_steps.py",
+    "tests/starts/test_starts.py",
+    RULES,
     "-k",
-    "not walk and not z3 and not once and not parts",
+    f"not walk and not z3 and not once and not parts and {asking('states')}",
 )
 WALK = (
     "tests/verify/test_closed_loop.py",
@@ -48,9 +64,13 @@ WALK = (
     "tests/verify/test_forged_steps.py",
     "tests/verify/test_forged_ranks.py",
     "tests/verify/test_walk.py",
+    "tests/verify/test_restoring_claims.py",
+    "tests/verify/test_several_steps.py",
+    "tests/starts/test_starts.py",
+    RULES,
     "-k",
     "not z3 and not once and not parts and not -explicit and not agree_also and not concurrent and not mixed"
-    " and not interacting-by-case",
+    f" and not interacting-by-case and {asking('walk')}",
 )
 WALK_PROVER = (
     "tests/verify/test_effort.py",
@@ -77,17 +97,27 @@ Z3 = (
     *STRANGERS,
     f"{JUDGED}::test_a_certificate_changes_no_verdict[at-once]",
     "tests/verify/test_forged_ranks.py",
+    "tests/verify/test_restoring_claims.py",
+    "tests/verify/test_several_steps.py",
+    "tests/starts/test_starts.py",
+    RULES,
     "-k",
-    "not walk and not limit and not -explicit and not -7]",
+    f"not walk and not limit and not -explicit and not -7] and {asking('z3')}",
 )
 NO_POLICY = (
     "tests/verify/test_false_answers.py",
     "tests/verify/test_unrealizable_parts.py",
     "tests/verify/test_unrealizable_by_hand.py",
     "tests/verify/test_forged_unrealizable.py",
+    "tests/verify/test_no_restoration.py",
+    "tests/verify/test_no_plan.py",
+    "tests/verify/test_unrealizable.py",
+    "tests/starts/test_starts.py",
 )
 VERIFY = (
     "tests/verify/test_effort.py",
+    "tests/verify/test_amr.py",
+    "tests/verify/test_without_effects.py",
     "tests/verify/test_jobs.py",
     "tests/verify/test_closure.py",
     COUNTS,
@@ -95,6 +125,8 @@ VERIFY = (
     "tests/verify/test_verify.py",
     *STRANGERS,
     "tests/verify/test_forged_ranks.py",
+    "tests/verify/test_restoring_claims.py",
+    "tests/verify/test_many_goals.py",
     "-k",
     "not -7] and not depend",
 )
@@ -125,7 +157,9 @@ CHECKER = (
 )
 TESTS: dict[str, tuple[str, ...]] = {
     "tumato_symbolic/semantics/guarantees.py": ("tests/semantics/test_guarantees.py",),
-    "tumato_symbolic/semantics/shortcomings.py": ("tests/semantics/test_guarantees.py",),
+    "tumato_symbolic/semantics/shortcomings.py": ("tests/semantics/test_guarantees.py", "tests/verify/test_guarantees.py"),
+    "tumato_symbolic/semantics/traces.py": EXECUTIONS,
+    "tumato_symbolic/semantics/exclusion.py": STEPS,
     "tumato_symbolic/semantics": SEMANTICS,
     "tumato_symbolic/symbolic/steps.py": STEPS,
     "tumato_symbolic/policy/decisions/binding.py": BINDING,
