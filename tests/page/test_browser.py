@@ -45,6 +45,7 @@ def test_pages_open_filter_step_and_compare(cli: Cli, tmp_path: Path) -> None:
     assert "they suffice for that, and none of them can be left out" in none["check"]
     assert "Not checked by this page: whether more states fail; what would help" in none["check"]
     assert "These lines together suffice" in none["reasons"]
+    assert "THEN S_Conv1 is off` (line 114)" in none["reasons"]
     assert none["line"]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Source
@@ -129,7 +130,12 @@ def _explanation(page: NoPolicyPage) -> dict[str, Json]:
     if not isinstance(done.found, Explanation):
         return found | {"repairs": [], "left_out": []}
     reasons = [
-        failure | {"elements": elements_record(done.spec, reason.core), "later": reason.later}
+        failure
+        | {
+            "elements": elements_record(done.spec, reason.core),
+            "later": reason.later,
+            "near": [_by_line(each["story"], done.source.name) for each in failure["near"]],
+        }
         for failure, reason in zip(found["failures"], largest_first(done.found.reasons), strict=True)
     ]
     return found | {
@@ -137,3 +143,8 @@ def _explanation(page: NoPolicyPage) -> dict[str, Json]:
         "repairs": [piece.strip("\n") for piece in repair_pieces(done.place, done.found)],
         "left_out": [each.strip() for each in left_out_lines(done.found)] if done.found.left_out else [],
     }
+
+
+def _by_line(text: str, file: str) -> str:
+    """A text in which places in the one file of the page are lines."""
+    return re.sub(rf"{re.escape(file)}:(\d+)", r"line \1", text)

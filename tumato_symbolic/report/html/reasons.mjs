@@ -40,7 +40,7 @@ export function reasonsView(app) {
   const { no } = app.data;
   const unknown = no.verdict === "realizable" ? "There is a policy after all: this certificate proves nothing." : `Why there is none was not found out: ${no.limit}.`;
   const element = h("div", no.verdict !== "unrealizable" ? h("p.doubt", unknown) : [
-    no.failing_states ? h("p", `${counted(no.failing_states, "state")} ${no.failing_states === 1 ? "fails" : "fail"}.`) : null,
+    no.failing_states ? h("h2", `${counted(no.failing_states, "state")} ${no.failing_states === 1 ? "fails" : "fail"}.`) : null,
     no.failures.length ? no.failures.map((each, n) => reason(app, each, app.marks[n])) : no.groups.map((each) => failing(app, each)),
     no.repairs.length ? [h("h3", "What would help"), no.repairs.map(repair)] : null,
     part(no.realizable_part), no.left_out.map((each) => h("p.doubt", each))]);
@@ -68,7 +68,7 @@ function reason(app, each, mark) {
       h("li", h("code", line.action ? `${line.action}: ${line.text}` : line.text), " ", line.line ? lineLink(app, line) : null, h("br"), h("small", line.role))))] : null,
     each.goals.length ? [h("p", "Its goals:"), h("ul", each.goals.map((goal) =>
       h("li", h("code", goal.text), " ", lineLink(app, goal), goal.never_true.length ? ` no effect ever makes this true: ${goal.never_true.join(", ")}` : "")))] : null,
-    each.near.length ? [h("p", "What comes nearest:"), h("ul", each.near.map(({ story }) => h("li", story)))] : null];
+    each.near.length ? [h("p", "What comes nearest:"), h("ul", each.near.map((story) => h("li", story)))] : null];
   element.append(...parts.flat().filter((one) => one));
   return element;
 }
