@@ -79,7 +79,7 @@ def _verdict(page: PolicyPage) -> dict[str, Json]:
 
 def _property(page: PolicyPage, proof: Verification, result: PropertyResult) -> dict[str, Json]:
     refutation = result.refutation
-    return {
+    found = {
         "name": result.name,
         "verdict": result.verdict,
         "by": prover_names(result.proved_by) if result.proved_by else None,
@@ -88,6 +88,7 @@ def _property(page: PolicyPage, proof: Verification, result: PropertyResult) -> 
         "refutation": None if refutation is None else refutation_text(Place(page.spec, page.source.name), refutation),
         "state": None if refutation is None or refutation.state is None else list(refutation.state),
     }
+    return {name: value for name, value in found.items() if value is not None}
 
 
 def _rules(spec: Spec, found: RuleList) -> dict[str, Json]:

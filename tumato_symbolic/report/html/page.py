@@ -99,11 +99,19 @@ def _plain(text: str) -> str:
 _PIECES: Final = re.compile(r'("(?:[^"\\\n]|\\.)*"|`(?:[^`\\]|\\.)*`)')
 """Strings and templates, which stay as they are; no template stands in another, and no regular expression anywhere."""
 
+_SHORTER: Final = (
+    (re.compile(r"\n(?!\w)|(?<!\w)\n| *([-{}()\[\],;:?<>=|&!+*/]) *"), r"\1"),
+    (re.compile(r"(?<!\w)\((\w+)\)=>"), r"\1=>"),
+    (re.compile(r"\bconst\b"), "let"),
+)
+"""What only people need, and what stands for it."""
+
 
 def _tight(program: str) -> str:
-    """Without the spaces and ends of lines that nobody but people needs: every statement ends with `;` or `}`."""
+    """The same in fewer letters: every statement ends with `;` or `}`."""
     parts = _PIECES.split(program)
-    parts[::2] = [re.sub(r"\n(?!\w)|(?<!\w)\n| *([-{}()\[\],;:?<>=|&!+*/]) *", r"\1", part) for part in parts[::2]]
+    for longer, shorter in _SHORTER:
+        parts[::2] = [longer.sub(shorter, part) for part in parts[::2]]
     return "".join(parts).replace(";}", "}") + "\n"
 
 
@@ -113,7 +121,7 @@ def _style() -> str:
 
 def _tight_style(style: str) -> str:
     """The same for a style sheet."""
-    return re.sub(r"\s*([{};:,])\s*", r"\1", style)
+    return re.sub(r"\s*([{};:,])\s*", r"\1", style).replace(";}", "}")
 
 
 def _hash(text: str) -> str:
