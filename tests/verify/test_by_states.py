@@ -15,10 +15,10 @@ from tests.verify.test_forged_ranks import along, exact, restoring
 from tests.verify.test_forged_steps import ORDERINGS, SPECS
 from tumato_symbolic.limits import Context
 from tumato_symbolic.policy import policy_from_rows
-from tumato_symbolic.semantics import ActionSet, Residual, State, duration, nominal_agrees
+from tumato_symbolic.semantics import ActionSet, Residual, State, duration, holds, nominal_agrees
 from tumato_symbolic.spec import TRUE, Not, Ordering, Spec
 from tumato_symbolic.verify import PropertyName
-from tumato_symbolic.verify.by_states import prover, steps
+from tumato_symbolic.verify.by_states import packed, prover, steps
 from tumato_symbolic.verify.by_states.packed import Packing, valid_states
 from tumato_symbolic.verify.by_states.prover import StateProver
 from tumato_symbolic.verify.by_states.runs import Runs
@@ -52,6 +52,17 @@ def test_states_as_numbers() -> None:
         keep, put = packing.writes(effect)
         assert packing.unpack(packing.pack(state) & keep | put) == literal.changed(state, effect)
         assert packing.unpack(packing.pack(state) & packing.mask([0, 2])) == (state[0], 0, state[2])
+
+
+@pytest.mark.parametrize("few", [0, 3, 100])
+@pytest.mark.parametrize("spec", GENERATED)
+def test_rules_that_are_asked_of_as_one(spec: Spec, few: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whether all rules hold is whether each does, however many are put together."""
+    monkeypatch.setattr(packed, "REMEMBERED_BITS", few)
+    packing, rules = Packing(spec), (*spec.assumptions, *spec.state_rules)
+    test = packed.all_hold(packing, rules)
+    for state in literal.states(spec):
+        assert test(packing.pack(state)) == all(holds(rule.formula, state) for rule in rules)
 
 
 @pytest.mark.parametrize("spec", [*SPECS, *GENERATED])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from math import prod
 from typing import TypeAlias
 
@@ -115,6 +115,17 @@ class Sets(UniqueTable):
                     seen.add(below[value])
                     pending.append(below[value])
         return True
+
+    def states(self, states: Reference) -> Iterator[tuple[int, ...]]:
+        """Every state of a set, with a value for every level; in no order that means anything."""
+        pending: list[tuple[Reference, tuple[int, ...]]] = [] if states == NOTHING else [(states, ())]
+        while pending:
+            rest, values = pending.pop()
+            if len(values) == self._depth:
+                yield values
+            else:
+                parts = enumerate(self.below(len(values), rest))
+                pending += [(part, (*values, value)) for value, part in parts if part != NOTHING]
 
     def tested(self, states: Reference) -> dict[int, set[int]]:
         """For every level that a set tests somewhere, the values that lead on to some of its states."""

@@ -145,10 +145,12 @@ def _counted(answer: Verification, decisions: Decisions, spec: Spec, valid: int 
         return replace(answer, valid_states=valid, decided_states=valid)
     if valid is None and count_states(spec) <= LARGEST_TABLE:
         valid = sum(is_valid(spec, state) for state in all_states(spec))
+    if spec.starts and valid is not None:  # only what is decided is looked at
+        return replace(answer, valid_states=_valid_at_all(spec), decided_states=valid)
     rows = decisions.rows
     decided = None if rows is None else len(rows)
     if spec.starts:
-        return replace(answer, valid_states=_valid_at_all(spec), decided_states=valid if decided is None else decided)
+        return replace(answer, valid_states=_valid_at_all(spec), decided_states=decided)
     return replace(answer, valid_states=valid, decided_states=decided)
 
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import product
+from operator import itemgetter
 from typing import TypeAlias
 
-from tumato_symbolic.diagrams import Diagram, DiagramBuilder, Reference
+from tumato_symbolic.diagrams import LEAVES, Diagram, DiagramBuilder, Reference, Sets, room_for
 from tumato_symbolic.policy.policy import Policy
 from tumato_symbolic.policy.records import Certificate, DecisionDiagram, Table, Vocabulary
 from tumato_symbolic.semantics import ActionSet, State, actions_of
@@ -103,12 +103,24 @@ def as_table(policy: Policy, limit: int) -> Table | None:
         return None
     if isinstance(policy.decisions, Table):
         return policy.decisions
-    sizes = policy.vocabulary.sizes
-    rows: dict[State, ActionSet] = {}
-    for fixed, chosen in _cubes(policy.decisions, sizes):
-        free = [(fixed[variable],) if variable in fixed else range(size) for variable, size in enumerate(sizes)]
-        rows.update(dict.fromkeys(product(*free), chosen))
-    return Table(dict(sorted(rows.items())))
+    return Table(_rows(policy.decisions, policy.vocabulary.sizes))
+
+
+def _rows(decisions: DecisionDiagram, sizes: tuple[int, ...]) -> dict[State, ActionSet]:
+    """The decisions in row-major order: the decided states, then for each action those of them where it is executed."""
+    tested = decisions.diagram.order
+    order = (*tested, *(variable for variable in range(len(sizes)) if variable not in tested))
+    place = [order.index(variable) for variable in range(len(order))]
+    with room_for(len(order)):
+        sets = Sets(order, sizes)
+        defined, *executed = sets.take(decisions.diagram, (decisions.defined, *decisions.roots), LEAVES)
+        chosen: dict[tuple[int, ...], tuple[int, ...]] = dict.fromkeys(sets.states(defined), ())
+        for action, states in enumerate(executed):
+            for state in sets.states(sets.both(states, defined)):
+                chosen[state] = (*chosen[state], action)
+    known = {each: frozenset(each) for each in set(chosen.values())}
+    rows = ((tuple([state[level] for level in place]), known[each]) for state, each in chosen.items())
+    return dict(sorted(rows, key=itemgetter(0)))
 
 
 def _cubes(decisions: DecisionDiagram, sizes: tuple[int, ...]) -> Iterator[tuple[dict[int, int], ActionSet]]:

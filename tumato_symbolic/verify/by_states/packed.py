@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from tumato_symbolic.semantics import NOTHING, ActionSet, State, holds
-from tumato_symbolic.spec import Assignment, Formula, Rule, Spec, variables_of
+from tumato_symbolic.spec import And, Assignment, Formula, Rule, Spec, variables_of
 
 Code = int
 """A state: the values of its variables side by side, in a few bits each."""
+
+REMEMBERED_BITS = 12
+"""Rules are asked of as one where all that they mention takes so many bits: few values to remember it for."""
 
 
 class Packing:
@@ -58,9 +61,27 @@ class Remembered:
 
 
 def all_hold(packing: Packing, rules: Sequence[Rule], executed: ActionSet = NOTHING) -> Callable[[Code], bool]:
-    """Whether all of some rules hold."""
-    tests = [Remembered(packing, rule.formula, executed) for rule in rules]
+    """Whether all of some rules hold; those that mention few variables together are asked of as one."""
+    tests = [Remembered(packing, formula, executed) for formula in _together(packing, rules)]
     return lambda code: all(test(code) for test in tests)
+
+
+def _together(packing: Packing, rules: Sequence[Rule]) -> Iterator[Formula]:
+    """Conjunctions of some rules, each with the first that mentions little enough beside it."""
+    groups: list[tuple[int, list[Formula]]] = []
+    for rule in rules:
+        mask = packing.mask(variables_of(rule.formula))
+        fitting = (
+            number for number, (bits, _) in enumerate(groups) if mask | bits in {mask, bits} or _are_few(mask | bits)
+        )
+        number = next(fitting, len(groups))
+        groups[number:] = groups[number:] or [(0, [])]
+        groups[number] = groups[number][0] | mask, [*groups[number][1], rule.formula]
+    return (formulas[0] if len(formulas) == 1 else And(tuple(formulas)) for _, formulas in groups)
+
+
+def _are_few(bits: int) -> bool:
+    return bits.bit_count() <= REMEMBERED_BITS
 
 
 def valid_states(spec: Spec, packing: Packing) -> Iterator[State]:

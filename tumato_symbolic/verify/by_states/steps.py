@@ -38,6 +38,7 @@ class Steps:
         self._spec, self._packing, self._ordering, self._spend = spec, packing, ordering, spend
         self._valid_rules = all_hold(packing, spec.validity)
         self._safe_rules = all_hold(packing, spec.state_rules)
+        self._valid: dict[Code, bool] = {}
         self._safe: dict[Code, bool] = {}
         self._rule_tests = [Remembered(packing, rule.formula) for rule in spec.state_rules]
         tiers = spec.tiers
@@ -53,13 +54,16 @@ class Steps:
 
     def is_valid(self, code: Code) -> bool:
         """`s ∈ V`."""
-        return self._valid_rules(code)
+        found = self._valid.get(code)
+        if found is None:
+            found = self._valid[code] = self._valid_rules(code)
+        return found
 
     def is_safe(self, code: Code) -> bool:
         """`s ∈ S`."""
         found = self._safe.get(code)
         if found is None:
-            found = self._safe[code] = self._valid_rules(code) and self._safe_rules(code)
+            found = self._safe[code] = self.is_valid(code) and self._safe_rules(code)
         return found
 
     def level(self, code: Code) -> int:
