@@ -157,7 +157,10 @@ CHECKER = (
 )
 TESTS: dict[str, tuple[str, ...]] = {
     "tumato_symbolic/semantics/guarantees.py": ("tests/semantics/test_guarantees.py",),
-    "tumato_symbolic/semantics/shortcomings.py": ("tests/semantics/test_guarantees.py", "tests/verify/test_guarantees.py"),
+    "tumato_symbolic/semantics/shortcomings.py": (
+        "tests/semantics/test_guarantees.py",
+        "tests/verify/test_guarantees.py",
+    ),
     "tumato_symbolic/semantics/traces.py": EXECUTIONS,
     "tumato_symbolic/semantics/exclusion.py": STEPS,
     "tumato_symbolic/semantics": SEMANTICS,

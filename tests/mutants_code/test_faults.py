@@ -187,7 +187,7 @@ def test_a_planted_fault_is_noticed() -> None:
 
 
 def test_every_test_of_the_verifier_is_meant_for_some_module() -> None:
-    """A test that is added later is asked too; those that plant faults themselves are no tests of what they plant in."""
+    """A test that is added later is asked too; one that plants faults itself is no test of what it plants in."""
     asked = {argument.split("::")[0] for each in covered(ROOT) for argument in each.tests}
     there = {f"tests/verify/{file.name}" for file in (ROOT / "tests/verify").glob("test_*.py")}
     assert there - asked == {"tests/verify/test_planted_restoring.py"}
