@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import os
 import re
-import subprocess
-import sys
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
+from tests import shell
 from tests.cli.inputs import write_inputs
 from tests.explain.variants import VARIANTS
 from tests.repo.documents import ROOT
@@ -85,20 +83,7 @@ def produce(case: Case) -> str:
     """What the command prints now, stream by stream, without times, and its exit code."""
     with tempfile.TemporaryDirectory() as folder:
         write_inputs(Path(folder))
-        done = subprocess.run(
-            ["sh", "-c", case.command],
-            cwd=folder,
-            env={
-                **os.environ,
-                "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}",
-                "COLUMNS": "100",
-            },
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            text=True,
-            timeout=120,
-            check=False,
-        )
+        done = shell.run(case.command, Path(folder), environment={"COLUMNS": "100"})
     text = f"$ {case.command}\n{done.stdout}"
     if done.stderr:
         text += f"--- standard error\n{done.stderr}"

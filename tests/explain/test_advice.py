@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
 
 import pytest
 
@@ -53,6 +54,7 @@ END GOALS
 """
 
 
+@cache
 def _explained(text: str, wanted: Wanted = 3) -> Explanation:
     found = explain(parse(text), wanted_repairs=wanted)
     assert isinstance(found, Explanation)
@@ -69,9 +71,12 @@ def test_advice_on_robots_is_safe(name: str) -> None:
     assert examine_text(ROBOTS[name]) == []
 
 
-@pytest.mark.parametrize("seed", range(700, 714))
+@pytest.mark.parametrize("seed", range(700, 708))
 def test_advice_on_generated_specifications_is_safe(seed: int) -> None:
-    """The same, by the explicit meaning, which also holds that every repair that is printed gives a policy."""
+    """The same, by the explicit meaning, which also holds that every repair that is printed gives a policy.
+
+    `python -m tests.explain.advice` asks for hundreds.
+    """
     assert examine_generated(seed) in (None, [])
 
 

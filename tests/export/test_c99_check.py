@@ -79,9 +79,12 @@ def test_changed_policies_of_the_robot_are_refused(tmp_path: Path) -> None:
 @needs_cc
 @pytest.mark.parametrize("profile", ALL_PROFILES)
 def test_it_agrees_with_the_explicit_meaning(profile: str, tmp_path: Path) -> None:
-    """On right and wrong policies of generated specifications, under both orderings, fault by fault."""
+    """On right and wrong policies of generated specifications, under both orderings, fault by fault.
+
+    Of more: `python -m tests.export.trial c`.
+    """
     realizable = (found for seed in range(60, 120) if (found := generated(profile, seed, 6)))
-    right, _ = _compare(list(chain.from_iterable(islice(realizable, 2))), tmp_path)
+    right, _ = _compare(list(chain.from_iterable(islice(realizable, 1))), tmp_path)
     assert right > 0
 
 
@@ -89,7 +92,7 @@ def test_it_agrees_with_the_explicit_meaning(profile: str, tmp_path: Path) -> No
 @pytest.mark.parametrize("restoration", ["one_step", "bounded", "fair"])
 def test_it_agrees_where_safety_takes_several_steps(restoration: Restoration, tmp_path: Path) -> None:
     """And with severities of state rules."""
-    cases = [case for seed in range(40, 42) for case in stepwise(seed, restoration, 1 + seed % 3)]
+    cases = stepwise(41, restoration, 3)
     right, wrong = _compare(cases, tmp_path)
     assert wrong > 0
     assert right > 0

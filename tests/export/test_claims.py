@@ -83,12 +83,12 @@ def test_changed_policies_of_the_robot(target: str, verdicts: Verdicts, tmp_path
     changed = [
         {**rows, state: frozenset(chosen)}
         for number, state in enumerate(rows)
-        for chosen in ((number % 8,), (6, (number + 3) % 6))
+        for chosen in ((number % 8,) if number % 2 else (6, (number + 3) % 6),)
     ]
     holed = [{other: chosen for other, chosen in rows.items() if other != state} for state in list(rows)[:4]]
     cases = [Case(made.spec, each, "any") for each in [*changed, *holed]]
     _, wrong = _compare(target, verdicts, cases, tmp_path)
-    assert wrong > 50
+    assert wrong > 25
 
 
 @by_each

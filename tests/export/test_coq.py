@@ -183,8 +183,11 @@ def test_a_restoring_set_that_is_not_the_cheapest_is_refused(amr: Case, library:
 @needs_coq
 @pytest.mark.parametrize("profile", ALL_PROFILES)
 def test_the_checker_agrees_with_the_explicit_meaning(profile: str, library: Library) -> None:
-    """`check` answers `true` for right policies, of generated specifications, and for no others."""
-    cases = [case for seed in range(30) for case in generated(profile, seed, 4)]
+    """`check` answers `true` for right policies, of generated specifications, and for no others.
+
+    Of more: `python -m tests.export.trial coq`.
+    """
+    cases = [case for seed in range(14) for case in generated(profile, seed, 4)]
     expected = [is_right(case) for case in cases]
     assert any(expected)
     assert not all(expected)

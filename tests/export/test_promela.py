@@ -55,13 +55,13 @@ def test_generated_policies(profile: str, tmp_path: Path) -> None:
 @needs_spin
 @pytest.mark.parametrize("restoration", ["one_step", "bounded", "fair"])
 def test_where_safety_takes_several_steps(restoration: Restoration, tmp_path: Path) -> None:
-    """And with severities of state rules."""
+    """And with severities of state rules. Of more specifications: `python -m tests.export.trial spin`."""
     cases = stepwise(53, restoration, 2)
-    _compare([*cases[:2], *cases[-2:]], tmp_path)
+    _compare([cases[0], cases[-2]], tmp_path)
 
 
 @needs_spin
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(2))
 def test_nasty_names_are_read(seed: int, tmp_path: Path) -> None:
     """Words of Promela and of C, and names that are alike once joined, make a model that is searched to the end."""
     spin_accepts(promela.files(random_request(seed))[0], tmp_path)

@@ -17,7 +17,7 @@ from tests.profiles import ALL_PROFILES
 def test_every_tier_tells_right_from_wrong(profile: str, tmp_path: Path) -> None:
     """Z3, the walk and the stand-alone checker accept every right mutant and reject every wrong one, strictly."""
     total = Tally()
-    for seed in range(100, 124):
+    for seed in range(100, 114):
         total.add(examine(profile, seed, 5, tmp_path))
     assert not total.complaints
     assert 0 < total.right < total.mutants
@@ -27,7 +27,7 @@ def test_every_tier_tells_right_from_wrong(profile: str, tmp_path: Path) -> None
 def test_both_checkers_accept_the_same_certificates(profile: str, tmp_path: Path) -> None:
     """What `verify` or the checker accepts has no policy, and is accepted by both; a new layout loses nothing."""
     total = Tally()
-    for seed in range(100, 118):
+    for seed in range(100, 110):
         total.add(examine_unrealizable(profile, seed, 3, tmp_path))
     assert not total.complaints
     assert 0 < total.right < total.mutants

@@ -12,15 +12,14 @@ In expected output, `...` stands for any text on a line, a line that is only `..
 
 from __future__ import annotations
 
-import os
 import re
 import shutil
-import subprocess
-import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
+
+from tests import shell
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -78,18 +77,7 @@ def perform(step: Step | Given, folder: Path) -> str:
     if isinstance(step, Given):
         (folder / step.name).write_text(step.text)
         return ""
-    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
-    done = subprocess.run(
-        ["sh", "-c", step.command],
-        cwd=folder,
-        env={**os.environ, "PATH": path},
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        timeout=120,
-        check=False,
-    )
+    done = shell.run(step.command, folder, together=True)
     assert done.returncode == 0, f"`{step.command}` exits with {done.returncode}:\n{done.stdout}"
     return done.stdout
 

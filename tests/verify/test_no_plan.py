@@ -106,7 +106,7 @@ def test_several_proofs_by_both_provers(profile: str, ordering: Ordering, monkey
 def test_the_walk_and_z3_refute_the_same(profile: str, ordering: Ordering, monkeypatch: pytest.MonkeyPatch) -> None:
     """Of changed layers both say the same, and neither proves what is false."""
     met = set()
-    for spec, certificate, state in without_plan(profile, 10, ordering):
+    for spec, certificate, state in without_plan(profile, 7, ordering):
         world = World(spec, ordering)
         layers = certificate_of(spec, ordering, state, reached(world, state))
         for seed in range(8):

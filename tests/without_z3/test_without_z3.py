@@ -22,13 +22,12 @@ from tumato_symbolic.synthesis.solver import CheapestSet
 MISSING = "cannot be imported here; install it with `pip install z3-solver`"
 
 
-@pytest.mark.parametrize("first", [0, 50])
-def test_answers_are_the_same(first: int) -> None:
-    """Policies, certificates and failing states, byte for byte, of the examples and of 100 specifications in all.
+def test_answers_are_the_same() -> None:
+    """Policies, certificates and failing states, byte for byte, of the examples and of 50 specifications.
 
     Where decisions have to be repaired, there is no answer instead.
     """
-    answers = [run_module("tests.without_z3.answers", str(first), "50", blocked=blocked) for blocked in ((), ("z3",))]
+    answers = [run_module("tests.without_z3.answers", "0", "50", blocked=blocked) for blocked in ((), ("z3",))]
     kinds = set()
     for with_z3, without in zip(*answers, strict=True):
         kinds.add(without[1])
