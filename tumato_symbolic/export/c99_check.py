@@ -23,7 +23,7 @@ def check(request: Request) -> str:
     count = _few_states(request.spec)
     names, loop = Names.of(request), ClosedLoop.of(request)
     return Template(PROGRAM).substitute(
-        header=f"{request.name}.h",
+        name=request.name,
         p=names.prefix,
         u=names.upper,
         state_count=count,

@@ -8,10 +8,12 @@ from typing import Final
 PROGRAM: Final = """\
 $about
 
+   cc -std=c99 -O2 -o check ${name}_check.c $name.c && ./check
+
    What is judged is the compiled policy, and not the code of the robot: that must ask only when nothing is being
    executed, see every effect before it asks again, and keep an action that it halted from having an effect later. */
 
-#include "$header"
+#include "$name.h"
 #include <stdio.h>
 #include <string.h>
 

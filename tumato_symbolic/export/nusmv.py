@@ -17,6 +17,8 @@ _MODEL = Template("""\
 $promise
 --
 $about
+--
+--   NuSMV $name.smv
 
 MODULE main
 
@@ -57,7 +59,7 @@ $more""")
 _ABOUT: Final = (
     "From {begins}: the policy decides; then effects of the set occur, in any order, until the robot halts what is "
     "left, after any of them. Where `nominal` is chosen, a step is all nominal effects of a set at once. Whether a "
-    "cheaper set would restore safety as well is not asked."
+    "cheaper set would restore safety as well is not asked. To check all of it:"
 )
 
 _WORDS: Final = """
@@ -90,7 +92,7 @@ def files(request: Request) -> tuple[str]:
 class _Printer:
     def __init__(self, model: Model, request: Request) -> None:
         self._model, self._loop = model, model.loop
-        self._promise = commented(request.promise, "-- ")
+        self._name, self._promise = request.name, commented(request.promise, "-- ")
         self._claims = Claims(model, _LANGUAGE)
 
     def text(self) -> str:
@@ -99,6 +101,7 @@ class _Printer:
         lasting = f"  still_possible := {places['possible']};\n" if self._loop.preconditions_last else ""
         return _MODEL.substitute(
             places,
+            name=self._name,
             promise=self._promise,
             about=commented(_ABOUT.format(begins=self._loop.begins), "-- "),
             frozen="".join(f"  {name} : boolean;\n" for name in self._frozen()),

@@ -19,6 +19,8 @@ _MODEL = Template("""\
 $promise
 //
 $about
+//
+//   storm --prism $name.prism --prop $name.props --engine dd
 
 mdp
 
@@ -62,7 +64,8 @@ _ABOUT: Final = (
     "From {begins}: the policy decides; then effects of the set occur, in any order, until the robot halts what is "
     "left, after any of them. Where `nominal` is chosen, a step is all nominal effects of a set at once. No "
     "probability is assumed: what occurs is a choice that may be made for ever. Whether a cheaper set would restore "
-    "safety as well is not asked. Where there are more than some hundred states, have Storm take diagrams: --engine dd"
+    "safety as well is not asked. To check all of it (by diagrams: listing the states takes Storm long where they are "
+    "more than some hundred):"
 )
 
 _WORDS: Final = """

@@ -24,7 +24,7 @@ $promise
 
 $about
 
-   spin -a amr.pml && cc -O2 -DSAFETY -o pan pan.c && ./pan -m1000000 */
+   spin -a $name.pml && cc -O2 -DSAFETY -o pan pan.c && ./pan -m1000000 */
 
 $constants
 $variables
@@ -192,7 +192,7 @@ def files(request: Request) -> tuple[str]:
 class _Printer:
     def __init__(self, model: Model, request: Request, states: int) -> None:
         self._model, self._loop, self._states = model, model.loop, states
-        self._promise = commented(request.promise, "   ")
+        self._name, self._promise = request.name, commented(request.promise, "   ")
         self._claims = Claims(model, _LANGUAGE)
 
     def text(self) -> str:
@@ -203,6 +203,7 @@ class _Printer:
         lasting = f"#define STILL_POSSIBLE ({places['possible']})\n" if loop.preconditions_last else ""
         return _MODEL.substitute(
             places,
+            name=self._name,
             promise=self._promise,
             about=commented(_ABOUT.format(begins=loop.begins), "   "),
             begin=_BEGIN if loop.starts is None else _BEGIN_DECIDED.substitute(places),

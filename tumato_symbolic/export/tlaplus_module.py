@@ -12,6 +12,8 @@ MODULE = Template("""\
 $promise
 \\*
 $about
+\\*
+\\*   tlc $module.tla
 
 EXTENDS Naturals
 
@@ -103,7 +105,8 @@ $claims====
 ABOUT: Final = (
     "From {begins}, in the mode `effects`: the policy decides; then effects of the set occur, in any order, until the "
     "robot halts what is left, after any of them. In the mode `nominal`, a step is all nominal effects of a set at "
-    "once, until the goals are reached. Whether a cheaper set would restore safety as well is not asked."
+    "once, until the goals are reached. Whether a cheaper set would restore safety as well is not asked. To check all "
+    "of it:"
 )
 
 
