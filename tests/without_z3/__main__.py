@@ -45,13 +45,15 @@ class Judge:
             report.outcome = "skipped"
         return report
 
+    def pytest_runtest_logstart(self, nodeid: str) -> None:
+        """What a module asks counts from its first test on."""
+        self._enter(nodeid.partition("::")[0])
+
     @pytest.hookimpl(wrapper=True)
     def pytest_runtest_makereport(
         self, item: pytest.Item, call: pytest.CallInfo[None]
     ) -> Generator[None, pytest.TestReport, pytest.TestReport]:
         """Or one of its tests. What one test has computed another may look at."""
-        if call.when == "setup":
-            self._enter(item.nodeid.partition("::")[0])
         report = yield
         if report.failed and self._was_asked() and call.excinfo is not None and _got_over(call.excinfo, report):
             report.longrepr = (str(item.path), item.location[1] or 0, _reason(report.longreprtext))
