@@ -86,7 +86,12 @@ _LANGUAGE = Language(
 
 def files(request: Request) -> tuple[str]:
     """The text of the model. Raises `UserError` (TUM508) where the policy has no short list of rules."""
-    return (_Printer(Model.of(request, _WORDS.split(), _OURS), request).text(),)
+    return (_Printer(model_of(request), request).text(),)
+
+
+def model_of(request: Request) -> Model:
+    """The model of a policy, with the names that it has in NuSMV."""
+    return Model.of(request, _WORDS.split(), _OURS)
 
 
 class _Printer:

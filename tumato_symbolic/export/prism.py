@@ -93,8 +93,13 @@ def files(request: Request) -> tuple[str, str]:
 
     Raises `UserError` (TUM508) where the policy has no short list of rules.
     """
-    printer = _Printer(Model.of(request, _WORDS.split(), _OURS), request)
+    printer = _Printer(model_of(request), request)
     return printer.model(), printer.claims()
+
+
+def model_of(request: Request) -> Model:
+    """The model of a policy, with the names that it has in PRISM."""
+    return Model.of(request, _WORDS.split(), _OURS)
 
 
 class _Printer:

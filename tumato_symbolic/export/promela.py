@@ -181,12 +181,16 @@ def files(request: Request) -> tuple[str]:
     if states > MOST_STATES:
         message = f"the specification has {states:,} states; SPIN can count up to {MOST_STATES:,}"
         raise UserError((Diagnostic(Code.TUM508, message, help="`tumato-sym verify` proves all states at once"),))
+    return (_Printer(model_of(request), request, states).text(),)
+
+
+def model_of(request: Request) -> Model:
+    """The model of a policy, with the names that it has in SPIN."""
     spec = request.spec
     names = {*(each.name for each in spec.actions), *(each.name for each in spec.variables)}
     names |= {f"{variable.name}_{value}" for variable in spec.variables for value in variable.values}
     in_capitals = {identifier(name).upper() for name in names}  # macros of the program that SPIN writes
-    model = Model.of(request, {*_WORDS.split(), *C_WORDS.split(), *in_capitals}, _OURS)
-    return (_Printer(model, request, states).text(),)
+    return Model.of(request, {*_WORDS.split(), *C_WORDS.split(), *in_capitals}, _OURS)
 
 
 class _Printer:

@@ -44,10 +44,15 @@ def files(request: Request) -> tuple[str, str]:
     if not re.fullmatch(r"[A-Za-z0-9_]*[A-Za-z][A-Za-z0-9_]*", request.name) or request.name in _WORDS.split():
         message = f"a module of TLA+ is called like its file, and {quoted(request.name)} is no name of one"
         raise UserError((Diagnostic(Code.TUM510, message, help="take letters, digits and `_`, as in -o amr.tla"),))
-    model = Model.of(request, _WORDS.split(), _OURS)
+    model = model_of(request)
     fields = tuple(f"state.{name}" for name in model.variables)
     texts = tuple(tuple(f'"{value}"' for value in variable.values) for variable in model.loop.variables)
     return _Printer(replace(model, variables=fields, values=texts), model.variables, request).texts()
+
+
+def model_of(request: Request) -> Model:
+    """The model of a policy, with the names that it has in TLA+."""
+    return Model.of(request, _WORDS.split(), _OURS)
 
 
 class _Claims(Claims):
