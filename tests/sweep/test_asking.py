@@ -13,6 +13,7 @@ import pytest
 
 from tests.repo.documents import ROOT
 from tests.sweep.here import COIN, answer
+from tumato_symbolic.limits.processes import megabytes_of
 from tumato_symbolic.sweep import Task, asking
 from tumato_symbolic.sweep.asking import Children
 
@@ -67,6 +68,16 @@ def test_limits_end_a_child(children: Children, monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setattr(asking, "_GRACE", -100.0)
     assert "the time limit of 90 s was met" in why(asked(children, replace(LONG, seconds=90)))
     assert asked(children, QUICK) == answer(json.dumps(asdict(QUICK)))
+
+
+def test_a_child_that_has_grown_gets_no_other_task(children: Children) -> None:
+    """Else that would be undecided for what the one before it took."""
+    if not megabytes_of(os.getpid()):
+        pytest.skip("the system does not tell how much memory a process has")
+    for most, stays in ((10_000, True), (100, False)):
+        assert json.loads(asked(children, replace(QUICK, megabytes=most)))["result"]["verdict"] == "realizable"
+        (child,) = children._all
+        assert child.is_ready == stays
 
 
 def test_children_end_at_once(children: Children) -> None:

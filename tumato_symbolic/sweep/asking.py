@@ -76,7 +76,11 @@ class Children:
         while True:
             with suppress(queue.Empty):
                 line = child.lines.get(timeout=_TICK)
-                return _read(line) if line else Answer({**NOTHING, "limit": child.why_ended()})
+                if not line:
+                    return Answer({**NOTHING, "limit": child.why_ended()})
+                if _has_grown(child, task):
+                    child.end()
+                return _read(line)
             why = _limit(context, child)
             if why is not None:
                 child.end()
@@ -113,6 +117,11 @@ def _limit(context: Context, child: _Child) -> str | None:
     if context.limits.megabytes is not None and megabytes_of(child.number) > context.limits.megabytes:
         return context.described("memory")
     return None
+
+
+def _has_grown(child: _Child, task: Task) -> bool:
+    """Whether a child keeps so much memory that the next task would be blamed for it."""
+    return task.megabytes is not None and megabytes_of(child.number) > task.megabytes / 2
 
 
 def _read(line: str) -> Answer:
