@@ -14,7 +14,7 @@ from tumato_symbolic.report.possible_changes import added_lines, controlled
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.syntax import ast, parse
 from tumato_symbolic.syntax.edits import Edit
-from tumato_symbolic.syntax.leaving_out import is_after, place_of, without_entry, without_line, without_member
+from tumato_symbolic.syntax.leaving_out import is_after, places_of, without_entry, without_line, without_member
 from tumato_symbolic.syntax.parser import read_terminals
 
 NEW_ACTION = "new_action"
@@ -54,21 +54,23 @@ def _changed(source: Source, spec: Spec, change: Change) -> Edit | None:
         return None
     if element.kind == "plan-bound":
         return (
-            Edit(span, declared(spec, element, change.text)) if change.text is not None else without_line(source, span)
+            Edit(span, declared(spec, element, change.text))
+            if change.text is not None
+            else without_line(source.text.split("\n"), span)
         )
     if element.kind == "resource":
         return None
     if change.text is not None:
         return Edit(span, change.text)
     _, tokens, _ = read_terminals(source)
-    first = place_of(tokens, span)
+    first = places_of(tokens).get((span.line, span.column))
     if first is None:
         return None
     if element.kind == "precondition":
         return without_member(tokens, first, span)
     if element.kind == "alternative":
         return _without_alternative(source, span)
-    return without_entry(source, tokens, first, span)
+    return without_entry(source.text.split("\n"), tokens, first, span)
 
 
 def _without_alternative(source: Source, span: Span) -> Edit | None:
@@ -77,7 +79,7 @@ def _without_alternative(source: Source, span: Span) -> Edit | None:
             (span.end_line, span.end_column) <= (field.span.end_line, field.span.end_column)
         )
         if inside:
-            return None if field.clauses else without_line(source, field.span)
+            return None if field.clauses else without_line(source.text.split("\n"), field.span)
     return None
 
 

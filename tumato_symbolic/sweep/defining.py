@@ -16,7 +16,7 @@ from tumato_symbolic.sweep.variants import Change, Variant, numbered
 from tumato_symbolic.syntax import ast
 from tumato_symbolic.syntax.edits import Edit, at
 from tumato_symbolic.syntax.excerpts import Excerpts
-from tumato_symbolic.syntax.leaving_out import place_of
+from tumato_symbolic.syntax.leaving_out import places_of
 from tumato_symbolic.syntax.parser import read_terminals
 
 MOST = 100_000
@@ -163,8 +163,7 @@ class _Text:
         if block is None:
             end = self._tokens[-1].span
             return Edit(at(end.end_line, end.end_column), f"\n\nBEGIN CONFIG{lines}\nEND CONFIG\n")
-        begin = place_of(self._tokens, block.span)
-        assert begin is not None, "a block begins with a token"
+        begin = places_of(self._tokens)[block.span.line, block.span.column]
         after = self._tokens[begin + 1].span
         return Edit(at(after.end_line, after.end_column), lines)
 

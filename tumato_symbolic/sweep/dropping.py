@@ -12,7 +12,7 @@ from tumato_symbolic.sweep.variants import Change, Variant, numbered
 from tumato_symbolic.syntax import ast
 from tumato_symbolic.syntax.edits import Edit
 from tumato_symbolic.syntax.excerpts import Excerpts
-from tumato_symbolic.syntax.leaving_out import place_of, without_entry, without_line, without_member
+from tumato_symbolic.syntax.leaving_out import places_of, without_entry, without_line, without_member
 from tumato_symbolic.syntax.parser import read_terminals
 
 Dropped: TypeAlias = tuple[Change, Edit]
@@ -39,7 +39,8 @@ class Written:
     def __init__(self, source: Source) -> None:
         parsed, self.tokens, _ = read_terminals(source)
         assert parsed.tree is not None, "a specification without errors has a tree"
-        self.source, self.tree, self.excerpts = source, parsed.tree, Excerpts(source)
+        self.tree, self.excerpts, self.lines = parsed.tree, Excerpts(source), source.text.split("\n")
+        self._places = places_of(self.tokens)
 
     def elements(self) -> Iterator[Dropped]:
         """Every rule, precondition, alternative and assumption."""
@@ -56,7 +57,7 @@ class Written:
 
     def without_line(self, what: str, span: Span) -> Dropped:
         """What stands at a span is left out, with its lines."""
-        return self.changed(what, span, None), without_line(self.source, span)
+        return self.changed(what, span, None), without_line(self.lines, span)
 
     def without_alternative(self, action: ast.ActionDeclaration, entry: ast.AlternativeEffects) -> Dropped:
         """An alternative is left out with its clauses."""
@@ -65,20 +66,17 @@ class Written:
 
     def without_entry(self, what: str, span: Span) -> Dropped:
         """A predicate is left out with its keyword."""
-        return self.changed(what, span, None), without_entry(self.source, self.tokens, self._first(span), span)
+        return self.changed(what, span, None), without_entry(
+            self.lines, self.tokens, self._places[span.line, span.column], span
+        )
 
     def without_member(self, what: str, span: Span) -> Dropped:
         """A member of a list is left out with a comma."""
-        return self.changed(what, span, None), without_member(self.tokens, self._first(span), span)
+        return self.changed(what, span, None), without_member(self.tokens, self._places[span.line, span.column], span)
 
     def changed(self, what: str, span: Span, after: str | None) -> Change:
         """That something else stands at a span, or nothing."""
         return Change(what, self.excerpts.of(span), after, span.line, span.column)
-
-    def _first(self, span: Span) -> int:
-        first = place_of(self.tokens, span)
-        assert first is not None, "what stands in a tree begins with a token"
-        return first
 
 
 def predicates_in(block: ast.Block) -> Iterator[ast.Predicate]:

@@ -8,10 +8,9 @@ between decisions that are all as right.
 from __future__ import annotations
 
 import hashlib
-import re
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
-from typing import Final, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
 from tumato_symbolic.diagnostics import Source, Span
 from tumato_symbolic.sweep.dropping import RULES, Written, predicates_in
@@ -113,7 +112,7 @@ class _Mutating:
             yield from (self._one(self._text.without_line("goal", each.span)) for each in members)
         if goals.kind == "priority":
             for one, other in pairwise(members):
-                texts = [_text_at(self._text.source, each.span) for each in (one, other)]
+                texts = [_text_at(self._text.lines, each.span) for each in (one, other)]
                 change = self._text.changed("order of goals", one.span, f"{self._excerpt(other.span)}, before it")
                 yield change, (Edit(one.span, texts[1]), Edit(other.span, texts[0]))
 
@@ -135,12 +134,9 @@ class _Mutating:
         return self._text.excerpts.of(span)
 
 
-_LINE: Final = re.compile(r"[^\n]*\n?")
-
-
-def _text_at(source: Source, span: Span) -> str:
+def _text_at(lines: Sequence[str], span: Span) -> str:
     """The text of a span as it stands, comments and all."""
-    lines = _LINE.findall(source.text)[span.line - 1 : span.end_line]
-    lines[-1] = lines[-1][: span.end_column - 1]
-    lines[0] = lines[0][span.column - 1 :]
-    return "".join(lines)
+    found = list(lines[span.line - 1 : span.end_line])
+    found[-1] = found[-1][: span.end_column - 1]
+    found[0] = found[0][span.column - 1 :]
+    return "\n".join(found)

@@ -4,15 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from tumato_symbolic.diagnostics import Source, Span
+from tumato_symbolic.diagnostics import Span
 from tumato_symbolic.syntax.edits import Edit
 from tumato_symbolic.syntax.tokens import Token
-
-
-def place_of(tokens: Sequence[Token], span: Span) -> int | None:
-    """Which token begins where a span begins."""
-    places = (place for place, each in enumerate(tokens) if (each.line, each.column) == (span.line, span.column))
-    return next(places, None)
 
 
 def without_member(tokens: Sequence[Token], first: int, span: Span) -> Edit:
@@ -29,18 +23,22 @@ def without_member(tokens: Sequence[Token], first: int, span: Span) -> Edit:
     return Edit(span, "none")
 
 
-def without_entry(source: Source, tokens: Sequence[Token], first: int, span: Span) -> Edit:
+def without_entry(lines: Sequence[str], tokens: Sequence[Token], first: int, span: Span) -> Edit:
     """A predicate, which begins with the token `first`, is left out with its keyword, as in `rule: PREDICATE`."""
-    return without_line(source, joined(tokens[first - 2].span, span))
+    return without_line(lines, joined(tokens[first - 2].span, span))
 
 
-def without_line(source: Source, span: Span) -> Edit:
-    """What stands at a span is left out, with its lines where nothing else stands on them."""
-    lines = source.text.split("\n")
+def without_line(lines: Sequence[str], span: Span) -> Edit:
+    """What stands at a span is left out of the lines of a text, whole lines where nothing else stands on them."""
     before, after = lines[span.line - 1][: span.column - 1], lines[span.end_line - 1][span.end_column - 1 :]
     if before.strip() or after.strip() or span.end_line == len(lines):
         return Edit(span, "")
     return Edit(Span(span.line, 1, span.end_line + 1, 1), "")
+
+
+def places_of(tokens: Sequence[Token]) -> dict[tuple[int, int], int]:
+    """Which token begins at a line and column."""
+    return {(each.line, each.column): place for place, each in enumerate(tokens)}
 
 
 def is_after(token: Token, span: Span) -> bool:
