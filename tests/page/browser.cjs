@@ -57,6 +57,18 @@ async function used(browser, { page: path, other }) {
   await page.setInputFiles("#panel-compare input", other);
   await page.locator("#panel-compare [role=status] > *").first().waitFor();
   seen.compared = await page.textContent("#panel-compare [role=status]");
+  await page.setViewportSize({ width: 390, height: 844 });
+  seen.wider = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+  await page.focus("#tab-compare");
+  await page.keyboard.press("ArrowRight");
+  await page.keyboard.press("ArrowRight");
+  seen.turned = await page.evaluate(() => document.activeElement.id);
+  const top = () => page.evaluate(() => Math.abs(document.querySelector(".state").getBoundingClientRect().top) < 20);
+  seen.visited = [await top()];
+  await page.locator("#panel-table tbody .link").first().click();
+  seen.visited.push(await top());
+  await page.click(".back");
+  seen.visited.push(await top());
   await page.close();
   return seen;
 }

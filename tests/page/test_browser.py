@@ -36,6 +36,10 @@ def test_pages_open_filter_step_and_compare(cli: Cli, tmp_path: Path) -> None:
     assert len(right["itf"]["states"]) == 2
     for line in [line for line in cli("diff", "amr.json", "slower.json").out.splitlines() if line[:1].strip()]:
         assert line in right["compared"]
+    for each in (right, wrong):
+        assert each["wider"] == 0, "no wider than a phone"
+        assert each["turned"] == "tab-table", "by the arrow keys, round and round"
+        assert each["visited"] == [False, True, False], "to the state, and back"
     assert "Refuted" in wrong["title"]
     assert "1 are wrong" in wrong["check"]
     assert "would be restored better by stop_conveyor" in wrong["check"]
