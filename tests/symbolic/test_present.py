@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Mapping
 from random import Random
+from weakref import ref
 
 import pytest
 
+from tests.generate import random_spec
 from tumato_symbolic.spec import Assignment
-from tumato_symbolic.symbolic import Backend, Bdd, Leading, available_backend
+from tumato_symbolic.symbolic import Backend, Bdd, Leading, available_backend, encode
 from tumato_symbolic.symbolic.layout import number_bits
 from tumato_symbolic.symbolic.manager import Manager
 from tumato_symbolic.symbolic.present import FEW_MOVES
@@ -43,3 +46,16 @@ def test_moves_lead_where_each_of_them_leads(backend: Backend, seed: int) -> Non
     for target in (manager.false, manager.true, some_set(manager, random, 3), some_set(manager, random, 200)):
         each = (pairs & manager.cofactor(target, constants(written)) for written, pairs in moves)
         assert together.into(target) == manager.union(each)
+
+
+def test_an_encoding_goes_with_the_last_that_holds_it() -> None:
+    """At once: diagrams that the collector of garbage finds after their manager are complained of."""
+    gc.disable()
+    try:
+        encoding = encode(random_spec(0), available_backend())
+        assert encoding.leading
+        kept = ref(encoding.manager)
+        del encoding
+        assert kept() is None
+    finally:
+        gc.enable()

@@ -39,10 +39,12 @@ class Leading:
         moves: Iterable[tuple[Assignment, Bdd]],
         bits: Callable[[Assignment], Mapping[str, bool]],
     ) -> None:
-        self._manager, self._bits = manager, bits
-        self._moves = self._together(list(moves))
+        self._manager = manager
+        self._moves = self._together(list(moves), bits)  # what is kept must not lead back to whoever keeps this
 
-    def _together(self, moves: Sequence[tuple[Assignment, Bdd]]) -> _Moves:
+    def _together(
+        self, moves: Sequence[tuple[Assignment, Bdd]], bits: Callable[[Assignment], Mapping[str, bool]]
+    ) -> _Moves:
         often = Counter(each for written, _ in moves for each in written)
         ends = self._manager.union(pairs for written, pairs in moves if not written)
         by_most_often: dict[tuple[int, int], list[tuple[Assignment, Bdd]]] = {}
@@ -53,9 +55,9 @@ class Leading:
         for first, several in by_most_often.items():
             shared = several[0][0] if len(several) == 1 else (first,)
             rests = [(tuple([each for each in written if each not in shared]), pairs) for written, pairs in several]
-            values = self._bits(shared)
+            values = bits(shared)
             by_values = found.branches.setdefault(tuple(values), {})
-            by_values.setdefault(tuple(values.values()), []).append((values, self._together(rests)))
+            by_values.setdefault(tuple(values.values()), []).append((values, self._together(rests, bits)))
         return found
 
     def into(self, target: Bdd) -> Bdd:
