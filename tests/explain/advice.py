@@ -93,6 +93,8 @@ def bad_advice(spec: Spec, text: str, found: Explanation, decide: Decide) -> Ite
         yield from _bad_starts(spec, text, found.part.text, report, decide)
     elif found.part is not None:
         yield from _bad_part(spec, text, found.part.text, report)
+    if found.part is not None and found.part.steady is not None:
+        yield from _bad_steady_part(spec, text, found.part.steady[1], decide)
 
 
 def _bad_exceptions(spec: Spec, repair: Repair) -> Iterator[str]:
@@ -184,6 +186,15 @@ def _bad_starts(spec: Spec, text: str, condition: str, report: str, decide: Deci
     yield from _unsaid(spec, starts, kept, report)
     written = parse(with_starts(Source("x.tum", text), condition))
     if {state for state in all_states(spec) if is_start(written, state)} != kept or not decide(written):
+        yield USELESS
+
+
+def _bad_steady_part(spec: Spec, text: str, condition: str, decide: Decide) -> Iterator[str]:
+    formula, source = read_predicate(spec, condition), Source("x.tum", text)
+    states = [state for state in all_states(spec) if is_start(spec, state)]
+    if _taken(spec, states, {state for state in states if holds(formula, state)}):
+        yield UNSAID
+    if not decide(parse((with_starts if spec.starts else with_assumption)(source, condition))):
         yield USELESS
 
 

@@ -158,7 +158,9 @@ def _part(work: Work, found: Explanation) -> Iterator[Explanation]:
         given_up = work.count(requirements.starts) - part.count
         text = predicate_text(requirements.spec, part.formula)
         numbers = part.count, given_up
-        known = RealizablePart(*numbers, part.formula, text, part.unique, part.largest, part.environment)
+        less = part.steady
+        steady = None if less is None else (less.count, predicate_text(requirements.spec, less.formula))
+        known = RealizablePart(*numbers, part.formula, text, part.unique, part.largest, part.environment, steady)
         yield replace(found, part=known)
 
 

@@ -96,7 +96,8 @@ class RealizablePart:
 
     With starts, it is a start condition in the place of those that are there, and starts are counted.
     `unique`: every other such set of states is a part of this one; else goals conflict, and `largest` tells whether
-    none has more states. `environment` is what it assumes of variables that no action controls.
+    none has more states. `environment` is what it assumes of variables that no action controls; `steady` a smaller part
+    that assumes nothing of them: how many states it keeps, and the assumption.
     """
 
     states: int
@@ -106,6 +107,7 @@ class RealizablePart:
     unique: bool
     largest: bool
     environment: tuple[Restriction, ...] = ()
+    steady: tuple[int, str] | None = None
 
 
 Stage: TypeAlias = Literal["states", "part", "reasons", "near", "repairs"]

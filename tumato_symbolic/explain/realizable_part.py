@@ -11,7 +11,7 @@ from tumato_symbolic.explain.as_predicates import in_other_words, predicate_text
 from tumato_symbolic.explain.environment import Restriction, restrictions
 from tumato_symbolic.explain.failing_states import restricted
 from tumato_symbolic.explain.requirements import Requirements
-from tumato_symbolic.explain.trial import trial
+from tumato_symbolic.explain.trial import is_realizable, trial
 from tumato_symbolic.game import Problem, winning_alone
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Formula, Rule, Spec
@@ -23,13 +23,21 @@ CHOICES = 200
 
 
 @dataclass(frozen=True)
+class SteadyPart:
+    """States that make the specification realizable, and out of which the environment alone does not lead."""
+
+    count: int
+    formula: Formula
+
+
+@dataclass(frozen=True)
 class Part:
     """States which, taken as an assumption, or as the starts, make the specification realizable.
 
     `unique`: it is the greatest such set, and every other one is a part of it. Where goals conflict there may be
     several maximal ones; `largest` then says that none has more states. `formula` is the assumption to add, or the
     start condition to have instead of those that are there, `environment` what it takes from variables that no action
-    controls.
+    controls. Where that is something, `steady` is a smaller part that takes nothing from them, if one was found.
     """
 
     states: Bdd
@@ -38,6 +46,7 @@ class Part:
     unique: bool
     largest: bool
     environment: tuple[Restriction, ...]
+    steady: SteadyPart | None = None
 
 
 def largest_part(requirements: Requirements) -> Part | None:
@@ -61,7 +70,8 @@ def largest_part(requirements: Requirements) -> Part | None:
         blamed = _conflict(requirements, starting(spec, formula) if spec.starts else assuming(spec, formula), states)
         if blamed is None:
             assumed = restrictions(requirements, states)
-            return Part(states, count(states), formula, states == whole, largest, assumed)
+            steady = _steady_part(requirements, states) if assumed else None
+            return Part(states, count(states), formula, states == whole, largest, assumed, steady)
         if tried >= CHOICES:
             waiting, largest = [], False
         for state in blamed:
@@ -71,6 +81,23 @@ def largest_part(requirements: Requirements) -> Part | None:
                 seen.add(smaller)
                 heapq.heappush(waiting, (-count(smaller), len(seen), smaller))
     return None
+
+
+def _steady_part(requirements: Requirements, states: Bdd) -> SteadyPart | None:
+    """The most of some states out of which the environment alone does not lead; None where these do not serve."""
+    spec, encoding = requirements.spec, requirements.encoding
+    bits = [bit for variable in sorted(spec.environment) for bit in encoding.state_bits[variable]]
+    while True:
+        kept = states & ~requirements.manager.exists(bits, requirements.starts & ~states)
+        kept = kept if spec.starts else _without_failing(requirements, kept)
+        if kept == states:
+            break
+        states = kept
+    if states == requirements.false:
+        return None
+    formula = assumption(requirements, states)
+    found = starting(spec, formula) if spec.starts else assuming(spec, formula)
+    return SteadyPart(encoding.count_states(states), formula) if is_realizable(requirements, found) else None
 
 
 def _without_failing(requirements: Requirements, states: Bdd) -> Bdd:

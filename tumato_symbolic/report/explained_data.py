@@ -178,12 +178,14 @@ _ADDED: dict[type, str] = {Setting: "setting", NewAction: "action", NoGoalWhile:
 def _part_json(spec: Spec, part: RealizablePart | None) -> dict[str, object]:
     if part is None:
         nothing: dict[str, object] = {"states": 0, "given_up": None, "assumption": None, "environment": []}
-        return nothing | {"unique": True, "largest": True}
+        return nothing | {"steady": None, "unique": True, "largest": True}
     return {
         "states": part.states,
         "given_up": part.given_up,
         **({"assumption": None, "start": part.text} if spec.starts else {"assumption": part.text}),
         "environment": [_restriction_json(spec, each) for each in part.environment],
+        "steady": part.steady
+        and dict(zip(("states", "start" if spec.starts else "assumption"), part.steady, strict=True)),
         "unique": part.unique,
         "largest": part.largest,
     }

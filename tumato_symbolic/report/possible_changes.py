@@ -151,10 +151,14 @@ def part_lines(spec: Spec, part: RealizablePart | None, written: str | None) -> 
     assumed = environment_text(spec, part)
     as_said = "if it never begins elsewhere" if spec.starts else "under this assumption"
     yield f"{head}; it {assumed}:" if assumed else f"{head}, {as_said}:"
-    text = part.text
+    text, word = part.text, "start" if spec.starts else "assume"
     if len(text) > _LONGEST_ASSUMPTION and written is None:
         text = f"{text[:_LONGEST_ASSUMPTION]} … ({len(text):,} characters; --write FILE writes all of it)"
-    yield f"  {'start' if spec.starts else 'assume'}: {text}"
+    yield f"  {word}: {text}"
+    if part.steady is not None and len(part.steady[1]) <= _LONGEST_ASSUMPTION:
+        states, text = part.steady
+        yield f"A smaller one, {states:,} of {total}, assumes nothing of what no action controls:"
+        yield f"  {word}: {text}"
     if not part.unique:
         yield "  (goals conflict: this is one choice among several)"
     what = "with this start condition and no other" if spec.starts else "with this assumption"
