@@ -2753,14 +2753,16 @@ def check_conflict(world: World, reason: dict[str, Any], states: Numbered, decid
     begun = {conflict.choices[start][0] for start in conflict.starts}
     for state in begun.difference(decided):
         check_decides(world, state)
+    met = met_from(world, [state for state, _ in conflict.choices])
     for state, options in conflict.choices:
-        check_options(world, conflict, state, options)
+        read = options if met is world.valid else [(after, goal, []) for after, goal, _ in options]
+        check_options(world, conflict, state, read)
     clauses = [clause_of(world, conflict, number) for number in range(len(conflict.cuts))]
     undecided = int(bool(world.spec.starts))  # one more option, where there is none: not to decide
     counts = [len(options) or (0 if state in begun else undecided) for state, options in conflict.choices]
     if Choosing(counts, clauses).succeeds():
         raise Refuted("there is a choice of options that respects all cuts")
-    for state in met_from(world, [state for state, _ in conflict.choices]):
+    for state in met:
         check_distances(world, conflict, state)
     parts = f"{counted(len(conflict.choices), 'state')} and {counted(len(clauses), 'cut')}"
     return f"no policy serves {counted(len(set(conflict.starts)), 'state')} together, by the options of {parts}"
