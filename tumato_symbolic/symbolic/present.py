@@ -40,7 +40,7 @@ class Leading:
         bits: Callable[[Assignment], Mapping[str, bool]],
     ) -> None:
         self._manager = manager
-        self._moves = self._together(list(moves), bits)  # what is kept must not lead back to whoever keeps this
+        self._moves = self._together(list(moves), bits)  # kept itself, `bits` would hold the encoding
 
     def _together(
         self, moves: Sequence[tuple[Assignment, Bdd]], bits: Callable[[Assignment], Mapping[str, bool]]
