@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import cache, lru_cache
+from functools import cache, cached_property, lru_cache
+from typing import TYPE_CHECKING
 from unittest.mock import patch
-
-import z3
 
 from tests.conformance.roles import PROPERTIES, Rows
 from tests.conformance.turned import arriving, as_rival, jumping
@@ -27,7 +26,11 @@ from tumato_symbolic.verify.by_states.efforts import Efforts
 from tumato_symbolic.verify.by_states.packed import Packing
 from tumato_symbolic.verify.by_states.steps import Steps
 from tumato_symbolic.verify.guarantees.prospects import WalkProspects
-from tumato_symbolic.verify.unrealizability.allowed_step import AllowedStep, is_state
+
+if TYPE_CHECKING:
+    import z3
+
+    from tumato_symbolic.verify.unrealizability.allowed_step import AllowedStep
 
 
 class Prover:
@@ -193,14 +196,26 @@ class Walk(Prover):
 
 
 class Z3(Prover):
-    """The prover that asks Z3, and with it the room that judges certificates of unrealizability."""
+    """The prover that asks Z3, and with it the room that judges certificates of unrealizability.
+
+    Z3 is imported when it is asked: the other provers are tested where there is none.
+    """
 
     def __init__(self) -> None:
         super().__init__("z3", "z3")
-        self._context = z3.Context()
+
+    @cached_property
+    def _context(self) -> z3.Context:
+        import z3
+
+        return z3.Context()
 
     def finds(self, world: World, state: State, chosen: ActionSet) -> bool:
         """Whether `AllowedStep`, which looks for better sets and for allowed steps, finds this one."""
+        import z3
+
+        from tumato_symbolic.verify.unrealizability.allowed_step import is_state
+
         step = self._step(world.spec, world.ordering)
         executed = [term if n in chosen else z3.Not(term) for n, term in enumerate(step.executed)]
         return step.some_step("this set is not allowed", is_state(step.state, state), *executed) is not None
@@ -213,10 +228,14 @@ class Z3(Prover):
 
     def _refuted(self, names: Sequence[str], spec: Spec, ordering: Ordering, rows: Rows) -> set[str]:
         """In one context for all questions: Z3 takes longer to make one than to answer."""
-        with patch.object(z3, "Context", lambda: self._context):
+        context = self._context
+        with patch("z3.Context", lambda: context):
             return super()._refuted(names, spec, ordering, rows)
 
     @lru_cache(maxsize=REMEMBERED)  # noqa: B019 - there is one of them
     def _step(self, spec: Spec, ordering: Ordering) -> AllowedStep:
-        with patch.object(z3, "Context", lambda: self._context):
+        from tumato_symbolic.verify.unrealizability.allowed_step import AllowedStep
+
+        context = self._context
+        with patch("z3.Context", lambda: context):
             return AllowedStep(spec, ordering, Budget())

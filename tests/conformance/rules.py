@@ -14,6 +14,7 @@ from tests.conformance.by_coq import TOPLEVEL, Coq
 from tests.conformance.by_engine import Bdd, Explicit
 from tests.conformance.by_verify import Z3, States, Walk
 from tests.conformance.roles import ROLES, Engine
+from tumato_symbolic.limits import has_z3
 from tumato_symbolic.symbolic import available_backend
 
 TEXT = (Path(__file__).parents[2] / "docs" / "semantics.md").read_text(encoding="utf-8")
@@ -34,6 +35,7 @@ ENGINES: tuple[Engine, ...] = (
 
 MISSING = {
     **({} if available_backend() == "cudd" else {"bdd-cudd": "CUDD is not available here"}),
+    **({} if has_z3() else {"z3": "Z3 cannot be imported here"}),
     **({} if TOPLEVEL else {"coq": "Coq is not installed"}),
 }
 """Engines that cannot be asked here, with the reason."""
