@@ -139,6 +139,26 @@ def test_limits_are_tried_on_every_command_that_has_some() -> None:
     assert set(campaign.COMMANDS) == limited
 
 
+@pytest.mark.parametrize(
+    ("words", "meant"),
+    [
+        ("synt amr.tum", "synth"),
+        ("synth --timeot 3 amr.tum", "--timeout"),
+        ("synth --jbos=2 amr.tum", "--jobs"),
+        ("export pyton amr.json amr.tum", "python"),
+        ("verify amr.json amr.tum --prover wlk", "walk"),
+    ],
+)
+def test_a_mistyped_word_is_recognized(cli: Cli, words: str, meant: str) -> None:
+    """A command, an option, a target and a choice: what is meant is said at the end; nothing where nothing is near."""
+    ran = cli(*words.split())
+    assert ran.code == 2
+    assert ran.err.endswith(f"; did you mean {meant}?\n")
+    ran = cli("qqqqq", "amr.tum")
+    assert ran.code == 2
+    assert "did you mean" not in ran.err
+
+
 def test_the_documents_know_every_command() -> None:
     """The README or a document shows each command being called."""
     documents = "".join(path.read_text() for path in (ROOT / "README.md", *(ROOT / "docs").glob("*.md")))

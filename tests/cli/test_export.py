@@ -40,6 +40,30 @@ def test_a_target_of_several_files(cli: Cli, tmp_path: Path) -> None:
         assert complaint in ran.err
 
 
+@pytest.mark.parametrize("target", TARGETS)
+def test_a_name_without_an_ending_gets_that_of_the_target(cli: Cli, tmp_path: Path, target: str) -> None:
+    """Other tools find a file by its ending; a name that has one, or that a file has, stands as it is typed."""
+    ending = Path(TARGETS[target].example).suffix
+    ran = cli("export", target, "amr.json", "amr.tum", "-o", "robot")
+    assert (ran.code, ran.err.split()[0]) == (0, f"robot{ending}")
+    assert (tmp_path / f"robot{ending}").exists()
+    assert not (tmp_path / "robot").exists()
+    assert cli("export", target, "amr.json", "amr.tum", "-o", "robot.txt").code == 0
+    assert (tmp_path / "robot.txt").exists()
+    (tmp_path / "there").touch()
+    assert cli("export", target, "amr.json", "amr.tum", "-o", "there").code == 0
+    assert (tmp_path / "there").read_text() != ""
+    ran = cli("export", target, "amr.json", "amr.tum", "-o", ".")
+    assert (ran.code, "error[TUM510]" in ran.err) == (2, True)
+
+
+def test_no_ending_hides_that_a_file_is_an_input(cli: Cli, tmp_path: Path) -> None:
+    """The name with its ending is the one that is looked at before the work begins."""
+    (tmp_path / "robot.v").write_bytes((tmp_path / "amr.tum").read_bytes())
+    ran = cli("export", "coq", "amr.json", "robot.v", "-o", "robot")
+    assert (ran.code, "error[TUM118]" in ran.err) == (2, True)
+
+
 def test_unknown_targets_and_checks_that_there_are_not(cli: Cli) -> None:
     """Wrong usage says which targets there are, and which have a check."""
     ran = cli("export", "java", "amr.json", "amr.tum")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import takewhile
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -76,7 +76,15 @@ def _mistake(options: CommandOptions) -> str | None:
 
 
 class _Parser(argparse.ArgumentParser):
-    """A parser that reports help that cannot be written."""
+    """A parser that reports help that cannot be written, and says what may be meant by a word that it does not know."""
+
+    def _check_value(self, action: argparse.Action, value: object) -> None:
+        """Refuse what is none of the choices of an argument."""
+        try:
+            super()._check_value(action, value)
+        except argparse.ArgumentError as error:
+            error.message += _meant(str(value), map(str, action.choices or ()))
+            raise
 
     def print_help(self, file: SupportsWrite[str] | None = None) -> None:
         """Put the help on the standard output. Raises `UserError` where it cannot be."""
@@ -103,8 +111,17 @@ class _CommandParser(_Parser):
             setattr(found, several.dest, [*getattr(found, several.dest), *taken])
             left = left[len(taken) :]
         if left:
-            self.error(f"unrecognized arguments: {' '.join(left)}")
+            near = _meant(left[0].partition("=")[0], self._option_string_actions)
+            self.error(f"unrecognized arguments: {' '.join(left)}{near}")
         return found, []
+
+
+def _meant(typed: str, known: Iterable[str]) -> str:
+    """What may be meant by a word, to be added to a message."""
+    from tumato_symbolic.diagnostics.wording import nearest
+
+    near = nearest(typed, known)
+    return "" if near is None else f"; did you mean {near}?"
 
 
 class _Version(argparse.Action):

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import os
+import stat
 import sys
-from pathlib import Path
+import time
 from typing import BinaryIO
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source, Span, UserError
 from tumato_symbolic.diagnostics.wording import quoted
+
+PATIENCE_WITH_PIPES = 1.0
+"""Seconds in which somebody has to begin to write to a pipe that is read."""
 
 MAX_BYTES = 2_000_000
 """The largest specification that is read, in bytes."""
@@ -38,13 +43,47 @@ def standard_input() -> BinaryIO:
     return sys.stdin.buffer
 
 
+def content(path: str, most: int) -> bytes:
+    """The bytes of a file (`-` is the standard input), no more than `most` of them. Raises `OSError`, `ValueError`."""
+    if path == "-":
+        return _first(standard_input(), most)
+    with open(path, "rb", opener=_opened) as file:
+        begun = _begun(file.fileno()) if stat.S_ISFIFO(os.fstat(file.fileno()).st_mode) else b""
+        return begun + _first(file, most - len(begun))
+
+
+def _opened(path: str, flags: int) -> int:
+    """Open without waiting: a pipe that nobody writes to would keep the program for ever."""
+    number = os.open(path, flags | getattr(os, "O_NONBLOCK", 0))
+    if hasattr(os, "set_blocking") and not stat.S_ISFIFO(os.fstat(number).st_mode):
+        os.set_blocking(number, True)
+    return number
+
+
+def _begun(pipe: int) -> bytes:
+    """The first byte of a pipe, if one is there, once somebody writes to it."""
+    latest = time.monotonic() + PATIENCE_WITH_PIPES
+    try:
+        while not (first := os.read(pipe, 1)):
+            if time.monotonic() >= latest:
+                raise OSError("it is a pipe, and nobody writes to it")
+            time.sleep(0.02)
+    except BlockingIOError:  # somebody does, and takes time
+        first = b""
+    os.set_blocking(pipe, True)
+    return first
+
+
+def _first(file: BinaryIO, most: int) -> bytes:
+    """At most so many bytes; space is asked for only where there is so much to read."""
+    start = file.read(min(2**20, most))
+    return start + file.read(most - len(start)) if len(start) == 2**20 else start
+
+
 def _read(path: str, name: str) -> bytes:
     """At most one byte more than is allowed."""
     try:
-        if path == "-":
-            return standard_input().read(MAX_BYTES + 1)
-        with Path(path).open("rb") as file:
-            return file.read(MAX_BYTES + 1)
+        return content(path, MAX_BYTES + 1)
     except FileNotFoundError:
         raise _error(Code.TUM101, f"there is no file {quoted(name)}", None) from None
     except IsADirectoryError:

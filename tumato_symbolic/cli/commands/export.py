@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from os.path import lexists
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -46,8 +47,8 @@ class Options(CommandOptions):
     output: str = arguments.output(
         Target("export", example="amr.py"),
         STANDARD_OUTPUT,
-        "where to write it (default: the standard output; a target of several files needs a name, and writes the "
-        "others beside it)",
+        "where to write it (default: the standard output; a new name without an ending gets that of the target; a "
+        "target of several files needs a name, and writes the others beside it)",
     )
     check: bool = arguments.check("also write the program that checks what is written, beside FILE")
     timeout: float | None = arguments.timeout()
@@ -63,16 +64,22 @@ class Options(CommandOptions):
         return (*target.beside, *([target.check] if self.check and target.check else []))
 
     def paths(self) -> tuple[Path, ...]:
-        """FILE, and those beside it."""
+        """FILE, with the ending of its target where it has none and is not there yet, and those beside it."""
+        from tumato_symbolic.cli.targets import is_stream
+
         path = Path(self.output)
+        if path.is_dir():
+            return (path,)
+        if not (path.suffix or lexists(path) or is_stream(path)):
+            path = path.with_name(path.name + Path(TARGETS[self.target].example).suffix)
         return (path, *(path.with_name(path.stem + ending) for ending in self.endings()))
 
     def targets(self) -> Iterator[Target]:
         """Every file that is written."""
-        yield from CommandOptions.targets(self)
-        if self.output != STANDARD_OUTPUT:
-            for path in self.paths()[1:]:
-                yield Target("export", path=str(path))
+        if self.output == STANDARD_OUTPUT:
+            yield from CommandOptions.targets(self)
+        else:
+            yield from (Target("export", path=str(path)) for path in self.paths())
 
     def mistake(self) -> str | None:
         """Only some targets have a check, and only some fit into the standard output."""

@@ -79,9 +79,20 @@ def _lay_out(path: str, options: Options) -> int:
     if path == "-" and text:
         write(text)
     elif path != "-" and text != source.text:
+        _need_file(path)
         save_text(_as_before(text, Path(path).read_bytes()), Path(path), "specification")
         write(f"{path} is laid out anew")
     return YES
+
+
+def _need_file(path: str) -> None:
+    """Raise `UserError` (TUM510) where a text was read that cannot be written back: a pipe, a device."""
+    from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
+    from tumato_symbolic.diagnostics.wording import quoted
+
+    if not Path(path).is_file():
+        help_ = "name a file, or - for the standard input"
+        raise UserError((Diagnostic(Code.TUM510, f"{quoted(path)} is no file that can be written anew", help=help_),))
 
 
 def _as_before(text: str, old: bytes) -> str:

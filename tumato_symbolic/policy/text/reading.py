@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import BinaryIO
-
 from tumato_symbolic.diagnostics import Code, Source
 from tumato_symbolic.policy.text.messages import fault
 from tumato_symbolic.policy.text.strict_json import MAX_BYTES, too_large
-from tumato_symbolic.syntax.reading import standard_input
+from tumato_symbolic.syntax.reading import content
 
 
 def read_text(path: str) -> tuple[str, str]:
@@ -18,11 +15,7 @@ def read_text(path: str) -> tuple[str, str]:
     """
     name = "<stdin>" if path == "-" else path
     try:
-        if path == "-":
-            data = _read(standard_input())
-        else:
-            with Path(path).open("rb") as file:
-                data = _read(file)
+        data = content(path, MAX_BYTES + 1)
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
         raise fault(Code.TUM501, f"the policy cannot be read: {reason}", None, Source(name, "")) from None
@@ -33,10 +26,3 @@ def read_text(path: str) -> tuple[str, str]:
     except UnicodeDecodeError as error:
         message = f"the policy is not UTF-8 text (byte {error.start})"
         raise fault(Code.TUM501, message, None, Source(name, "")) from None
-
-
-def _read(file: BinaryIO) -> bytes:
-    """At most one byte more than is allowed; space is asked for only where there is so much to read."""
-    start = file.read(min(2**20, MAX_BYTES + 1))
-    rest = MAX_BYTES + 1 - len(start)
-    return start + file.read(rest) if rest and len(start) == 2**20 else start
