@@ -103,6 +103,23 @@ def test_the_specification_has_to_be_one(cli: Cli) -> None:
     assert json.loads(cli("sweep", "none.tum", "--drop", "each", "--output-format", "json").out)["verdict"] == "error"
 
 
+def test_a_kill_loses_nothing(cli: Cli, tmp_path: Path) -> None:
+    """The same command goes on, and ends with the bytes of one that was never killed."""
+    words = ["sweep", "amr.tum", "--mutate", "8", "--no-verify", "--jobs", "1", "-o"]
+    code = "from tumato_symbolic.cli.main import entry; entry()"
+    results = tmp_path / "killed.jsonl"
+    with subprocess.Popen([sys.executable, "-c", code, *words, results.name], cwd=tmp_path) as running:
+        while not results.exists() or results.read_text().count("\n") < 4:
+            assert running.poll() is None
+            time.sleep(0.01)
+        running.kill()
+    found = lines(results.read_text())
+    assert 4 <= len(found) < 10
+    cli(*words, results.name)
+    cli(*words, "whole.jsonl")
+    assert results.read_bytes() == (tmp_path / "whole.jsonl").read_bytes()
+
+
 def test_ctrl_c(tmp_path: Path) -> None:
     """Ends all processes; what was found is told and kept, and the same command goes on."""
     if sys.platform != "linux":

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
@@ -14,6 +15,9 @@ from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.diagnostics.wording import quoted
 from tumato_symbolic.policy import save_text
 from tumato_symbolic.sweep.solving import NOTHING
+
+_FAREWELL = 1.0
+"""Seconds in which a sweep that was killed has let go of its file."""
 
 Line = dict[str, Any]
 """The result of a variant: its `variant`, a number, its `changes`, and what was found."""
@@ -82,14 +86,21 @@ def kept(path: str | None, header: Mapping[str, object]) -> Iterator[Results]:
 
 
 def _alone(stream: IO[str], path: str) -> None:
-    """Raise `UserError` where another program adds to the file."""
-    with suppress(ImportError):
+    """Raise `UserError` where another program adds to the file; one that was killed may take a moment to end."""
+    try:
         import fcntl
-
+    except ImportError:
+        return
+    latest = time.monotonic() + _FAREWELL
+    while True:
         try:
             fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
-            _refuse(f"another sweep is writing its results to {quoted(path)}", "wait for it, or name another file")
+            if time.monotonic() > latest:
+                _refuse(f"another sweep is writing its results to {quoted(path)}", "wait for it, or name another file")
+            time.sleep(0.05)
+        else:
+            return
 
 
 def _read(stream: IO[str], path: str, header: Mapping[str, object]) -> dict[int, Line]:
