@@ -4,8 +4,8 @@ from tumato_symbolic.sweep.defining import Definition, defined, definition
 from tumato_symbolic.sweep.dropping import dropped
 from tumato_symbolic.sweep.mutating import mutated
 from tumato_symbolic.sweep.results import Line, Results, kept, written
-from tumato_symbolic.sweep.solving import Task
 from tumato_symbolic.sweep.sweeping import processes, sweep
+from tumato_symbolic.sweep.tasks import Task
 from tumato_symbolic.sweep.variants import Change, Kind, Plan, Variant
 
 __all__ = [

@@ -23,7 +23,7 @@ from typing import Any, Final
 from tumato_symbolic.limits import Context
 from tumato_symbolic.limits.processes import megabytes_of
 from tumato_symbolic.sweep.child import IDLE
-from tumato_symbolic.sweep.solving import NOTHING, Answer, Task
+from tumato_symbolic.sweep.tasks import NOTHING, Answer, Task
 
 _GRACE = 1.0
 """Seconds after the time limit in which a child may still answer by itself."""

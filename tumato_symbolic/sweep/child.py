@@ -24,7 +24,8 @@ def main(owner: int) -> None:
     end_with(owner)
     gc.set_threshold(100_000)
     answers = _answers()
-    from tumato_symbolic.sweep.solving import Task, solved
+    from tumato_symbolic.sweep.solving import solved
+    from tumato_symbolic.sweep.tasks import Task
 
     while task := _next_line():
         try:

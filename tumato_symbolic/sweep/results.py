@@ -14,7 +14,7 @@ from typing import IO, Any, NoReturn
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.diagnostics.wording import quoted
 from tumato_symbolic.policy import save_text
-from tumato_symbolic.sweep.solving import NOTHING
+from tumato_symbolic.sweep.tasks import NOTHING
 
 _FAREWELL = 1.0
 """Seconds in which a sweep that was killed has let go of its file."""

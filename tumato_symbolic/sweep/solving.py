@@ -3,64 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, replace
 from functools import lru_cache
 
 from tumato_symbolic.diagnostics import Diagnostic, Source, UserError
-from tumato_symbolic.limits import Context, LimitReachedError, Limits
+from tumato_symbolic.limits import Context, LimitReachedError
 from tumato_symbolic.policy import Policy, dumps, loads
-from tumato_symbolic.spec import Ordering, Restoration, Spec, digest, load
+from tumato_symbolic.spec import Spec, digest, load
+from tumato_symbolic.sweep.tasks import NOTHING, Answer, Task
 from tumato_symbolic.synthesis import Realizable, Statistics, SynthesisResult, Unrealizable, synthesize
 from tumato_symbolic.synthesis.result import Failure
-from tumato_symbolic.verify import ProverName, verify, verify_unrealizable
+from tumato_symbolic.verify import verify, verify_unrealizable
 from tumato_symbolic.views import counted
-
-
-@dataclass(frozen=True, slots=True)
-class Task:
-    """A text to solve, with everything on which the answer depends.
-
-    `against` is the policy file that its policy is compared with; `policy`: its own file is wanted as well. `seconds`
-    and `megabytes` are how much the answer may cost.
-    """
-
-    name: str
-    text: str
-    ordering: Ordering | None = None
-    restoration: Restoration | None = None
-    prover: ProverName = "auto"
-    prove: bool = True
-    seconds: float | None = None
-    megabytes: int | None = None
-    against: str | None = None
-    policy: bool = False
-
-    @property
-    def limits(self) -> Limits:
-        """How much the answer may cost."""
-        return Limits(self.seconds, self.megabytes)
-
-
-@dataclass(frozen=True, slots=True)
-class Answer:
-    """What is found: `result` goes into a line of results; `policy` is the file of the policy, where it is wanted."""
-
-    result: dict[str, object]
-    policy: str | None = None
-
-
-NOTHING: dict[str, object] = {
-    "verdict": "undecided",
-    "proof": None,
-    "digest": None,
-    "states": None,
-    "longest_run": None,
-    "failures": [],
-    "compared": None,
-    "limit": None,
-    "diagnostics": [],
-}
-"""A result of which nothing is known."""
 
 
 def solved(task: Task) -> Answer:

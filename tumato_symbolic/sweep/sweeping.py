@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 from tumato_symbolic.sweep.asking import Children
 from tumato_symbolic.sweep.results import Line, Results
-from tumato_symbolic.sweep.solving import NOTHING, Answer, Task
+from tumato_symbolic.sweep.tasks import NOTHING, Answer, Task
 from tumato_symbolic.sweep.variants import Plan, Variant
 
 
