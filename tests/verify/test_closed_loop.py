@@ -397,6 +397,46 @@ def test_the_next_state_by_cases_and_by_variables(actions: int, monkeypatch: pyt
                 assert _value(model, after, state, frozenset()) == end[variable]
 
 
+def _some_rows(spec: Spec, random: Random) -> dict[State, ActionSet]:
+    """Sets of actions whose nominal effects agree, drawn for every state; they may exclude each other."""
+    rows = dict[State, ActionSet]()
+    for state in literal.states(spec):
+        drawn = frozenset(number for number in range(len(spec.actions)) if random.random() < 0.5)
+        agree = all(
+            value == other
+            for one, two in combinations(sorted(drawn), 2)
+            for variable, value in spec.actions[one].nominal
+            for same, other in spec.actions[two].nominal
+            if same == variable
+        )
+        rows[state] = drawn if agree else frozenset()
+    return rows
+
+
+@pytest.mark.parametrize("most", [0, 3, 128])
+def test_the_next_state_where_some_groups_are_taken_apart(most: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Constants by one group, or by all, beside the next values of other variables: δ all the same."""
+    monkeypatch.setattr(import_module("tumato_symbolic.verify.by_diagrams.closed_loop"), "MOST_CASES", most)
+    build = Build({"x": "abc", "y": "abc", "z": "ab"}, resources="R")
+    for effect in ("x=a", "x=b y=a", "y=a", "x=c"):
+        build.action(effect, needs="R")
+    for effect in ("y=a", "z=b", "z=a y=b"):
+        build.action(effect)
+    spec = build.spec()
+    for seed in range(8):
+        random = Random(seed)
+        rows = _some_rows(spec, random)
+        model = ClosedLoop(spec, as_diagram(policy_from_rows(spec, rows)), "any")
+        table = {state: random.randint(0, 4) for state in rows}
+        walk = model.walk
+        function = walk.any_of(())
+        for state, value in table.items():
+            function = walk.select(model.is_state(state), (function, walk.constant(value)))
+        after = model.next(function)
+        for state, chosen_set in rows.items():
+            assert _value(model, after, state, frozenset()) == table[literal.successor(spec, state, chosen_set)]
+
+
 def test_why_a_walk_is_given_up() -> None:
     """Its own reason, or that there are too many variables."""
     assert given_up(BudgetError("tired")) == "tired"

@@ -71,11 +71,25 @@ def test_operations_do_what_they_say(order: tuple[int, ...]) -> None:
         assert list(parts) == walk.values_of(number)
         for value, where in parts.items():
             assert _table(walk, where) == {point: int(numbers[point] == value) for point in POINTS}
+        small = _table(walk, walk.within(one[0], cases[0][0]))
+        assert all(small[point] == cases[0][1][point] for point in POINTS if one[1][point])
         both, either = walk.all_of((one[0], other[0])), walk.any_of((one[0], other[0]))
         assert _table(walk, both) == {point: one[1][point] & other[1][point] for point in POINTS}
         assert _table(walk, either) == {point: one[1][point] | other[1][point] for point in POINTS}
         assert walk.without(one[0], other[0]) == walk.all_of((one[0], walk.negation(other[0])))
         assert walk.count(both) == sum(one[1][point] & other[1][point] for point in POINTS)
+
+
+def test_what_a_function_is_elsewhere_may_make_it_small() -> None:
+    """Within the states where it is the same in all of them it is a constant; in no states it may be anything."""
+    walk = Walk((0, 1, 2, 3), SIZES)
+    random = Random(0)
+    for _ in range(20):
+        function, table = _function(walk, random, 3)
+        for value, where in walk.parts(function).items():
+            assert walk.within(where, function) == walk.constant(value)
+        assert walk.within(TRUE, function) == function
+        assert set(_table(walk, walk.within(FALSE, function)).values()) <= set(table.values())
 
 
 def test_equal_functions_are_one() -> None:

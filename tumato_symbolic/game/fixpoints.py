@@ -20,8 +20,8 @@ Predecessor: TypeAlias = Callable[[Bdd, Bdd], Bdd]
 MOST_MOVES = 100
 """A relation whose sets do more different things is taken as a whole."""
 
-MOST_COMPOSED = 5_000_000
-"""Nodes of a set times nodes of its bits' functions: above, composing them costs more than the relational product."""
+MOST_COMPOSED = 1_000_000
+"""Nodes of a set times nodes of the largest function of its bits: above, the relational product is tried instead."""
 
 
 def attractor(problem: Problem, target: Bdd, predecessor: Predecessor, within: Bdd, limit: int | None) -> Layers:
@@ -104,8 +104,8 @@ class ClosedLoop:
 
     @cached_property
     def _size(self) -> int:
-        """Nodes of the functions in `following`."""
-        return sum(map(self.problem.encoding.manager.nodes, self.following.values()))
+        """Nodes of the largest function in `following`."""
+        return max(map(self.problem.encoding.manager.nodes, self.following.values()), default=0)
 
     def predecessor(self, states: Bdd, target: Bdd) -> Bdd:
         """Those of some states that the policy leads into a set in one step."""

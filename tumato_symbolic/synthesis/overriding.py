@@ -33,14 +33,15 @@ def override(evaluator: Evaluator, found: Evaluation, distances: tuple[Layers, .
     improved = True
     while improved and found.failing != problem.false:
         improved = False
+        shortest = shortest_decisions(problem, distances, found.failing, problem.steps.allowed)
         for target, layers in _aims(problem, found.failing, distances):
-            starts = shortest_decisions(problem, distances, found.failing, problem.steps.allowed) & target.pending
-            candidate = _towards(problem, found.closed_loop.policy, starts, layers)
+            candidate = _towards(problem, found.closed_loop.policy, shortest & target.pending, layers)
             if candidate == found.closed_loop.policy:
                 continue
             evaluated = evaluator.evaluate(candidate)
             if count(evaluated.failing) < count(found.failing):
                 found, improved = evaluated, True
+                shortest = shortest_decisions(problem, distances, found.failing, problem.steps.allowed)
             if found.failing == problem.false:
                 break
     return found

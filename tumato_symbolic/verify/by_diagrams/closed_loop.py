@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import operator
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
+from typing import NamedTuple
 
 from tumato_symbolic.policy import DecisionDiagram
 from tumato_symbolic.semantics import contested_values
@@ -13,7 +14,18 @@ from tumato_symbolic.verify.by_diagrams.functions import FALSE, Function
 from tumato_symbolic.verify.by_diagrams.steps import Steps
 
 MOST_CASES = 128
-"""Where the policy nominally writes at most so many different things, each is looked at apart."""
+"""So many different things that several groups of actions nominally write are looked at apart."""
+
+
+class _Case(NamedTuple):
+    """Acting states in which the policy nominally writes the same constants.
+
+    `changed` has the next values of other variables there, where these depend on the state.
+    """
+
+    where: Function
+    writes: Mapping[int, int]
+    changed: Mapping[int, Function]
 
 
 class ClosedLoop(Steps):
@@ -45,30 +57,47 @@ class ClosedLoop(Steps):
         return self.walk.all_of((self.acting, outcomes, self.next(target)))
 
     @cached_property
-    def _steps(self) -> list[tuple[Function, dict[int, int]]] | None:
-        """The acting states by what the policy nominally writes there; None where that is too many cases."""
-        walk, actions = self.walk, self.spec.actions
-        pairs = sorted({pair for action in actions for pair in action.nominal})
-        masks = [sum(1 << pairs.index(pair) for pair in action.nominal) for action in actions]
-        each = zip(self.policy, masks, strict=True)
-        written = [
-            FALSE,
-            *(
-                walk.select(walk.all_of((self.acting, executed)), (FALSE, walk.constant(mask)))
-                for executed, mask in each
-            ),
-        ]
-        while len(written) > 1:
-            halves = zip(written[::2], written[1::2], strict=False)
-            written = [walk.apply(operator.or_, *both) for both in halves] + written[len(written) & ~1 :]
-            if any(len(walk.values_of(each)) > MOST_CASES for each in written):
-                return None
-        cases = walk.parts(walk.select(self.acting, (walk.constant(-1), *written)))
+    def _cases(self) -> list[_Case]:
+        """The acting states by what the policy nominally writes there.
+
+        By the largest group of actions, and by others while there are few cases.
+        """
+        walk, number = self.walk, FALSE
+        pairs = sorted({pair for action in self.spec.actions for pair in action.nominal})
+        bit = {pair: 1 << place for place, pair in enumerate(pairs)}
+        first, *groups = sorted(self.groups, key=len, reverse=True) or [()]
+        number = together = self._written(first, bit)
+        for group in groups:
+            together = walk.apply(operator.or_, together, self._written(group, bit))
+            if len(walk.values_of(together)) > MOST_CASES:
+                break
+        else:
+            number, groups = together, []
+        others = [action for group in groups for action in group]
+        cases = walk.parts(walk.select(self.acting, (walk.constant(-1), number)))
         return [
-            (where, dict(pair for place, pair in enumerate(pairs) if mask >> place & 1))
+            self._case(where, dict(pair for pair in pairs if mask & bit[pair]), others)
             for mask, where in cases.items()
             if mask >= 0
         ]
+
+    def _written(self, group: Sequence[int], bit: Mapping[tuple[int, int], int]) -> Function:
+        """What the actions of a group nominally write where the policy acts, a bit for every variable and value."""
+        walk, masks = self.walk, [sum(bit[pair] for pair in self.spec.actions[action].nominal) for action in group]
+        where = (walk.all_of((self.acting, self.policy[action])) for action in group)
+        parts = [walk.select(each, (FALSE, walk.constant(mask))) for each, mask in zip(where, masks, strict=True)]
+        return walk.apply_all(operator.or_, [FALSE, *parts])
+
+    def _case(self, where: Function, writes: dict[int, int], others: Sequence[int]) -> _Case:
+        """Some acting states in which these constants are written, and whatever `others` write there."""
+        walk, changed = self.walk, dict[int, Function]()
+        for action in others:
+            executed = walk.all_of((where, self.policy[action]))
+            for variable, value in self.spec.actions[action].nominal if executed != FALSE else ():
+                if variable not in writes:
+                    stays = changed.get(variable, walk.variable(variable))
+                    changed[variable] = walk.select(walk.within(where, executed), (stays, walk.constant(value)))
+        return _Case(where, writes, changed)
 
     def next(self, function: Function) -> Function:
         """`function` in `δ(s, π(s))` where the policy acts; elsewhere it means nothing."""
@@ -77,11 +106,14 @@ class ClosedLoop(Steps):
         return self._next[function]
 
     def _after_step(self, function: Function) -> Function:
-        if self._steps is None:
-            return self.walk.compose(function, self.successor(self.policy))
         found = FALSE
-        for where, writes in self._steps:
-            found = self.walk.cofactor_where(where, writes, function, found)
+        for case in self._cases:
+            if case.changed:
+                constants = {variable: self.walk.constant(value) for variable, value in case.writes.items()}
+                after = self.walk.compose(function, {**case.changed, **constants})
+                found = self.walk.select(case.where, (found, after))
+            else:
+                found = self.walk.cofactor_where(case.where, case.writes, function, found)
         return found
 
     def obligations(self) -> Iterator[tuple[str, Function]]:

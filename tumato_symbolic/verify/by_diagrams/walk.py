@@ -135,6 +135,29 @@ class Walk(Functions):
 
         return visit(where, function, otherwise)
 
+    def within(self, care: Function, function: Function) -> Function:
+        """A function that is `function` where `care` holds, and elsewhere whatever makes it small."""
+        known: dict[tuple[Function, Function], Function] = {}
+
+        def visit(care: Function, function: Function) -> Function:
+            if care == TRUE or function in self._values:
+                return function
+            key = (care, function)
+            found = known.get(key)
+            if found is None:
+                level = self._levels[function]
+                if self._levels[care] < level:
+                    found = visit(self.any_of(dict.fromkeys(self._below[care])), function)
+                else:
+                    pairs = list(zip(self._split(care, level), self._below[function], strict=True))
+                    parts = [None if part == FALSE else visit(part, rest) for part, rest in pairs]
+                    some = next(part for part in parts if part is not None)
+                    found = self._node(level, tuple([some if part is None else part for part in parts]))
+                self._remember(known, key, found)
+            return found
+
+        return function if care == FALSE else visit(care, function)
+
     def apply_all(self, operation: Callable[[int, int], int], functions: Sequence[Function]) -> Function:
         """All of these functions, of which there are some, by an operation that is associative: neighbours first."""
         while len(functions) > 1:
