@@ -51,6 +51,17 @@ def test_the_answer_says_who_proved_what(monkeypatch: pytest.MonkeyPatch) -> Non
     assert _proved_by("auto") == ["walk"] * 4
 
 
+def test_long_runs_of_a_diagram_are_for_the_walk(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Many different ranks keep Z3 busy; a table is listed sooner."""
+    spec, rows = _ring()
+    table = certified(spec, rows, exact_ranks(spec, rows, "any"))
+    for most, first in ((2, "walk"), (100, "z3")):
+        monkeypatch.setattr(portfolio, "MANY_RANKS", most)
+        diagram = verify(replace(table, decisions=as_diagram(table)), spec)
+        assert [result.proved_by for result in diagram.properties] == [first] * 4
+        assert [result.proved_by for result in verify(table, spec).properties] == ["z3"] * 4
+
+
 def _tired(_: object, name: PropertyName, *__: object) -> PropertyResult:
     return PropertyResult(name, "undecided", reason="tired")
 

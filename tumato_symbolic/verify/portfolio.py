@@ -40,6 +40,9 @@ MANY_CASES = 100
 MANY_RANK_NODES = 500
 """Ranks with more nodes than that tend to count, and then Z3 takes long."""
 
+MANY_RANKS = 100
+"""Where runs have more different ranks than that, and more states than a table lists, the walk is faster."""
+
 
 class Prover(Protocol):
     """Proves or refutes the properties of one policy, in the order of `PROPERTIES`."""
@@ -242,8 +245,9 @@ class _Auto(_Pair):
 
     @cached_property
     def _is_large(self) -> bool:
-        """Ranks with many nodes, or those of a diagram, or of many goals, that brings none."""
-        certificate = self._policy.certificate
+        """Ranks with many nodes, or many in a diagram, or those of a diagram, or of many goals, that brings none."""
+        certificate, is_diagram = self._policy.certificate, not isinstance(self._policy.decisions, Table)
         if certificate is None:
-            return self._goals_are_many or not isinstance(self._policy.decisions, Table)
-        return len(certificate.ranks.nodes) > MANY_RANK_NODES
+            return self._goals_are_many or is_diagram
+        ranks = certificate.ranks
+        return len(ranks.nodes) > MANY_RANK_NODES or (is_diagram and len(ranks.leaves) > MANY_RANKS)
