@@ -20,6 +20,16 @@ from unittest.mock import patch
 
 from tumato_symbolic.cli.main import main
 
+ENTRY = "from tumato_symbolic.cli.main import entry; entry()"
+PROGRAM = (sys.executable, "-c", ENTRY)
+"""`tumato-sym` as a process, wherever it is installed."""
+
+HEEDING = "import os, signal, sys\nsignal.signal(signal.SIGINT, signal.default_int_handler)\n"
+"""Code before `ENTRY`, for tests of Ctrl-C.
+
+Shells start background jobs, such as a whole test run, with Ctrl-C ignored, and children inherit that.
+"""
+
 _OURS = re.compile(r"(tumato-sym (?:[^|&;<>$`*?{}()#~\\]|\\\n)*?)((?:\s\d?[|&;<>].*)?)", re.DOTALL)
 """A command in which the shell has nothing to do but find its words, and what the shell does with it."""
 

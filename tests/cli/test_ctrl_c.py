@@ -15,17 +15,12 @@ import pytest
 
 from tests.cli.inputs import state, write_inputs
 from tests.repo.documents import ROOT
+from tests.shell import ENTRY, HEEDING
 from tumato_symbolic.cli.command_line import parse
 from tumato_symbolic.cli.commands import COMMANDS, load
 from tumato_symbolic.limits.processes import can_fork
 
 PIPE = subprocess.PIPE
-
-HEEDING = """
-import os, signal, sys
-signal.signal(signal.SIGINT, signal.default_int_handler)
-"""
-"""Shells start background jobs, such as a whole test run, with Ctrl-C ignored, and children inherit that."""
 
 BUSY = """
 from importlib import import_module
@@ -137,8 +132,7 @@ def test_commands_that_only_python_works_for_do_without_a_child(tmp_path: Path) 
 def test_ctrl_c_while_it_waits_for_a_line(folder: Path) -> None:
     """Ctrl-C: exit 130, a word instead of a traceback, and no half-written file."""
     before = set(folder.iterdir())
-    code = "from tumato_symbolic.cli.main import entry; entry()"
-    with _started(folder, code, "decide", "amr.json", "--stdin", stdin=PIPE) as process:
+    with _started(folder, ENTRY, "decide", "amr.json", "--stdin", stdin=PIPE) as process:
         assert process.stdin is not None
         assert process.stdout is not None
         assert process.stderr is not None
@@ -153,9 +147,8 @@ def test_ctrl_c_while_it_waits_for_a_line(folder: Path) -> None:
 def test_ctrl_c_ends_a_server(folder: Path) -> None:
     """The language server ends as well, while it waits for its editor."""
     pytest.importorskip("pygls")
-    code = "from tumato_symbolic.cli.main import entry; entry()"
     asked = b'{"jsonrpc": "2.0", "id": 1, "method": "initialize", "params": {"capabilities": {}}}'
-    with _started(folder, code, "lsp", stdin=PIPE) as process:
+    with _started(folder, ENTRY, "lsp", stdin=PIPE) as process:
         assert process.stdin is not None
         assert process.stdout is not None
         assert process.stderr is not None

@@ -13,11 +13,11 @@ import pytest
 
 from tests.cli.conftest import Cli
 from tests.cli.inputs import write_inputs
+from tests.shell import ENTRY, HEEDING, PROGRAM
 from tumato_symbolic.policy import as_diagram, load, save
 
 UNSAFE = ("S_Location=corridor", "S_Battery=low", "S_Load=free", "S_Conveyor=on")
 LOADED = ("S_Location=workstation_2", "S_Battery=ok", "S_Load=loaded", "S_Conveyor=off")
-PROGRAM = [sys.executable, "-c", "from tumato_symbolic.cli.main import entry; entry()"]
 
 
 def _piped(folder: Path, lines: str, *arguments: str) -> subprocess.CompletedProcess[str]:
@@ -177,7 +177,7 @@ def test_interrupted_it_leaves_no_file(tmp_path: Path) -> None:
     """Ctrl-C while a command is waited for: exit code 130, and neither the trace nor a temporary file."""
     write_inputs(tmp_path)
     before = set(tmp_path.iterdir())
-    command = [*PROGRAM, "run", "amr.json", "amr.tum", *UNSAFE, "--itf", "trace.json"]
+    command = [sys.executable, "-c", HEEDING + ENTRY, "run", "amr.json", "amr.tum", *UNSAFE, "--itf", "trace.json"]
     with subprocess.Popen(command, cwd=tmp_path, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
         assert process.stdout is not None
         assert process.stdout.readline()

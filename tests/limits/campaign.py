@@ -5,13 +5,13 @@ from __future__ import annotations
 import json
 import os
 import subprocess
-import sys
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from tests.limits.large import specification
+from tests.shell import PROGRAM
 from tumato_symbolic import parse
 from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.diagrams import DiagramBuilder
@@ -20,8 +20,6 @@ from tumato_symbolic.spec import digest
 
 LATE = 2.0
 """Seconds after its limit in which a command has to end."""
-
-_PROGRAM = (sys.executable, "-c", "from tumato_symbolic.cli.main import entry; entry()")
 
 _SPEC_ALONE = ("synth", "explain", "check")
 COMMANDS = (*_SPEC_ALONE, "verify", "show", "diff", "why", "run", "export", "report")
@@ -94,7 +92,7 @@ def run(command: str, spec: Path, limit: float) -> Ran:
     before = set(folder.iterdir())
     started = time.monotonic()
     process = subprocess.Popen(
-        [*_PROGRAM, command, *arguments, "--timeout", f"{limit:g}"],
+        [*PROGRAM, command, *arguments, "--timeout", f"{limit:g}"],
         cwd=folder,
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,

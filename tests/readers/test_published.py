@@ -17,6 +17,7 @@ from pathlib import Path
 import pytest
 
 from tests.checker.standalone import CHECKER
+from tests.shell import PROGRAM
 
 VARIABLE = "TUMATO_IRC2020"
 FOLDER = Path(os.environ.get(VARIABLE, "."))
@@ -61,8 +62,7 @@ def published(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathF
 
 def ask(*arguments: str | Path, text: str | None = None) -> str:
     """What a command prints that ends well."""
-    program = (sys.executable, "-c", "from tumato_symbolic.cli.main import entry; entry()")
-    ran = subprocess.run([*program, *arguments], input=text, capture_output=True, text=True, check=False)
+    ran = subprocess.run([*PROGRAM, *arguments], input=text, capture_output=True, text=True, check=False)
     assert ran.returncode == 0, (ran.returncode, ran.stdout[-500:], ran.stderr[-500:])
     return ran.stdout
 

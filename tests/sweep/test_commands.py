@@ -13,6 +13,7 @@ import pytest
 
 from tests.cli.conftest import Cli
 from tests.repo.documents import ROOT
+from tests.shell import ENTRY, HEEDING, PROGRAM
 from tests.sweep.here import AMR
 from tumato_symbolic.limits.processes import descendants
 
@@ -106,9 +107,8 @@ def test_the_specification_has_to_be_one(cli: Cli) -> None:
 def test_a_kill_loses_nothing(cli: Cli, tmp_path: Path) -> None:
     """The same command goes on, and ends with the bytes of one that was never killed."""
     words = ["sweep", "amr.tum", "--mutate", "8", "--no-verify", "--jobs", "1", "-o"]
-    code = "from tumato_symbolic.cli.main import entry; entry()"
     results = tmp_path / "killed.jsonl"
-    with subprocess.Popen([sys.executable, "-c", code, *words, results.name], cwd=tmp_path) as running:
+    with subprocess.Popen([*PROGRAM, *words, results.name], cwd=tmp_path) as running:
         while not results.exists() or results.read_text().count("\n") < 4:
             assert running.poll() is None
             time.sleep(0.01)
@@ -125,8 +125,19 @@ def test_ctrl_c(tmp_path: Path) -> None:
     if sys.platform != "linux":
         pytest.skip("processes are looked for in /proc")
     (tmp_path / "amr.tum").write_text(AMR.text)
-    code = "from tumato_symbolic.cli.main import entry; entry()"
-    words = [sys.executable, "-c", code, "sweep", "amr.tum", "--mutate", "all", "--jobs", "2", "-o", "r.jsonl"]
+    words = [
+        sys.executable,
+        "-c",
+        HEEDING + ENTRY,
+        "sweep",
+        "amr.tum",
+        "--mutate",
+        "all",
+        "--jobs",
+        "2",
+        "-o",
+        "r.jsonl",
+    ]
     streams = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
     with subprocess.Popen(words, cwd=tmp_path, text=True, **streams) as running:  # type: ignore[call-overload]
         results = tmp_path / "r.jsonl"
