@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from benchmarks.arbitrary import arbitrary
 from benchmarks.cleaning import errands, rooms
-from benchmarks.limits import paired, pairs, shelf_counts, shelves
+from benchmarks.limits import paired, pairs, puzzle, shelf_counts, shelves
 from benchmarks.missions import grid, plant, samples, strewn
 from benchmarks.robots import amr, loads, robots
 from benchmarks.sites import factory, uav
@@ -47,6 +47,7 @@ FAMILIES = {
         Family("errands", "n rooms that one robot cleans, a goal each", errands, (12, 20), (12,)),
         Family("shelves", "n boxes with names on n shelves", shelves, (4, 6, 8, 10), (4,), limit=True),
         Family("shelf_counts", "n boxes, all alike, on n shelves", shelf_counts, (4, 6, 8, 10), (), limit=True),
+        Family("puzzle", "a sliding puzzle of n rows of three", puzzle, (2, 3), (2,), limit=True),
         Family("pairs", "n drives, then their n brakes", pairs, (4, 6, 8, 10), (4,), limit=True),
         Family("paired", "n drives, each with its brake", paired, (4, 6, 8, 10), (), limit=True),
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from itertools import combinations
 
 from benchmarks.writing import Text, all_of
@@ -63,3 +64,42 @@ def pairs(count: int, realizable: bool, together: bool = False) -> str:
 def paired(count: int, realizable: bool) -> str:
     """`pairs`, declared pair by pair."""
     return pairs(count, realizable, together=True)
+
+
+COLUMNS = 3
+
+
+def puzzle(rows: int, realizable: bool) -> str:
+    """The sliding puzzle with rows of three, a variable for every place; three rows are 181,440 arrangements.
+
+    Half of the arrangements are never met, and which ones depends on all places. The twin wants one of these.
+    """
+    text, places = Text(), range(rows * COLUMNS)
+    tiles = [f"tile{number}" for number in places if number]
+    text.resource("HAND")
+    for place in places:
+        text.state(f"S_Place{place}", "blank", *tiles)
+    for source, target in _beside(rows):
+        for tile in tiles:
+            moved = f"S_Place{source} is blank, S_Place{target} is {tile}"
+            there = f"S_Place{source} is {tile}, S_Place{target} is blank"
+            text.action(f"slide_{tile}_{source}_{target}", moved, when=there, holds=("HAND",))
+    for value in ("blank", *tiles):
+        for first, second in combinations(places, 2):
+            text.assume(f"NOT (S_Place{first} is {value} AND S_Place{second} is {value})")
+    text.start(_arranged(["blank", *tiles]))
+    text.goal(_arranged(["blank", *tiles] if realizable else ["blank", *tiles[:-2], tiles[-1], tiles[-2]]))
+    return text.render()
+
+
+def _arranged(values: list[str]) -> str:
+    return all_of([f"S_Place{place} is {value}" for place, value in enumerate(values)])
+
+
+def _beside(rows: int) -> Iterator[tuple[int, int]]:
+    """Places that touch each other, both ways."""
+    for place in range(rows * COLUMNS):
+        if place % COLUMNS + 1 < COLUMNS:
+            yield from ((place, place + 1), (place + 1, place))
+        if place + COLUMNS < rows * COLUMNS:
+            yield from ((place, place + COLUMNS), (place + COLUMNS, place))

@@ -18,6 +18,7 @@ class Text:
     state_rules: list[str] = field(default_factory=list)
     assumptions: list[str] = field(default_factory=list)
     goals: list[str] = field(default_factory=list)
+    starts: list[str] = field(default_factory=list)
     longest_plan: int | None = None
     goal_type: str = "priority"
 
@@ -66,6 +67,10 @@ class Text:
         """The next goal of the one list."""
         self.goals.append(f"when {when} then goal: {body}" if when else f"goal: {body}")
 
+    def start(self, predicate: str) -> None:
+        """Where the robot may begin."""
+        self.starts.append(f"start: {predicate}")
+
     def render(self) -> str:
         """The whole text; empty blocks are left out."""
         goals = [f"goal type: {self.goal_type}", *self.goals] if self.goals else []
@@ -79,6 +84,7 @@ class Text:
             "STATE RULES": self.state_rules,
             "ASSUMPTIONS": self.assumptions,
             "GOALS": goals,
+            "START": self.starts,
             "CONFIG": config,
         }
         parts = [f"BEGIN {title}\n" + "\n".join(lines) + f"\nEND {title}\n" for title, lines in blocks.items() if lines]

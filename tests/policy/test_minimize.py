@@ -1,12 +1,13 @@
 """Diagrams become smaller, and say the same where it matters."""
 
 from itertools import product
+from unittest.mock import patch
 
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.policy.strategies import QUICK, diagram_of, policies
-from tumato_symbolic.diagrams import DiagramBuilder
+from tumato_symbolic.diagrams import DiagramBuilder, restrict
 from tumato_symbolic.policy import (
     Certificate,
     DecisionDiagram,
@@ -20,10 +21,11 @@ from tumato_symbolic.policy.unrealizability import Layers, NoPlan
 
 
 @QUICK
-@given(policies(forms=("diagram",)))
-def test_decisions_stay_and_nothing_grows(policy: Policy) -> None:
-    """Every defined state keeps its decision, no other becomes defined, and there are no more nodes."""
-    found = minimized_decisions(diagram_of(policy), policy.vocabulary.sizes)
+@given(policies(forms=("diagram",)), st.sampled_from([0, 10_000]))
+def test_decisions_stay_and_nothing_grows(policy: Policy, most: int) -> None:
+    """Every defined state keeps its decision, no other becomes defined, and there are no more nodes; large or not."""
+    with patch.object(restrict, "MOST_MERGED", most):
+        found = minimized_decisions(diagram_of(policy), policy.vocabulary.sizes)
     assert as_table(Policy(policy.vocabulary, found), 10_000) == as_table(policy, 10_000)
     assert len(found.diagram.nodes) <= len(diagram_of(policy).diagram.nodes)
 

@@ -8,6 +8,9 @@ from tumato_symbolic.diagrams.diagram import Diagram, Leaf, Reference, rebuild
 from tumato_symbolic.diagrams.recursion import room_for
 from tumato_symbolic.diagrams.sets import EVERYTHING, LEAVES, NOTHING, Sets
 
+MOST_MERGED = 30_000
+"""Nodes of a diagram: in a larger one values with compatible rests do not share one."""
+
 
 def smallest(
     diagram: Diagram[Leaf],
@@ -16,7 +19,10 @@ def smallest(
     states: tuple[Diagram[bool], Reference],
     fixed: Sequence[Reference] = (),
 ) -> tuple[Diagram[Leaf], tuple[Reference, ...]]:
-    """`fixed`, and functions that equal those of `roots` in `states`: of three diagrams the one with fewest nodes."""
+    """`fixed`, and functions that equal those of `roots` in `states`: of three diagrams the one with fewest nodes.
+
+    Of two where the diagram is large: merging would take longer than all that the diagram is for.
+    """
     found = [rebuild(diagram, (*fixed, *roots))]
     with room_for(len(diagram.order)):
         sets = Sets(diagram.order, sizes, 2 + len(diagram.leaves))
@@ -25,7 +31,7 @@ def smallest(
             return found[0]
         leaves = {leaf: number for number, leaf in enumerate(diagram.leaves, 2)}
         exact, functions = sets.take(diagram, fixed, leaves), sets.take(diagram, roots, leaves)
-        for merging in (False, True):
+        for merging in (False, True) if len(diagram.nodes) <= MOST_MERGED else (False,):
             ours = _Minimizer(sets, merging)
             found.append(sets.give([*exact, *(ours.simplest(each, needed) for each in functions)], diagram.leaves))
     return min(found, key=lambda each: len(each[0].nodes))
