@@ -10,8 +10,9 @@ from tests.generate import ALL_PROFILES, random_spec
 from tumato_symbolic import parse
 from tumato_symbolic.game import fixpoints
 from tumato_symbolic.game.evaluation import Evaluator
-from tumato_symbolic.game.fixpoints import closed_loop, mixed, preimage
+from tumato_symbolic.game.fixpoints import attractor, closed_loop, mixed, preimage
 from tumato_symbolic.game.problem import Problem, build_problem
+from tumato_symbolic.game.routing import own_region_policy
 from tumato_symbolic.symbolic import Bdd, Manager, available_backend, preferred
 
 SEEDS = range(12)
@@ -81,6 +82,20 @@ def test_what_leads_into_a_set(profile: str, monkeypatch: pytest.MonkeyPatch) ->
         for most in (0, 10_000):
             monkeypatch.setattr(fixpoints, "MOST_MOVES", most)
             assert preimage(problem, problem.steps.allowed)(target) == expected
+
+
+def test_ranks_that_come_with_the_decisions_are_those_of_the_policy() -> None:
+    """The rounds in which states of a single region were decided are the layers that the policy has."""
+    seen = 0
+    for profile in sorted(ALL_PROFILES):
+        for problem in problems(profile):
+            own = own_region_policy(problem)
+            if own.ranks is not None:
+                step, safe = closed_loop(problem, own.policy).predecessor, problem.steps.safe
+                found = tuple(attractor(problem, target.states, step, safe, None) for target in problem.targets)
+                assert own.ranks == found
+                seen += len(found[0]) > 2
+    assert seen > 3
 
 
 @pytest.mark.parametrize("profile", sorted(ALL_PROFILES))

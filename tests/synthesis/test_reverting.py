@@ -19,7 +19,7 @@ def test_no_change_that_is_left_can_be_reverted_alone(family: str, size: int) ->
     """What remains changed serves all states, and a tenth state of it taken back by itself does not."""
     problem = build_problem(parse(FAMILIES[family].text(size, True)), "any", available_backend())
     steps, evaluator, apart = problem.steps, Evaluator(problem), distances(problem)
-    before = own_region_policy(problem)
+    before = own_region_policy(problem).policy
     before = route(problem, before, steps.safe & ~steps.states_of(before), steps.safe, problem.targets)
     undecided = steps.safe & ~steps.states_of(before)
     before = before | shortest_decisions(problem, apart, undecided, steps.allowed)

@@ -80,11 +80,13 @@ class Evaluator:
         pairs = self.problem.steps.allowed & self.problem.steps.unsafe
         return [preimage(self.problem, pairs & target.pending) for target in self.problem.targets]
 
-    def evaluate(self, policy: Bdd) -> Evaluation:
-        """All that a policy achieves."""
+    def evaluate(self, policy: Bdd, ranks: tuple[Layers, ...] | None = None) -> Evaluation:
+        """All that a policy achieves; `ranks` are its own, where they are known."""
         problem, union = self.problem, self.problem.encoding.manager.union
         found, steps = closed_loop(problem, policy), problem.steps
-        ranks = tuple(attractor(problem, t.states, found.predecessor, steps.safe, None) for t in problem.targets)
+        ranks = ranks or tuple(
+            attractor(problem, t.states, found.predecessor, steps.safe, None) for t in problem.targets
+        )
         near = [union(layers) for layers in in_time(problem, ranks)]
         safe = union(found.first_steps(number, each) for number, each in enumerate(near))
         if problem.spec.restores_stepwise:

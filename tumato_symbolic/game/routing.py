@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 from tumato_symbolic.game.fixpoints import Layers, attractor, closed_loop, preimage
 from tumato_symbolic.game.problem import Problem
@@ -10,11 +11,22 @@ from tumato_symbolic.semantics import ActiveGoals
 from tumato_symbolic.symbolic import Bdd, Target, preferred, with_own_bits
 
 
-def own_region_policy(problem: Problem) -> Bdd:
-    """Decisions whose runs stay where the same goals are active until these are reached, with the fewest steps."""
+@dataclass(frozen=True, slots=True)
+class OwnRegions:
+    """Decisions whose runs stay where the same goals are active until these are reached, with the fewest steps.
+
+    `ranks` are those of the policy, as `attractor` gives them, where they are known: a single target, and one region.
+    """
+
+    policy: Bdd
+    ranks: tuple[Layers, ...] | None = None
+
+
+def own_region_policy(problem: Problem) -> OwnRegions:
+    """The policy of all own regions."""
     policy = problem.false
     if problem.goals_are_many:
-        return _all_regions(problem, problem.targets[0])
+        return OwnRegions(_all_regions(problem, problem.targets[0]))
     targets_in: dict[ActiveGoals, list[Target]] = {}
     for target in problem.targets:
         for active in dict.fromkeys(residual.bodies for residual, _ in target.residuals):
@@ -23,10 +35,13 @@ def own_region_policy(problem: Problem) -> Bdd:
         here = region & problem.steps.safe
         wanted = [target for target in targets_in.get(active, ()) if (target.pending & here) != problem.false]
         if len(wanted) == 1:
-            policy = policy | _nearest_first(problem, wanted[0], here, here)
+            decided, layers = _nearest_first(problem, wanted[0], here, here)
+            if len(problem.targets) == 1 and here == problem.steps.safe:
+                return OwnRegions(decided, (layers,))
+            policy = policy | decided
         elif wanted:
             policy = policy | route(problem, problem.false, here, here, wanted)
-    return policy
+    return OwnRegions(policy)
 
 
 def _all_regions(problem: Problem, target: Target) -> Bdd:
@@ -34,24 +49,26 @@ def _all_regions(problem: Problem, target: Target) -> Bdd:
     safe, own = problem.steps.safe, with_own_bits(problem.encoding, target)
     bits = problem.encoding.goal_bits
     if bits is None or not bits.actions:
-        return _nearest_first(problem, target, safe, own)
+        return _nearest_first(problem, target, safe, own)[0]
     return route(problem, problem.false, safe, safe & own, [target])
 
 
-def _nearest_first(problem: Problem, target: Target, here: Bdd, own: Bdd) -> Bdd:
+def _nearest_first(problem: Problem, target: Target, here: Bdd, own: Bdd) -> tuple[Bdd, Layers]:
     """The fixpoint for a region with one target: states by the number of steps of their best run inside it.
 
     A state that satisfies the target already still has to make a step: it is decided by its own number, but runs of
-    others end in it. Where the target speaks of goal bits, `own` has the states with the bits of their region.
+    others end in it. Where the target speaks of goal bits, `own` has the states with the bits of their region. The
+    layers are those states that runs of others may pass, by how many steps are left; the last one is empty.
     """
-    policy, undecided, front, steps = problem.false, here, target.states, 0
+    policy, undecided, layers = problem.false, here, [target.states]
     bound, into = problem.spec.max_plan_length, preimage(problem, target.pending & here)
-    while problem.false not in {undecided, front} and (bound is None or steps < bound):
-        pairs = undecided & problem.own(target, into(front))
+    while problem.false not in {undecided, layers[-1]} and (bound is None or len(layers) <= bound):
+        pairs = undecided & problem.own(target, into(layers[-1]))
         decided = problem.steps.states_of(pairs)
         policy = policy | preferred(problem.encoding, pairs)
-        undecided, front, steps = undecided & ~decided, decided & own & ~target.states, steps + 1
-    return policy
+        undecided = undecided & ~decided
+        layers.append(decided & own & ~target.states)
+    return policy, layers if layers[-1] == problem.false else [*layers, problem.false]
 
 
 def route(problem: Problem, policy: Bdd, undecided: Bdd, within: Bdd, wanted: Sequence[Target]) -> Bdd:

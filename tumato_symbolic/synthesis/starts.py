@@ -40,7 +40,8 @@ def solve_from_starts(problem: Problem, so_far: Undecided, solve: Solve, *, cert
     problem.context.tell("finding what can be decided")
     whole = greatest(problem, problem, ())
     assert so_far.statistics is not None, "states are counted first"
-    so_far = replace(so_far, statistics=replace(so_far.statistics, part=_counted(whole, starts)))
+    counted = _counted(whole, starts)
+    so_far = replace(so_far, statistics=replace(so_far.statistics, part=counted))
     search = Search(problem, so_far, solve)
     if failures := whole.left_out(starts):
         return _certified(search, whole, _unrealizable(so_far, failures, problem.spec), starts, certify=certify)
@@ -54,7 +55,8 @@ def solve_from_starts(problem: Problem, so_far: Undecided, solve: Solve, *, cert
         return found
     part, outcome = found
     warnings = (*outcome.warnings, *_led_out(problem, part.states))
-    return replace(outcome, warnings=warnings, statistics=replace(outcome.statistics, part=_counted(part, starts)))
+    counted = counted if part is whole else _counted(part, starts)
+    return replace(outcome, warnings=warnings, statistics=replace(outcome.statistics, part=counted))
 
 
 def _led_out(problem: Problem, decided: Bdd) -> tuple[Diagnostic, ...]:

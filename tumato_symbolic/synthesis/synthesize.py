@@ -119,11 +119,12 @@ def _decide(problem: Problem, so_far: Undecided, *, policy_format: PolicyFormat,
     assert statistics is not None, "states are counted first"
     many = many_told(problem.spec)
     context.tell("solving each goal in its own region" + (f" ({many})" if many else ""))
-    policy = own_region_policy(problem)
+    own = own_region_policy(problem)
+    policy = own.policy
     statistics = replace(statistics, own_region=count_decided(problem, policy))
     context.learn(replace(so_far, statistics=statistics))
     undecided, evaluator = problem.steps.safe & ~problem.steps.states_of(policy), Evaluator(problem)
-    evaluation = evaluator.evaluate(policy) if undecided == problem.false else None
+    evaluation = evaluator.evaluate(policy, own.ranks) if undecided == problem.false else None
     if evaluation is None or evaluation.failing != problem.false or has_stuck_states(problem):
         context.tell("measuring distances")
         failing = failing_states(problem)
