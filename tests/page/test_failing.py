@@ -92,7 +92,7 @@ def test_the_page_knows_what_no_policy_from_the_starts_decides() -> None:
 @needs_node
 def test_the_page_knows_what_can_be_served_together() -> None:
     """As a search for policies says that has to decide these states alone."""
-    asked = [random_spec(seed, INTERACTING) for seed in range(6)]
+    asked = [random_spec(seed, INTERACTING) for seed in range(3)]
     random = Random(1)
     told: list[tuple[Explicit, list[tuple[Any, ...]]]] = []
     for spec in asked:
@@ -111,7 +111,7 @@ def test_the_page_knows_what_can_be_served_together() -> None:
 @cache
 def explained() -> list[tuple[Spec, Explanation]]:
     """Specifications without a policy."""
-    found = ((spec, explain(spec, spec.ordering, wanted_repairs=0)) for spec in specs(2))
+    found = ((spec, explain(spec, spec.ordering, wanted_repairs=0)) for spec in islice(specs(2), 0, None, 2))
     return [(spec, each) for spec, each in found if isinstance(each, Explanation)]
 
 
@@ -138,5 +138,5 @@ def test_the_page_confirms_the_lines_to_blame() -> None:
             for spec, each in explained()
         ]
         confirmed = [holds for answer in answers(questions) for holds in answer["cores"]]
-        assert len(confirmed) > 8
+        assert len(confirmed) > 4
         assert set(confirmed) == {not without}
