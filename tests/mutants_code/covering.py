@@ -167,6 +167,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "tumato_symbolic/symbolic/steps.py": STEPS,
     "tumato_symbolic/policy/decisions/binding.py": BINDING,
     "tumato_symbolic/diagrams/diagram.py": NUMBERS,
+    "tumato_symbolic/diagrams/conjunction.py": ("tests/diagrams/test_conjunction.py",),
     "tumato_symbolic/verify/by_states": BY_STATES,
     "tumato_symbolic/verify/by_diagrams/parallel.py": PROCESSES,
     "tumato_symbolic/verify/by_diagrams/prover.py": WALK_PROVER,

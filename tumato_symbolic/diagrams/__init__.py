@@ -1,5 +1,6 @@
-"""Decision diagrams over many-valued variables: the diagrams, sets of states, covers by cubes, minimization."""
+"""Decision diagrams over many-valued variables: the diagrams, sets of states, conjunctions, covers, minimization."""
 
+from tumato_symbolic.diagrams.conjunction import conjoin
 from tumato_symbolic.diagrams.cover import MOST_CUBES, Coverer, TooManyCubes
 from tumato_symbolic.diagrams.diagram import Diagram, DiagramBuilder, Leaf, Node, Reference, count_true, rebuild
 from tumato_symbolic.diagrams.recursion import room_for
@@ -20,6 +21,7 @@ __all__ = [
     "Reference",
     "Sets",
     "TooManyCubes",
+    "conjoin",
     "count_true",
     "rebuild",
     "room_for",

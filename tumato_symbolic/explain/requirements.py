@@ -52,7 +52,7 @@ class Requirements:
         no_resources = frozenset(each for each in self.elements if each.kind != "resource")
         self.encoding: Encoding = encode(keep_only(spec, no_resources), backend, context)
         self.manager = self.encoding.manager
-        self.valid: Bdd = self.encoding.domain() & self.encoding.all_of(rule.formula for rule in spec.assumptions)
+        self.valid: Bdd = self.encoding.states_where(rule.formula for rule in spec.assumptions)
         self.regions = regions(self.encoding, self.valid)
         self.compatible: Bdd = self.encoding.domain() & compatible_sets(self.encoding) & meant_sets(self.encoding)
         self._relevant = {rule: self._relevant_alternatives(rule) for rule in self.elements if self._is_lasting(rule)}
@@ -77,10 +77,10 @@ class Requirements:
         """The step relation when only these elements are kept; `within` is one more assumption, as a set of states."""
         if within is not None:
             return self._narrowed(self.steps(kept), kept, within)
-        valid = self.encoding.domain() & self._all_of(kept, "assumption")
+        valid = self._states_where(kept, "assumption")
         allowed, encoding = self.allowed(kept), self.encoding
         if not self.spec.restores_stepwise:
-            safe = valid & self._all_of(kept, "state-rule")
+            safe = valid & self._states_where(kept, "state-rule")
             return Steps(encoding, self.ordering, valid, safe, allowed, allowed, (valid, safe))
         encoding = Encoding.of(encoding, keep_only(self.spec, kept))
         tiers = tiers_within(encoding, valid)
@@ -147,8 +147,9 @@ class Requirements:
                 return True
         return False
 
-    def _all_of(self, kept: Elements, kind: str) -> Bdd:
-        return self.encoding.all_of(_rule(self.spec, each).formula for each in self._sorted(kept) if each.kind == kind)
+    def _states_where(self, kept: Elements, kind: str) -> Bdd:
+        rules = (_rule(self.spec, each) for each in self._sorted(kept) if each.kind == kind)
+        return self.encoding.states_where(rule.formula for rule in rules)
 
     def _sorted(self, kept: Elements) -> list[Element]:
         return [each for each in self.elements if each in kept]
@@ -188,7 +189,7 @@ class Requirements:
         kept = staying_in(encoding, self.ordering, domain & holds, self.manager.true)
         if element.kind == "assumption" or not self.spec.restores_stepwise:
             return kept
-        concerned = self._all_of(requirement.others, "state-rule")
+        concerned = self._states_where(requirement.others, "state-rule")
         if self.spec.restoration != "one_step":
             concerned = concerned & holds
         return ~concerned | kept

@@ -153,10 +153,15 @@ class Layout:
 
     def domain(self) -> Bdd:
         """The bit vectors that stand for states."""
-        return self.manager.intersection(
+        return self.states_where(())
+
+    def states_where(self, formulas: Iterable[Formula]) -> Bdd:
+        """The bit vectors that stand for states in which every formula holds."""
+        values = (
             self.manager.union(self.value(variable, value) for value in range(size))
             for variable, size in enumerate(self.sizes)
         )
+        return self.manager.intersection([*values, *map(self.formula, formulas)])
 
     def choice_domain(self) -> Bdd:
         """The bit vectors that stand for sets of actions, exclusive within each group."""

@@ -13,6 +13,7 @@ from importlib import import_module
 from types import ModuleType
 from typing import Any, Literal, Protocol, TypeAlias
 
+from tumato_symbolic.diagrams import conjoin
 from tumato_symbolic.limits import Context, LimitReachedError, MissingPackageError
 
 Backend: TypeAlias = Literal["cudd", "autoref"]
@@ -163,11 +164,14 @@ class Manager:
 
     def intersection(self, parts: Iterable[Bdd]) -> Bdd:
         """The intersection of any number of sets."""
-        result = self.true
-        for part in parts:
-            self.context.check()
-            result = result & part
-        return result
+        return conjoin(parts, self._levels_of, self._both, self.true)
+
+    def _both(self, u: Bdd, v: Bdd) -> Bdd:
+        self.context.check()
+        return u & v
+
+    def _levels_of(self, u: Any) -> list[int]:  # noqa: ANN401 - dd has no types
+        return sorted(map(self._level.__getitem__, self._bdd.support(u)))
 
     def nodes(self, u: Any) -> int:  # noqa: ANN401 - dd has no types
         """How many nodes the diagram of `u` has."""

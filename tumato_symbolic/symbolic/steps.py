@@ -108,8 +108,7 @@ def build_steps(layout: Layout, spec: Spec, ordering: Ordering, within: Bdd | No
     `within` is one more assumption, as a set of states.
     """
     encoding = Encoding.of(layout, spec)
-    domain = encoding.domain()
-    valid = domain & encoding.all_of(rule.formula for rule in spec.assumptions)
+    valid = encoding.states_where(rule.formula for rule in spec.assumptions)
     valid = valid if within is None else valid & within
     tiers = tiers_within(encoding, valid)
     safe = tiers[-1]
@@ -126,7 +125,7 @@ def build_steps(layout: Layout, spec: Spec, ordering: Ordering, within: Bdd | No
 
 def tiers_within(encoding: Encoding, valid: Bdd) -> tuple[Bdd, ...]:
     """`S_0` to `S_m`: the valid states that satisfy more and more tiers of state rules, severe ones first."""
-    each = (encoding.all_of(rule.formula for rule in tier) for tier in encoding.spec.tiers)
+    each = (encoding.states_where(rule.formula for rule in tier) for tier in encoding.spec.tiers)
     return tuple(accumulate(each, and_, initial=valid))
 
 
@@ -144,7 +143,7 @@ def _keeping(encoding: Encoding, ordering: Ordering, tiers: tuple[Bdd, ...], pen
             continue
         here = into(upper if spec.restoration == "one_step" else lower, here)
         for rule in tier if spec.restoration != "one_step" else ():
-            holds = encoding.domain() & encoding.formula(rule.formula)
+            holds = encoding.states_where([rule.formula])
             here = (here & ~holds) | into(holds, here & holds)
         kept = kept | here
     return kept

@@ -97,6 +97,17 @@ class Functions:
                 pending += fresh
         return sorted(found)
 
+    def levels_of(self, function: Function) -> list[int]:
+        """The levels of the variables that a function tests, in ascending order."""
+        seen, pending = {function}, [function]
+        while pending:
+            here = pending.pop()
+            if here not in self._values:
+                fresh = set(self._below[here]) - seen
+                seen |= fresh
+                pending += fresh
+        return sorted({self._levels[each] for each in seen if each not in self._values})
+
     def parts(self, function: Function) -> dict[int, Function]:
         """Where a function has which of its values, in ascending order."""
         known: dict[Function, dict[int, Function]] = {}

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TypeAlias
 
-from tumato_symbolic.diagrams import Diagram, Leaf
+from tumato_symbolic.diagrams import Diagram, Leaf, conjoin
 from tumato_symbolic.verify.by_diagrams.functions import FALSE, MOST_STEPS, TRUE, Function, Functions
 
 Composition: TypeAlias = tuple[tuple[int, Function], ...]
@@ -167,10 +167,10 @@ class Walk(Functions):
 
     def all_of(self, functions: Iterable[Function]) -> Function:
         """All of these predicates."""
-        found = TRUE
-        for each in functions:
-            found = self.select(min(found, each), (FALSE, max(found, each)))
-        return found
+        return conjoin(functions, self.levels_of, self._both, TRUE)
+
+    def _both(self, one: Function, other: Function) -> Function:
+        return self.select(min(one, other), (FALSE, max(one, other)))
 
     def any_of(self, functions: Iterable[Function]) -> Function:
         """One of these predicates at least."""
