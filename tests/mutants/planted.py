@@ -84,8 +84,8 @@ def _predecessor(patch: pytest.MonkeyPatch) -> None:
         return run
 
     preimage = fixpoints.preimage
-    patch.setattr(steps, "nominal_predecessor", mistaken(steps.nominal_predecessor))
-    patch.setattr(steps.Steps, "next_state", mistaken(steps.Steps.next_state))
+    patch.setattr(Encoding, "before", mistaken(Encoding.before))
+    patch.setattr(Encoding, "next_state", mistaken(Encoding.next_state))
     patch.setattr(fixpoints.ClosedLoop, "predecessor", mistaken(fixpoints.ClosedLoop.predecessor))
     for room in (routing, evaluation):
         patch.setattr(room, "preimage", lambda *given: mistaken(mistaken(preimage)(*given)))

@@ -150,7 +150,7 @@ def test_the_next_state_of_a_policy_and_its_moves(seed: int) -> None:
     valid = [state for state in states if is_valid(spec, state)]
     assert list(encoding.states_in(steps.unsafe)) == [state for state in valid if not is_safe(spec, state)]
     chosen = preferred(encoding, steps.allowed)
-    following = steps.next_state(chosen)
+    following = encoding.next_state(chosen)
     decided = {
         state: next(each for each in every_set(spec) if encodes(encoding, each) and _is(encoding, chosen, state, each))
         for state in encoding.states_in(steps.states_of(chosen))

@@ -129,7 +129,7 @@ def closed_loop(problem: Problem, policy: Bdd, most: int | None = None) -> Close
     """
     steps = problem.steps
     moves = steps.moves(policy, most_moves(problem) if most is None else most)
-    following = steps.next_state(policy) if moves is None else {}
+    following = problem.encoding.next_state(policy) if moves is None else {}
     pending = tuple(steps.states_of(policy & target.pending) for target in problem.targets)
     meaning = tuple(_decided_meaning(problem, policy, target) for target in problem.targets)
     return ClosedLoop(problem, policy, steps.states_of(policy), pending, meaning, moves, following)

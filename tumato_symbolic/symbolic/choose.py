@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from tumato_symbolic.symbolic.encoding import Encoding
 from tumato_symbolic.symbolic.manager import Bdd
+
+MANY_ACTIONS = 256
+"""Up to so many actions, looking at each by itself takes less than a pass over the bits of the groups."""
 
 
 def preferred(encoding: Encoding, relation: Bdd) -> Bdd:
@@ -14,13 +17,11 @@ def preferred(encoding: Encoding, relation: Bdd) -> Bdd:
     nothing = manager.cube(_all_idle(encoding))
     result = relation & nothing
     undecided = relation & ~manager.cofactor(relation, _all_idle(encoding))
-    single = _first_alone(encoding, undecided)
-    result = result | single
-    undecided = undecided & ~manager.exists(encoding.all_choice_bits, single)
-    for exactly in _by_size(encoding)[2:]:
+    for size, exactly in enumerate(encoding.sets_by_size[1:], start=1):
         if undecided == manager.false:
             break
-        smallest = _first_declared(encoding, undecided & exactly)
+        first = _first_alone if size == 1 and len(encoding.spec.cases) <= MANY_ACTIONS else _first_declared
+        smallest = first(encoding, undecided & exactly)
         undecided = undecided & ~manager.exists(encoding.all_choice_bits, smallest)
         result = result | smallest
     return result
@@ -32,7 +33,7 @@ def _all_idle(encoding: Encoding) -> dict[str, bool]:
 
 
 def _first_alone(encoding: Encoding, relation: Bdd) -> Bdd:
-    """For each state the first action that the relation has as a set of its own."""
+    """`_first_declared` for sets of one action: each is looked at by itself."""
     manager = encoding.manager
     result = decided = manager.false
     for alone in encoding.alone:
@@ -47,27 +48,26 @@ def _first_declared(encoding: Encoding, relation: Bdd) -> Bdd:
     """For each state the first of its sets, which are all of one size.
 
     Sets of one size are compared as sorted lists of declaration positions; the smaller list is the one that holds the
-    first action in which they differ, so a pass over the actions decides.
+    first action in which they differ, so a pass over the actions decides. Of actions of one group that follow each
+    other at most one is in a set, and the first has the smallest number: a pass over the bits decides.
     """
-    manager = encoding.manager
-    for cases in encoding.spec.cases:
-        with_it = relation & encoding.executing_any(cases)
+    manager, choice_bits = encoding.manager, encoding.all_choice_bits
+    for choices, bits in encoding.declared:
+        with_it = relation & choices
         if with_it != manager.false:
-            relation = with_it | (relation & ~manager.exists(encoding.all_choice_bits, with_it))
+            there = manager.exists([bit for bit in choice_bits if bit not in bits], with_it)
+            others = relation & ~manager.exists(bits, there)
+            relation = (with_it & _smallest(encoding, there, bits) if bits else with_it) | others
     return relation
 
 
-def _by_size(encoding: Encoding) -> list[Bdd]:
-    """The sets of 0, 1, 2, … actions."""
-    sizes = [encoding.manager.true]
-    for group in encoding.groups:
-        idle = encoding.idle(group)
-        longer = [*sizes, encoding.manager.false]
-        sizes = [
-            (longer[size] & idle) | ((sizes[size - 1] & ~idle) if size else encoding.manager.false)
-            for size in range(len(longer))
-        ]
-    return sizes
+def _smallest(encoding: Encoding, relation: Bdd, bits: Sequence[str]) -> Bdd:
+    """For each state the smallest of the numbers that these bits have in a relation between states and them."""
+    manager = encoding.manager
+    for bit in bits:
+        without = relation & manager.cube({bit: False})
+        relation = without | (relation & ~manager.exists(bits, without))
+    return relation
 
 
 def by_duration(encoding: Encoding, choices: Bdd) -> dict[int, Bdd]:

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import groupby
 
 from tumato_symbolic.limits import Context
 from tumato_symbolic.spec import Assignment, Spec
 from tumato_symbolic.symbolic.effect_tree import EffectTree, after_every, effect_tree
-from tumato_symbolic.symbolic.layout import Layout, lay_out, number_bits
+from tumato_symbolic.symbolic.layout import Group, Layout, lay_out, number_bits
 from tumato_symbolic.symbolic.manager import Backend, Bdd
-from tumato_symbolic.symbolic.present import FEW_MOVES, Leading, present
+from tumato_symbolic.symbolic.present import FEW_MOVES, Leading, Written, by_values, next_values, present, written_by
 
 
 @dataclass(frozen=True)
@@ -54,10 +55,49 @@ class Encoding(Layout):
         """`nominal_moves` with the constants for bits that stand for what is written."""
         return [[(self.assignment_bits(effect), choices) for effect, choices in moves] for moves in self.nominal_moves]
 
+    def before(self, target: Bdd) -> Bdd:
+        """`{(s, A) : δ(s, A) ∈ target}`, group by group: agreeing effects commute.
+
+        Of a group with many moves the next value of every bit is put in its place; otherwise the predecessor under each
+        is a cofactor.
+        """
+        for moves, following in zip(self._leading, self._following, strict=True):
+            target = moves.into(target) if following is None else self.manager.compose(target, following)
+        return target
+
     @cached_property
-    def leading(self) -> list[Leading]:
-        """`nominal_moves` by where they lead."""
+    def _leading(self) -> list[Leading]:
         return [Leading(self.manager, moves, self.assignment_bits) for moves in self.nominal_moves]
+
+    @cached_property
+    def _following(self) -> list[Mapping[str, Bdd] | None]:
+        """For every group with many moves, the next value of each bit that it writes."""
+        return [
+            next_values(self.manager, written) if len(moves) > FEW_MOVES else None
+            for moves, written in zip(self.nominal_writes, self._written, strict=True)
+        ]
+
+    @cached_property
+    def _written(self) -> list[Written]:
+        return [written_by(self.manager, moves) for moves in self.nominal_writes]
+
+    def next_state(self, policy: Bdd) -> Mapping[str, Bdd]:
+        """`s ↦ δ(s, π(s))` for a functional relation, as one function for every bit that some action writes.
+
+        A state without a decision stays where it is.
+        """
+        manager, found = self.manager, dict[str, tuple[Bdd, Bdd]]()
+        for group, written in zip(self.groups, self._written, strict=True):
+            chosen = self._of_group(policy, group)
+            for bit, choices in written.items():
+                zeros, ones = (manager.and_exists(group.bits, chosen, each) for each in choices)
+                others = found.get(bit, (manager.false, manager.false))
+                found[bit] = (others[0] | zeros, others[1] | ones)
+        return next_values(manager, found)
+
+    def _of_group(self, relation: Bdd, group: Group) -> Bdd:
+        """The states of a relation with the choices of one group alone."""
+        return self.manager.exists([bit for bit in self.all_choice_bits if bit not in group.bits], relation)
 
     def writes_in(self, group: int, relation: Bdd) -> Sequence[tuple[Mapping[str, bool], Bdd]]:
         """Those of `nominal_writes` of a group that choices in a relation make; perhaps some others."""
@@ -79,6 +119,48 @@ class Encoding(Layout):
             codes = (tuple(number_bits(group.bits, choice).values()) for choice in range(len(effects)))
             found.append({code: numbers[effect] for code, effect in zip(codes, effects, strict=True)})
         return found
+
+    def states_executing(self, relation: Bdd) -> list[Bdd]:
+        """For every action, the states that a relation relates to a set with it."""
+        found = [self.manager.false] * len(self.choice_of)
+        for group in self.groups:
+            by_code = dict(by_values(self.manager, self._of_group(relation, group), group.bits))
+            for action in group.actions:
+                found[action] = by_code.get(tuple(self.action_bits(action).values()), self.manager.false)
+        return found
+
+    @cached_property
+    def sets_by_size(self) -> list[Bdd]:
+        """The sets of 0, 1, 2, … actions."""
+        sizes = [self.manager.true]
+        for group in self.groups:
+            idle = self.idle(group)
+            longer = [*sizes, self.manager.false]
+            sizes = [
+                (longer[size] & idle) | ((sizes[size - 1] & ~idle) if size else self.manager.false)
+                for size in range(len(longer))
+            ]
+        return sizes
+
+    @cached_property
+    def declared(self) -> list[tuple[Bdd, Sequence[str]]]:
+        """The choices that contain an action, as declared; many of one group that follow each other are one.
+
+        These come with the bits of their group, whose numbers rise in the same order.
+        """
+        found: list[tuple[Bdd, Sequence[str]]] = []
+        for group, run in groupby(self.spec.cases, self._home):
+            parts = [self.executing_any(cases) for cases in run]
+            if group is None or len(parts) <= len(group.bits) + 1:
+                found += [(part, ()) for part in parts]
+            else:
+                found.append((self.manager.union(parts), group.bits))
+        return found
+
+    def _home(self, cases: Sequence[int]) -> Group | None:
+        """The group of an action; None where its cases are in several."""
+        homes = {self.choice_of[case][0] for case in cases}
+        return self.groups[homes.pop()] if len(homes) == 1 else None
 
     @cached_property
     def effect_trees(self) -> list[EffectTree]:

@@ -52,22 +52,29 @@ class Extractor(Generic[Value]):
             inner = [manager.top(digit) for digit in digits if digit not in (manager.true, manager.false)]
             if inner:
                 level = self._tested[min(inner)]
-                below = [self._build(rest, leaves, known) for rest in self._by_value(level, 0, 0, digits)]
+                below: list[Reference] = []
+                for rest, values in self._by_value(level, 0, 0, digits):
+                    below += [self._build(rest, leaves, known)] * values
                 found = self._node(level, tuple(below))
             else:
                 found = leaves[sum((digit == manager.true) << place for place, digit in enumerate(digits))]
             known[digits] = found
         return found
 
-    def _by_value(self, level: int, place: int, first: int, digits: tuple[Bdd, ...]) -> list[tuple[Bdd, ...]]:
-        """What is left of digits for the values from `first` on that agree in the bits before `place`."""
+    def _by_value(
+        self, level: int, place: int, first: int, digits: tuple[Bdd, ...]
+    ) -> list[tuple[tuple[Bdd, ...], int]]:
+        """What is left of digits for the values from `first` on that agree in the bits before `place`.
+
+        Values that follow each other and leave the same may be one entry, with their number.
+        """
         bits, manager = self._bits[level], self._manager
         alike = 1 << (len(bits) - place)
         if first >= self._sizes[level]:
             return []
         inner = [manager.top(digit) for digit in digits if digit not in (manager.true, manager.false)]
         if place == len(bits) or min(inner, default=bits[-1] + 1) > bits[-1]:
-            return [digits] * min(alike, self._sizes[level] - first)
+            return [(digits, min(alike, self._sizes[level] - first))]
         halves = [manager.halves(digit, bits[place]) for digit in digits]
         low = self._by_value(level, place + 1, first, tuple([low for low, _ in halves]))
         return low + self._by_value(level, place + 1, first + alike // 2, tuple([high for _, high in halves]))

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from tumato_symbolic.spec import Assignment
 from tumato_symbolic.symbolic.manager import Bdd, Manager
@@ -86,13 +87,37 @@ class Leading:
             yield from by_values.get(values, ())
 
 
+Written: TypeAlias = Mapping[str, tuple[Bdd, Bdd]]
+"""For every bit that something writes, where it becomes 0, and where it becomes 1."""
+
+
+def written_by(manager: Manager, moves: Iterable[tuple[Mapping[str, bool], Bdd]]) -> Written:
+    """What some moves write together, each in what comes with it."""
+    found: dict[str, tuple[Bdd, Bdd]] = {}
+    for constants, where in moves:
+        for bit, value in constants.items():
+            zeros, ones = found.get(bit, (manager.false, manager.false))
+            found[bit] = (zeros, ones | where) if value else (zeros | where, ones)
+    return found
+
+
+def next_values(manager: Manager, written: Written) -> Mapping[str, Bdd]:
+    """The next value of every bit that is written; where it is not, it stays as it is."""
+    return {bit: ones | (manager.cube({bit: True}) & ~zeros) for bit, (zeros, ones) in written.items()}
+
+
 def present(manager: Manager, found: Bdd, bits: Sequence[str], most: int) -> list[tuple[bool, ...]] | None:
     """The values that some bits have together in a set; None where there are more than `most`."""
     kept = frozenset(bits)
     projected = manager.exists([bit for bit in manager.bits if bit not in kept], found)
     if manager.count(projected, bits) > most:
         return None
-    parts: list[tuple[tuple[bool, ...], Bdd]] = [((), projected)]
+    return [values for values, _ in by_values(manager, projected, bits)]
+
+
+def by_values(manager: Manager, found: Bdd, bits: Sequence[str]) -> list[tuple[tuple[bool, ...], Bdd]]:
+    """What is left of a set for all values that some bits have together in it."""
+    parts: list[tuple[tuple[bool, ...], Bdd]] = [((), found)]
     for bit in bits:
         split = (
             ((*values, value), manager.cofactor(part, {bit: value}))
@@ -100,4 +125,4 @@ def present(manager: Manager, found: Bdd, bits: Sequence[str], most: int) -> lis
             for value in (False, True)
         )
         parts = [(values, part) for values, part in split if part != manager.false]
-    return [values for values, _ in parts]
+    return parts

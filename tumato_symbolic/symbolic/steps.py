@@ -46,7 +46,7 @@ class Steps:
 
     def before(self, target: Bdd) -> Bdd:
         """`{(s, A) : δ(s, A) ∈ target}` for sets whose nominal effects agree; `target` is a set of states."""
-        return nominal_predecessor(self.encoding, target)
+        return self.encoding.before(target)
 
     def states_of(self, relation: Bdd) -> Bdd:
         """`{s : ∃ A. (s, A) ∈ relation}`."""
@@ -82,24 +82,10 @@ class Steps:
                     if part != manager.false:
                         both = tuple(sorted({*written, *effect}))
                         split[both] = split.get(both, manager.false) | part
-                if len(split) > most:
-                    return None
+                        if len(split) > most:
+                            return None
             found = split
         return found
-
-    def next_state(self, policy: Bdd) -> dict[str, Bdd]:
-        """`s ↦ δ(s, π(s))` for a functional relation, as one function for every bit that some action writes.
-
-        A state without a decision stays where it is.
-        """
-        encoding, manager = self.encoding, self.encoding.manager
-        acting = [self.states_of(policy & encoding.executing(a)) for a in range(len(encoding.spec.actions))]
-        written: dict[str, list[Bdd]] = {}
-        for action, states in zip(encoding.spec.actions, acting, strict=True):
-            for bit, value in encoding.assignment_bits(action.nominal).items():
-                ones = written.setdefault(bit, [manager.false, manager.false])
-                ones[value] = ones[value] | states
-        return {bit: up | (manager.cube({bit: True}) & ~down) for bit, (down, up) in written.items()}
 
 
 def build_steps(layout: Layout, spec: Spec, ordering: Ordering, within: Bdd | None = None) -> Steps:
@@ -159,17 +145,10 @@ def staying_in(encoding: Encoding, ordering: Ordering, safe: Bdd, pending: Bdd, 
     acting = ~without_effect(encoding)
     asked = acting if asked is None else asked & acting
     if ordering == "first":
-        found = _after_any_first_effect(encoding, safe & pending, asked) & nominal_predecessor(encoding, safe)
+        found = _after_any_first_effect(encoding, safe & pending, asked) & encoding.before(safe)
         return found | (safe & ~acting)
     stays_safe = _always_safe(encoding, safe & pending)
     return stays_safe | _after_any_first_effect(encoding, stays_safe, asked & ~safe)
-
-
-def nominal_predecessor(encoding: Encoding, target: Bdd) -> Bdd:
-    """`{(s, A) : δ(s, A) ∈ target}`, group by group: agreeing effects commute."""
-    for moves in encoding.leading:
-        target = moves.into(target)
-    return target
 
 
 def applicable_sets(encoding: Encoding) -> Bdd:

@@ -40,8 +40,9 @@ def policy_diagram(
     encoding, steps = problem.encoding, problem.steps
     builder: DiagramBuilder[bool] = DiagramBuilder(encoding.order, (False, True))
     extract = Extractor(encoding, builder, default=False)
+    acting = encoding.states_executing(policy)
     roots = [
-        extract.function([(True, steps.states_of(policy & encoding.executing_any(cases)))])
+        extract.function([(True, encoding.manager.union(acting[case] for case in cases))])
         for cases in problem.spec.cases
     ]
     defined = extract.function([(True, steps.valid)])

@@ -36,33 +36,40 @@ def races(problem: Problem, policy: Bdd) -> tuple[Diagnostic, ...]:
 
 
 def _races(problem: Problem, policy: Bdd) -> Iterator[_Race]:
-    """Only pairs that may run together, of which one writes what the other's preconditions speak of, are looked at."""
     spec, encoding = problem.spec, problem.encoding
-    actions = [spec.actions[cases[0]] for cases in spec.cases]
-    speaks_of = [{v for rule in action.preconditions for v in variables_of(rule.formula)} for action in actions]
-    written = [
-        {v for case in cases for effect in spec.actions[case].effects for v, _ in effect} for cases in spec.cases
-    ]
-    for pending, writer in _not_exclusive(encoding):
-        if speaks_of[pending].isdisjoint(written[writer]):
-            continue
-        holds_there = encoding.all_of(rule.formula for rule in actions[pending].preconditions)
-        waiting = policy & encoding.executing_any(spec.cases[pending])
+    pairs = list(_may_race(encoding))
+    executed = encoding.states_executing(policy) if pairs else []
+    for pending, writer in pairs:
+        waiting = encoding.manager.union(executed[case] for case in spec.cases[pending])
+        preconditions = spec.actions[spec.cases[pending][0]].preconditions
         for case in spec.cases[writer]:
-            both = waiting & encoding.executing(case)
+            both = waiting & executed[case]
             if both != problem.false:
+                holds_there = encoding.all_of(rule.formula for rule in preconditions)
                 lost = both & ~encoding.after_every_effect(case, holds_there)
-                yield _Race(spec.cases[pending][0], case, problem.steps.states_of(lost))
+                yield _Race(spec.cases[pending][0], case, lost)
 
 
-def _not_exclusive(encoding: Encoding) -> Iterator[tuple[int, int]]:
-    """The pairs of different actions that are not choices of one group, in order."""
-    groups = [frozenset(encoding.choice_of[case][0] for case in cases) for cases in encoding.spec.cases]
-    others: dict[frozenset[int], list[int]] = {}
-    for action, group in enumerate(groups):
-        if group not in others:
-            others[group] = [other for other, its in enumerate(groups) if its != group or len(group) > 1]
-        yield from ((action, other) for other in others[group] if other != action)
+def _may_race(encoding: Encoding) -> Iterator[tuple[int, int]]:
+    """The pairs of actions, in order, of which the first has preconditions that speak of what the second writes.
+
+    Choices of one group are left out.
+    """
+    spec = encoding.spec
+    homes = [frozenset(encoding.choice_of[case][0] for case in cases) for cases in spec.cases]
+    writers: dict[int, dict[frozenset[int], list[int]]] = {}
+    for action, cases in enumerate(spec.cases):
+        for variable in {v for case in cases for effect in spec.actions[case].effects for v, _ in effect}:
+            writers.setdefault(variable, {}).setdefault(homes[action], []).append(action)
+    for pending, (home, cases) in enumerate(zip(homes, spec.cases, strict=True)):
+        preconditions = spec.actions[cases[0]].preconditions
+        others = [
+            actions
+            for variable in {v for rule in preconditions for v in variables_of(rule.formula)}
+            for its, actions in writers.get(variable, {}).items()
+            if its != home or len(home) > 1
+        ]
+        yield from ((pending, writer) for writer in sorted(set[int]().union(*others)) if writer != pending)
 
 
 def _warning(spec: Spec, race: _Race, state: State, count: int) -> Diagnostic:
