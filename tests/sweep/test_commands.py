@@ -104,6 +104,13 @@ def test_the_specification_has_to_be_one(cli: Cli) -> None:
     assert json.loads(cli("sweep", "none.tum", "--drop", "each", "--output-format", "json").out)["verdict"] == "error"
 
 
+def test_a_cluster_needs_a_package(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Which is named with the way to get it; exit 3, as where any other package is missing."""
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    ran = cli("sweep", "amr.tum", "--drop", "each", "--scheduler", "127.0.0.1:9")
+    assert (ran.code, "pip install 'tumato-symbolic[cluster]'" in ran.out) == (3, True)
+
+
 def test_a_kill_loses_nothing(cli: Cli, tmp_path: Path) -> None:
     """The same command goes on, and ends with the bytes of one that was never killed."""
     words = ["sweep", "amr.tum", "--mutate", "8", "--no-verify", "--jobs", "1", "-o"]
