@@ -1,4 +1,4 @@
-"""Limits that hold: a command in a child process, which is ended when it does not end by itself.
+"""Limits and Ctrl-C that hold: a command in a child process, which is ended when it does not end by itself.
 
 A stage may sit in one call of a solver, where neither signals nor threads of Python are served. So the work is done by
 a child; this process waits, shows progress, and knows what the child knows: every stage, and every finding.
