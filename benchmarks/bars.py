@@ -33,6 +33,7 @@ BARS = {
     "rooms 20": Bar(60, 60),
     "errands 12": Bar(10, 10),
     "errands 20": Bar(60, 60),
+    "puzzle 3": Bar(100, 100, memory=2000),
 }
 HELP = 0.35
 """Units for `--help`."""
