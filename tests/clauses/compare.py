@@ -36,7 +36,7 @@ from tumato_symbolic.semantics import (
 )
 from tumato_symbolic.spec import Ordering, Spec, digest, load
 from tumato_symbolic.synthesis import Realizable, SynthesisResult, Unrealizable, synthesize
-from tumato_symbolic.verify import ProverName, verify, verify_unrealizable
+from tumato_symbolic.verify import PROPERTIES, ProverName, verify, verify_unrealizable
 
 Names: TypeAlias = frozenset[str]
 ORDERINGS: tuple[Ordering, ...] = ("any", "first")
@@ -108,14 +108,22 @@ class _Both:
 
     def names(self, state: State, chosen: Names) -> ActionSet:
         """The actions of the text that is written out that stand for a set in a state."""
-        found = set()
-        for name in chosen:
-            several = [n for n, each in enumerate(self.plain.actions) if self.pair.action_of[each.name] == name]
-            met = [n for n in several if len(several) == 1 or self._is_meant(self.plain.actions[n].name, name, state)]
-            found.add(met[0] if met else several[0])
-        return frozenset(found)
+        return frozenset((self._meant(state, name) or self._written_out(name))[0] for name in chosen)
+
+    def _written_out(self, name: str) -> list[int]:
+        return [n for n, each in enumerate(self.plain.actions) if self.pair.action_of[each.name] == name]
+
+    def _meant(self, state: State, name: str) -> list[int]:
+        """Empty where the effects disagree, outside the preconditions."""
+        return [n for n in self._written_out(name) if self._is_meant(self.plain.actions[n].name, name, state)]
+
+    def is_defined(self, state: State, chosen: Names) -> bool:
+        """Whether it is known what happens: a set with an effect that disagrees is not allowed, and no more is said."""
+        return all(self._meant(state, name) for name in chosen)
 
     def _is_meant(self, written_out: str, name: str, state: State) -> bool:
+        if written_out == name:
+            return True
         values = written_out.split("__")[1].split("_")
         return [str(state[place]) for place in self._places[name]] == [value for value in values if value]
 
@@ -198,20 +206,25 @@ class _Both:
     def verdicts_differ(self, decisions: Mapping[State, Names], folder: Path, *, diagram: bool) -> Iterator[str]:
         """What the judges say of a policy, in either form, against the explicit judgement of the other text."""
         rows = {state: self.names(state, chosen) for state, chosen in decisions.items()}
-        truth = failing(judge(self.plain, rows, self.ordering))
+        known = PROPERTIES if all(self.is_defined(*row) for row in decisions.items()) else ("total", "safe")
+
+        def told(failed: Mapping[str, int]) -> dict[str, int]:
+            return {name: failed[name] for name in known if name in failed}
+
+        truth = told(failing(judge(self.plain, rows, self.ordering)))
         numbers = {name: number for number, name in enumerate(self.spec.action_names)}
         by_action = {state: frozenset(numbers[name] for name in chosen) for state, chosen in decisions.items()}
         by_case = {state: cases_in(self.spec, chosen, state) for state, chosen in by_action.items()}
-        if (mine := failing(judge(self.spec, by_case, self.ordering))) != truth:
+        if (mine := told(failing(judge(self.spec, by_case, self.ordering)))) != truth:
             yield f"the explicit meaning: {mine}, not {truth}"
         policy = Policy(Vocabulary.of(self.spec), Table(by_action), self.ordering)
         policy = replace(policy, decisions=as_diagram(policy)) if diagram else policy
         for prover in PROVERS:
             found = verify(policy, self.spec, ordering=self.ordering, prover=prover)
-            refuted = {each.name for each in found.properties if each.verdict == "refuted"}
+            refuted = {each.name for each in found.properties if each.name in known and each.verdict == "refuted"}
             undecided = {each.name for each in found.properties if each.verdict == "undecided"}
             if refuted != set(truth) - undecided or (undecided and prover != "walk"):
                 yield f"{prover}: {refuted}, not {truth}; undecided {undecided}"
         answer = ask(folder, dumps(policy), self.pair.text, "--effect-ordering", self.ordering)
-        if answer.failing != truth or answer.code != (1 if truth else 0):
+        if told(answer.failing or {}) != truth or answer.code != (1 if truth else 0):
             yield f"the checker: {answer.code} {answer.failing}, not {truth} {answer.err}"
