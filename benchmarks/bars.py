@@ -20,15 +20,20 @@ class Bar:
 
 
 BARS = {
-    "amr": Bar(1.3, 1.0),
-    "factory": Bar(2, 2),
-    "uav": Bar(8, 6, size=50_000),
+    "amr": Bar(1.05, 1.0),
+    "factory": Bar(1.6, 1.6),
+    "uav": Bar(1.5, 1.5, size=50_000),
     "loads 8": Bar(14, 6),
-    "loads 15": Bar(12, 12),
-    "loads 20": Bar(30, 30),
-    "robots 4": Bar(20, 14),
+    "loads 15": Bar(12, 12, memory=1000),
+    "loads 20": Bar(30, 30, memory=1000),
+    "loads 25": Bar(70, 70, memory=1000),
+    "loads 30": Bar(150, 150, memory=1000),
+    "robots 4": Bar(7, 7),
     "samples 30": Bar(50, 30, memory=1000),
-    "plant 10": Bar(100, 60, memory=1000),
+    "sampler 30": Bar(30, 30, memory=2000),
+    "obstacles 126": Bar(40, 40, memory=2000),
+    "counter 1000": Bar(30, 30, memory=2000),
+    "plant 10": Bar(7.2, 7.2, memory=1000),
     "rooms 12": Bar(10, 10),
     "rooms 20": Bar(60, 60),
     "errands 12": Bar(10, 10),
@@ -70,6 +75,6 @@ def _time(case: str, what: str, ran: Mapping[str, Any] | None, unit: Mapping[str
 
 def _line(case: str, what: str, found: float | None, limit: float) -> str:
     if found is None:
-        return f"{case:<12}{what:<14}{'–':>10} of {limit:<8,g} MISSED (no answer)"
+        return f"{case:<15}{what:<14}{'–':>10} of {limit:<8,g} MISSED (no answer)"
     number = f"{found:,.0f}" if found >= 1000 else f"{found:.2f}"
-    return f"{case:<12}{what:<14}{number:>10} of {limit:<8,g} {'kept' if found <= limit else 'MISSED'}"
+    return f"{case:<15}{what:<14}{number:>10} of {limit:<8,g} {'kept' if found <= limit else 'MISSED'}"

@@ -6,9 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from benchmarks.arbitrary import arbitrary
+from benchmarks.cells import counter, grid, obstacles
 from benchmarks.cleaning import errands, rooms
 from benchmarks.limits import paired, pairs, puzzle, shelf_counts, shelves
-from benchmarks.missions import grid, plant, samples, strewn
+from benchmarks.missions import plant, sampler, samples, strewn
 from benchmarks.robots import amr, loads, robots
 from benchmarks.sites import factory, uav
 
@@ -34,12 +35,15 @@ FAMILIES = {
     family.name: family
     for family in (
         Family("amr", "the paper's AMR", amr, (1,), (1,)),
-        Family("loads", "AMR with n load places, which goals share", loads, (2, 4, 6, 8, 15, 20), (4,)),
+        Family("loads", "AMR with n load places, which goals share", loads, (2, 4, 6, 8, 15, 20, 25, 30), (4,)),
         Family("factory", "a robot that serves a press", factory, (1,), (1,)),
         Family("uav", "an inspection UAV", uav, (1,), (1,)),
         Family("robots", "n AMRs that share a charger and a workstation", robots, (2, 3, 4), (2,)),
         Family("samples", "n sample targets", samples, (4, 8, 15, 30), (8,)),
+        Family("sampler", "n targets, with a sampler that works beside the motors", sampler, (6, 30), (6,)),
         Family("grid", "n x n cells with walls", grid, (16, 32, 64), (16,)),
+        Family("obstacles", "n x n cells, some of them taken", obstacles, (16, 126), (16,)),
+        Family("counter", "a variable with n values", counter, (50, 1000), (50,)),
         Family("random", "generated from seed n", arbitrary, (1,), (1,)),
         Family("plant", "a robot among n stations", plant, (1, 4, 7, 10), (1,)),
         Family("strewn", "the plant, declared in a random order", strewn, (4, 10), ()),

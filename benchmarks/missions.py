@@ -1,13 +1,10 @@
-"""Families that grow: sample targets, a walled grid, a plant of many stations."""
+"""Families that grow: sample targets, a plant of many stations."""
 
 from __future__ import annotations
 
 from random import Random
 
 from benchmarks.writing import Text, all_of
-
-WALL_EVERY = 16
-"""Columns from one wall of the grid to the next; the first wall is half of that away from the border."""
 
 
 def samples(count: int, realizable: bool) -> str:
@@ -36,33 +33,37 @@ def samples(count: int, realizable: bool) -> str:
     return text.render()
 
 
-def grid(size: int, realizable: bool) -> str:
-    """A square of cells with walls whose doors are at alternate ends; a move may go one cell too far.
+def sampler(count: int, realizable: bool) -> str:
+    """Sample targets from the air in any order, with a sampler that works beside the motors, then land at home.
 
-    In the twin the last wall has no door.
+    A flight may end at the next target, and a sample may fail. In the twin the last target cannot be sampled.
     """
-    text = Text()
-    last = size - 1
-    cells = tuple(f"c{number}" for number in range(size))
-    text.state("S_X", *cells)
-    text.state("S_Y", *cells)
-    text.resource("WHEELS")
-    for axis, forth, back in (("S_X", "right", "left"), ("S_Y", "up", "down")):
-        for here in range(size):
-            for name, step in ((forth, 1), (back, -1)):
-                if 0 <= here + step <= last:
-                    too_far = [f"{axis} is c{here + 2 * step}"] if 0 <= here + 2 * step <= last else []
-                    at, after = f"{axis} is c{here}", f"{axis} is c{here + step}"
-                    text.action(f"{name}_from_{here}", after, *too_far, when=at, holds=("WHEELS",))
-    walls = list(range(WALL_EVERY // 2, size, WALL_EVERY))
-    for number, column in enumerate(walls):
-        door = f"S_Y is c{last if number % 2 == 0 else 0}"
-        text.assume(
-            f"IF S_X is c{column} THEN {door}" if realizable or column != walls[-1] else f"NOT S_X is c{column}"
-        )
-    for column in range(3, size, WALL_EVERY):
-        text.rule(f"NOT (S_X is c{column} AND S_Y is c{size // 2})")
-    text.goal(f"S_X is c{last} AND S_Y is c{last if len(walls) % 2 == 0 else 0}")
+    text = Text(longest_plan=2 * count + 6)
+    places = [f"w{i}" for i in range(count)]
+    text.state("S_Place", "home", *places)
+    text.state("S_Flight", "ground", "air")
+    text.state("S_Battery", "empty", "low", "full")
+    text.resource("MOTORS", "SAMPLER")
+    motors, flying = ("MOTORS",), "S_Flight is air"
+    text.action("take_off", flying, when="S_Flight is ground, NOT S_Battery is empty", holds=motors)
+    text.action("land", "S_Flight is ground", when=flying, holds=motors)
+    for i, place in enumerate(places):
+        done = f"S_Target{i} is done"
+        text.state(f"S_Target{i}", "todo", "done")
+        missed = f"S_Place is {places[(i + 1) % count]}"
+        text.action(f"go_{i}", f"S_Place is {place}", missed, when=flying, holds=motors, takes=5)
+        if realizable or i < count - 1:
+            failed, there = f"S_Target{i} is todo", f"{flying}, S_Place is {place}"
+            text.action(f"sample_{i}", done, failed, when=there, holds=("SAMPLER",))
+    text.action("go_home", "S_Place is home", when=flying, holds=motors, takes=5)
+    text.action("charge", "S_Battery is full", when="S_Flight is ground, S_Place is home", holds=motors, takes=50)
+    text.assume(f"IF S_Battery is empty THEN {flying} OR S_Place is home")
+    text.rule(f"IF S_Battery is empty THEN {flying} OR S_Place is home")
+    text.rule("IF S_Flight is ground THEN S_Place is home OR S_Target0 is done")
+    text.goal("S_Flight is ground AND S_Place is home AND S_Battery is full", when="S_Battery is empty")
+    every = all_of([f"S_Target{i} is done" for i in range(count)])
+    text.goal(every, when=f"NOT ({every})")
+    text.goal("S_Flight is ground AND S_Place is home")
     return text.render()
 
 

@@ -21,6 +21,9 @@ RESULTS = Path(__file__).parent / "results"
 
 Record = dict[str, object]
 
+PEER_FAMILY = "loads"
+"""The family that `benchmarks.peers` puts to other tools."""
+
 
 def main() -> int:
     """Measure, print, write. Exits with 1 where a policy is not proved or a verdict is not the promised one."""
@@ -36,6 +39,7 @@ def main() -> int:
         "help": best((*COMMAND, "--help"), options.limit).record(),
     }
     cases: list[Record] = []
+    peers: list[Record] = []
     out = options.out or RESULTS / f"{stamp}{'-quick' if options.quick else ''}.json"
     names = options.family or list(FAMILIES)
     kept = _other_cases(out, names)
@@ -45,6 +49,9 @@ def main() -> int:
             print(f"{family.case(size)} …", end="\r", file=sys.stderr, flush=True)
             cases.append(measured(family, size, options.limit, repeats))
             result["cases"] = [*kept, *cases]
+            if options.storm and family.name == PEER_FAMILY:
+                peers.append(peer(options.storm, cases[-1], size, options.limit))
+                result["peers"] = peers
             out.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
     code = shown(result)
     print(f"\nwritten: {out.name}")
@@ -75,6 +82,9 @@ def _options() -> argparse.Namespace:
     parser.add_argument(
         "--out", type=Path, help="where the results go; other families in it stay (default: a new file)"
     )
+    parser.add_argument(
+        "--storm", metavar="PYTHON", help="an interpreter with stormpy, to be asked about `loads` as well"
+    )
     parser.add_argument("--show", type=Path, metavar="FILE", help="only print what an earlier run found")
     return parser.parse_args()
 
@@ -103,6 +113,13 @@ def measured(family: Family, size: int, limit: float, repeats: int) -> Record:
         twin = best((*COMMAND, "synth", str(spec), "--output-format", "json", "-o", str(policy)), limit, 1)
         record["twin"] = twin.record()
     return record
+
+
+def peer(python: str, case: Record, size: int, limit: float) -> Record:
+    """What Storm takes for a case, beside what `synth` took just before."""
+    ran, ours = run((python, "-m", "benchmarks.peers", str(size)), limit), case.get("synth")
+    seconds = ours["seconds"] if isinstance(ours, dict) else None
+    return {"case": case["case"], "tool": "Storm, diagrams", **ran.record(), "ours": seconds}
 
 
 def _pure_python(spec: Path, policy: Path, limit: float) -> float | None:

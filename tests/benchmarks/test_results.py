@@ -7,6 +7,7 @@ import pytest
 
 from benchmarks.bars import judged
 from benchmarks.compare import compared
+from benchmarks.document import figures, renewed
 from benchmarks.plots import CHARTS, Chart, drawn
 from benchmarks.run import problems
 from benchmarks.table import COLUMNS, table
@@ -71,7 +72,7 @@ def test_a_case_without_an_answer_is_shown_as_such() -> None:
 
 def test_bars_are_judged_by_the_clock() -> None:
     """A time within the bar is kept, one above it is missed, and one of a process that failed is no answer."""
-    assert judged(_result()).count("kept") == 3
+    assert judged(_result(synth=_ran(1.0))).count("kept") == 3
     assert "synth" in next(line for line in judged(_result(synth=_ran(1.4))).splitlines() if "MISSED" in line)
     assert "no answer" in judged(_result(verify=_ran(0.1, 3)))
 
@@ -125,3 +126,23 @@ def test_charts_are_drawings(chart: Chart) -> None:
     result["cases"].append(_case(family="elsewhere"))
     drawing = ElementTree.fromstring(drawn(chart, result))
     assert len(drawing.findall("{http://www.w3.org/2000/svg}circle")) == 1
+
+
+def test_the_document_has_the_figures_of_a_run() -> None:
+    """What stands between the marks is written anew from a file of results; the rest of the document stays."""
+    written = renewed("before\n<!-- figures -->\nold\n<!-- end of figures -->\nafter\n", _result(), "run.json")
+    assert written.startswith("before\n<!-- figures -->\n")
+    assert written.endswith("\n<!-- end of figures -->\nafter\n")
+    assert "old" not in written
+    assert renewed(written, _result(), "run.json") == written
+    row = next(line for line in figures(_result(), "run.json").splitlines() if line.startswith("| amr |"))
+    stages = "extraction 0.75, encode 0.20"
+    assert row == f"| amr | 32 | 8 | 10 | {stages} | 0.10 | 100 | 26 | 5,786 | Z3 | 1.20 | 0.90 | 1.00 | – |"
+
+
+def test_the_document_tells_of_cases_without_an_answer() -> None:
+    """They have a row without figures, and the bars say what was missed."""
+    lost = {"case": "amr", "family": "amr", "size": 1, "limit": False, "unit": _ran(1.0), "verdict": "over the limit"}
+    told = figures(_result() | {"cases": [lost]}, "run.json")
+    assert "| amr | over the limit |" in told
+    assert "MISSED (no answer)" in told
