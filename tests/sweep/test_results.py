@@ -56,6 +56,17 @@ def test_a_file_cut_anywhere_is_completed(tmp_path: Path) -> None:
         assert path.read_text() == WHOLE, length
 
 
+def test_a_line_cut_in_two_spoils_no_other(tmp_path: Path) -> None:
+    """Also where the next run is killed too: each line of the file is one result, and none stands there twice."""
+    path = tmp_path / "results.jsonl"
+    path.write_text(WHOLE[: len(WHOLE) // 3])
+    with pytest.raises(GoneError):
+        run(path, shuffling(0, KNOWN, 5))
+    numbers = [json.loads(line)["variant"] for line in path.read_text().splitlines()[1:]]
+    assert len(numbers) == len(set(numbers))
+    assert run(path, shuffling(1, KNOWN)) == WHOLE
+
+
 def test_a_file_of_another_sweep_is_refused(tmp_path: Path) -> None:
     """The message says what is otherwise."""
     path = tmp_path / "results.jsonl"

@@ -66,6 +66,11 @@ def test_what_makes_a_difference() -> None:
         line = solved(Task("amr.tum", AMR.text.replace(old, new), prove=False, against=against)).result
         found[new] = differs(line, base)
     assert list(found.values()) == [False, True, True, False, True]
+    one = {"compared": 32, "changed": 1, "lost": 0, "won": 0}
+    assert differs({**base, "compared": one}, base) is True
+    none = {**base, "verdict": "unrealizable", "failures": [{"kind": "no-plan", "count": 3}]}
+    assert differs(none, none) is False
+    assert differs({**none, "failures": [{"kind": "no-plan", "count": 4}]}, none) is True
     assert differs(base, None) is None
     assert differs({**base, "verdict": "undecided"}, base) is None
     assert differs({**base, "compared": None}, base) is None
