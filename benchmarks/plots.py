@@ -31,10 +31,15 @@ class Chart:
 CHARTS = (
     Chart("states", "valid states", "valid", ("loads", "robots", "samples", "plant", "grid", "uav", "factory", "amr")),
     Chart("variables", "state variables", "variables", ("loads", "robots", "samples", "plant")),
-    Chart("actions", "actions", "actions", ("loads", "robots", "samples", "plant", "grid")),
+    Chart("actions", "actions", "actions", ("loads", "robots", "samples", "plant", "grid", "obstacles", "counter")),
     Chart("concurrency", "sets of actions that are allowed somewhere", "allowed_sets", ("loads", "robots", "plant")),
     Chart("goals", "goals", "goals", ("loads", "robots")),
-    Chart("plan_length", "steps of the longest run", "longest_run", ("grid", "samples", "loads")),
+    Chart(
+        "plan_length",
+        "steps of the longest run",
+        "longest_run",
+        ("grid", "samples", "sampler", "loads", "obstacles", "counter"),
+    ),
     Chart("limits", "n", "size", ("shelves", "shelf_counts", "pairs", "paired")),
 )
 

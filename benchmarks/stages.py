@@ -27,7 +27,7 @@ STAGES = {
     "routing": "interaction",
     "overriding": "interaction",
     "repairing": "interaction",
-    "giving": "interaction",
+    "reverting": "interaction",
     "choosing": "restoring",
     "extracting": "extraction",
 }
