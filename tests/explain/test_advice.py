@@ -145,6 +145,33 @@ def test_goals_give_way_to_the_environment(kind: str, where: str) -> None:
     assert isinstance(synthesize(repaired(parse(text), free)), Realizable)
 
 
+def test_goals_give_way_to_each_value_that_stops_the_robot() -> None:
+    """Two values of one variable and one of another, of which every failing state has one, and safe states none."""
+    text = STOPPED_BY_PEOPLE.replace("KIND", "priority").replace("away, here", "away, here, unknown")
+    text = text.replace("\nEND STATE VECTOR", "\nstate Stop can be up, down\nEND STATE VECTOR")
+    text = text.replace("Human is away", "Human is away, Stop is up")
+    found = _explained(text)
+    free = next(repair for repair in found.repairs if any(isinstance(each, NoGoalWhile) for each in repair.additions))
+    assert free.additions == (NoGoalWhile(((0, (1, 2)), (2, (1,)))),)
+    assert isinstance(synthesize(repaired(parse(text), free)), Realizable)
+
+
+def test_no_goal_gives_way_to_values_with_which_alone_it_is_active() -> None:
+    """Most states without a plan have such a value where another one is in the way."""
+    text = STOPPED_BY_PEOPLE.replace(
+        "goal type: KIND", "goal type: priority\nwhen Sky is dark then goal: Place is dock"
+    )
+    text = text.replace("away, here", "away, here, near, unknown").replace(
+        "\nEND STATE VECTOR", "\nstate Sky can be clear, dark\nEND STATE VECTOR"
+    )
+    text = text.replace(
+        "Place is rack\nEND ACTIONS", "Place is rack\naction back\nnominal effects: Place is dock\nEND ACTIONS"
+    )
+    found = _explained(text)
+    free = next(repair for repair in found.repairs if any(isinstance(each, NoGoalWhile) for each in repair.additions))
+    assert free.additions == (NoGoalWhile(((0, (1, 2, 3)),)),)
+
+
 def test_goals_do_not_give_way_for_good() -> None:
     """What would leave a goal active nowhere is no repair."""
     text = STOPPED_BY_PEOPLE.replace("goal type: KIND", "goal type: priority when Human is here then")

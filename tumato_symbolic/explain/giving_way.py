@@ -20,11 +20,12 @@ def goals_that_give_way(trouble: Trouble) -> NoGoalWhile | None:
     encoding, false, left = requirements.encoding, requirements.false, trouble.failing.no_plan
     if left == false or spec.goals is None:
         return None
-    literals = {
+    every = {
         (variable, value): encoding.value(variable, value) & requirements.valid
         for variable in sorted(spec.environment)
         for value in range(len(spec.variables[variable].values))
     }
+    literals = {literal: states for literal, states in every.items() if not _silences_a_goal(requirements, states)}
 
     def share(some: Bdd, states: Bdd) -> float:
         return encoding.count_states(some) / encoding.count_states(states)
@@ -32,7 +33,7 @@ def goals_that_give_way(trouble: Trouble) -> NoGoalWhile | None:
     chosen: list[tuple[int, int]] = []
     while left != false:
         shares = {
-            literal: (share(states & left, states), share(states & trouble.failing.no_plan, states))
+            literal: (share(states & trouble.failing.no_plan, states), share(states & left, states))
             for literal, states in literals.items()
             if states & left != false
         }
