@@ -221,7 +221,7 @@ class _Told:
         self.context.enter(f"solving variants, {done:,} of {total:,} done")
         if self.options.output_format == "json":
             self._show_lines()
-        elif time.monotonic() - self.recorded >= _BETWEEN:
+        elif self.results.lines and time.monotonic() - self.recorded >= _BETWEEN:
             self.recorded = time.monotonic()
             self.record()
 
