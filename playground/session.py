@@ -152,7 +152,7 @@ def _said(done: Synthesized) -> dict[str, object]:
 def _proof_of_none(done: Synthesized) -> list[str]:
     found, lines = done.unrealizability, [f"Found in {seconds(done.solved_in)}."]
     if found is not None and found.verdict == "proved":
-        line = proof_line(found)
+        line = proof_line(done.spec, found)
         lines.append(f"{line[0].upper()}{line[1:]}.")
     elif found is not None and found.reason:
         lines.append(f"Not proved: {found.reason}.")

@@ -8,6 +8,8 @@ from tumato_symbolic import Realizable, Undecided, Unrealizable, parse, synthesi
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.report.findings import as_github
 from tumato_symbolic.report.synthesized import Synthesized, as_json, as_text, findings
+from tumato_symbolic.report.unrealizable import proof_line
+from tumato_symbolic.verify import verify_unrealizable
 from tumato_symbolic.verify.result import ProverName
 
 COIN = (ROOT / "examples" / "coin.tum").read_text(encoding="utf-8")
@@ -62,6 +64,42 @@ def test_what_others_change_is_named_where_there_is_no_plan() -> None:
         assert isinstance(outcome, Unrealizable)
         report = as_text(replace(GIVEN_UP, spec=spec, outcome=outcome), colour=False)
         assert (told in report) == expected
+
+
+SAFETY_ONLY = """BEGIN STATE VECTOR state A can be on, off state Lamp can be lit, dark END STATE VECTOR
+BEGIN ACTIONS action dim preconditions: Lamp is lit nominal effects: Lamp is dark END ACTIONS
+BEGIN STATE RULES severity: 1 rule: Lamp is dark severity: 2 rule: A is off END STATE RULES
+BEGIN GOALS goal type: priority goal: true END GOALS BEGIN CONFIG restoration: bounded END CONFIG"""
+
+
+def test_less_than_safety_is_not_asked_for() -> None:
+    """Where only safety is asked for, the goal is not blamed; where a goal asks for more, it is."""
+    for goal, bound, told in (
+        ("true", "", "Only safety is asked for there, and no run of allowed sets, however long, restores it."),
+        ("true", "max_plan_length: 5", "or exclude what cannot happen with `assume:`, or raise max_plan_length."),
+        ("Lamp is dark", "", "or ask for less (`when … then goal: …`)."),
+    ):
+        spec = parse(SAFETY_ONLY.replace("goal: true", f"goal: {goal}").replace("END CONFIG", f"{bound} END CONFIG"))
+        outcome = synthesize(spec)
+        assert isinstance(outcome, Unrealizable)
+        report = as_text(replace(GIVEN_UP, spec=spec, outcome=outcome), colour=False)
+        failed = report[report.index("error[TUM402]") :]
+        assert told in failed
+        assert ("ask for less" in failed) == (goal != "true")
+
+
+def test_the_proof_speaks_of_starts_where_there_are_some() -> None:
+    """A certificate that no part has a policy, without starts and with them."""
+    plain = SAFETY_ONLY.replace("restoration: bounded", "")
+    for text, told in (
+        (plain, "there is no policy that decides every valid state (no-part)"),
+        (plain + " BEGIN START start: Lamp is lit END START", "no policy from the starts that never leaves"),
+    ):
+        spec = parse(text)
+        outcome = synthesize(spec)
+        assert isinstance(outcome, Unrealizable)
+        assert outcome.certificate is not None
+        assert told in proof_line(spec, verify_unrealizable(outcome.certificate, spec))
 
 
 def test_a_policy_too_large_to_draw_comes_with_the_command_that_shows_it() -> None:

@@ -20,6 +20,14 @@ def statistics(spec: Spec) -> Statistics:
     return outcome.statistics
 
 
+def told(spec: Spec) -> list[str]:
+    """What would restore the states of a specification without a policy, for a person."""
+    outcome = synthesize(spec)
+    assert isinstance(outcome, Unrealizable)
+    assert outcome.restorability is not None
+    return list(restorable_lines(Place(spec, "spec.tum"), outcome.restorability))
+
+
 def test_worst_cases_are_counted() -> None:
     """One of three states of two valves takes two steps."""
     found = statistics(restoring(VALVES, "bounded"))
@@ -75,6 +83,25 @@ def test_what_would_restore_is_told() -> None:
     }
 
 
+def test_with_severities_the_way_to_the_next_level_is_told() -> None:
+    """Efforts are of a level; so is what cannot be restored."""
+    text = VALVES.replace("END STATE RULES", "severity: 2 rule: A is closed OR B is closed END STATE RULES")
+    assert told(parse(text)) == [
+        "What would restore this state:",
+        "  `restoration: bounded` in CONFIG: it, to a higher level in at most 2 steps (duration 2 at most), "
+        "whatever happens",
+        "  one action with the effects A is closed and B is closed (tried): it, to a higher level in one step",
+    ]
+    idle = parse(
+        EDGE.format(1, 2).replace(
+            "retreat duration: 2 preconditions: Place is edge", "retreat preconditions: Place is floor"
+        )
+    )
+    assert told(idle)[-1].endswith(
+        "no sequence of actions leads to a higher level without breaking another rule that has to be kept"
+    )
+
+
 def test_what_no_bound_restores_is_told() -> None:
     """Under `bounded`: whether repetition leads back, or nothing does."""
     idle = RETRY.replace("nominal effects: M is off", "nominal effects: none")
@@ -82,12 +109,7 @@ def test_what_no_bound_restores_is_told() -> None:
         (RETRY, "`restoration: fair` in CONFIG: it, if nominal effects occur often enough"),
         (idle, "for it, no setting: no sequence of actions leads back to safety without breaking another rule"),
     ):
-        spec = restoring(text, "bounded")
-        outcome = synthesize(spec)
-        assert isinstance(outcome, Unrealizable)
-        assert outcome.restorability is not None
-        told = list(restorable_lines(Place(spec, "spec.tum"), outcome.restorability))
-        assert told == ["What would restore this state:", f"  {line}"]
+        assert told(restoring(text, "bounded")) == ["What would restore this state:", f"  {line}"]
 
 
 def test_the_report_of_synth_says_how_to_judge_it() -> None:

@@ -67,6 +67,11 @@ FORGOTTEN = [
     ("TUM341", robot("state «H» can be no, yes"), "nothing mentions the state variable `H`"),
     ("TUM342", robot("state «H» can be a, b, c", rules=f"rule: {IN_FIELD} H is a"), "`b` and `c` of `H` apart"),
     (
+        "TUM342",
+        robot("state «H» can be a, b, unknown, c", rules=f"rule: {IN_FIELD} H is a"),
+        "the values `b` and `c` of `H` apart",
+    ),
+    (
         "TUM343",
         robot("state «B» can be empty, low, ok", "action charge effects: B is ok", goal="NOT B is low"),
         "nothing mentions the value `empty` of `B`",
@@ -190,6 +195,14 @@ def _of_this_kind(text: str) -> list[str]:
 def test_nothing_silly_is_said(text: str) -> None:
     """What is usual in specifications is not remarked."""
     assert _of_this_kind(text) == []
+
+
+@pytest.mark.parametrize(("failed", "remarked"), [("unknown", False), ("UNKNOWN", False), ("far", True)])
+def test_a_sensor_that_fails_is_taken_for_the_worst(failed: str, remarked: bool) -> None:
+    """One value and `unknown` may be treated alike, and are then not two values that nothing mentions either."""
+    found = {each.code.name for each in said(robot(f"state H can be clear, near, {failed}", rules="rule: H is clear"))}
+    assert ("TUM342" in found) == remarked
+    assert "TUM343" not in found
 
 
 def test_errors_cannot_be_allowed() -> None:

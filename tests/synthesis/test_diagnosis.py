@@ -1,18 +1,45 @@
 """What would restore the states that cannot be restored in one step, against the explicit meaning and known answers."""
 
 from dataclasses import replace
+from random import Random
 
 import pytest
 
 from tests.generate import random_spec
 from tests.profiles import RESTORING
 from tests.repo.documents import ROOT
+from tests.restoration.campaign import severe
 from tests.restoration.truth import World
 from tests.semantics.test_restoration import RETRY, VALVES
 from tumato_symbolic import Unrealizable, parse, synthesize
-from tumato_symbolic.semantics import State, count_states
+from tumato_symbolic.semantics import State, count_states, restored
 from tumato_symbolic.spec import Restoration, Spec
 from tumato_symbolic.synthesis import Cured, Restorability
+
+BRAKE = """
+BEGIN STATE VECTOR state Person can be clear, near state Speed can be stopped, slow, fast END STATE VECTOR
+BEGIN ACTIONS
+action brake duration: 1 preconditions: Speed is fast nominal effects: Speed is slow
+action stop duration: 1 preconditions: Speed is slow nominal effects: Speed is stopped
+END ACTIONS
+BEGIN STATE RULES
+severity: 1 rule: IF Person is near THEN Speed is stopped
+severity: 2 rule: IF Speed is fast THEN Person is clear
+END STATE RULES
+"""
+TWO_SEVERE = """
+BEGIN STATE VECTOR
+state A can be open, closed state B can be open, closed state Horn can be silent, sounding
+END STATE VECTOR
+BEGIN ACTIONS
+action close_a duration: 1 nominal effects: A is closed
+action close_b duration: 1 nominal effects: B is closed
+action sound preconditions: A is closed, B is closed nominal effects: Horn is sounding
+END ACTIONS
+BEGIN STATE RULES severity: 1 rule: A is closed rule: B is closed severity: 2 rule: Horn is sounding END STATE RULES
+BEGIN ASSUMPTIONS assume: IF Horn is sounding THEN (A is closed AND B is closed) END ASSUMPTIONS
+"""
+"""No set closes both valves and sounds the horn."""
 
 
 def found(spec: Spec) -> Restorability | None:
@@ -96,10 +123,24 @@ def _restored(spec: Spec, restoration: Restoration) -> frozenset[State]:
     return World(replace(spec, restoration=restoration), spec.ordering).restorable
 
 
-@pytest.mark.parametrize("seed", range(6000, 6025))
-def test_generated(seed: int) -> None:
+def test_severities_raise_the_level_in_several_steps_or_by_one_joint_action() -> None:
+    """What would do is told as with one severity; a joint action need not reach safety."""
+    (only,) = cured(parse(BRAKE)).values()
+    assert (only.cure, only.count, only.worst) == ("bounded", 1, (2, 2))
+    diagnosis = found(parse(TWO_SEVERE))
+    assert diagnosis is not None
+    assert [(each.cure, each.count) for each in diagnosis.cured] == [("bounded", 1)]
+    assert [(joint.effects, joint.left) for joint in diagnosis.joint] == [(((0, 1), (1, 1)), 0)]
+
+
+@pytest.mark.parametrize(
+    ("seed", "tiers"), [*((seed, 1) for seed in range(6000, 6025)), *((seed, 2) for seed in range(6000, 6040))]
+)
+def test_generated(seed: int, tiers: int) -> None:
     """Every state without an allowed set is told once, with the first way to restore safety that would do."""
     spec = random_spec(seed, RESTORING)
+    if tiers > 1:
+        spec = severe(spec, "one_step", Random(seed))
     if count_states(spec) > 48:
         pytest.skip("the explicit meaning takes long")
     world = World(spec, spec.ordering)
@@ -121,7 +162,7 @@ def test_generated(seed: int) -> None:
         assert each.example in told[each.cure]
         assert sum(number for _, number in each.efforts) == (each.count if each.cure == "bounded" else 0)
     for joint in diagnosis.joint:
-        jumped = {state for state in stuck if _after(state, joint.effects) in world.safe}
+        jumped = {state for state in stuck if restored(spec, state, _after(state, joint.effects))}
         assert jumped
         assert spec.reaction_rules or joint.left <= len(stuck) - len(jumped)
 

@@ -9,8 +9,8 @@ from typing import Final
 from tumato_symbolic.diagnostics import Code
 from tumato_symbolic.report.layout import count, enumeration
 from tumato_symbolic.report.objections import Place, broken_here, why_no_set
-from tumato_symbolic.semantics import in_json
-from tumato_symbolic.spec import Ordering, Spec
+from tumato_symbolic.semantics import State, active_goals, in_json, is_safe
+from tumato_symbolic.spec import TRUE, Ordering, Spec
 from tumato_symbolic.synthesis.result import DecidedPart, Failure, FailureKind
 
 FAILURE_CODES: Final[dict[FailureKind, Code]] = {
@@ -90,13 +90,23 @@ def _no_restoration(place: Place, failure: Failure) -> list[str]:
 def _no_plan(place: Place, failure: Failure) -> list[str]:
     bound = place.spec.max_plan_length
     length = ", however long," if bound is None else f" of at most {count(bound, 'step')} (max_plan_length)"
+    runs, raise_it = f"no run of allowed sets{length}", "." if bound is None else ", or raise max_plan_length."
+    head = _head(place, failure, "allowed sets, but no plan")
+    if _asks_for_safety_only(place.spec, failure.example):
+        way_out = "Give the robot an action that leads back to safety, or exclude what cannot happen with `assume:`"
+        return [*head, f"Only safety is asked for there, and {runs} restores it.", way_out + raise_it]
     return [
-        *_head(place, failure, "allowed sets, but no plan"),
-        f"Its goal is {place.goals(failure.example)}, and no run of allowed sets{length} reaches it.",
-        "Give the robot an action towards the goal, or ask for less (`when … then goal: …`)"
-        + ("." if bound is None else ", or raise max_plan_length."),
+        *head,
+        f"Its goal is {place.goals(failure.example)}, and {runs} reaches it.",
+        "Give the robot an action towards the goal, or ask for less (`when … then goal: …`)" + raise_it,
         *_left_to_others(place),
     ]
+
+
+def _asks_for_safety_only(spec: Spec, state: State) -> bool:
+    """Whether every safe state meets the goals of an unsafe one: it has none, or all are `true`."""
+    goals = (spec.bodies[body].formula for body in active_goals(spec, state))
+    return not is_safe(spec, state) and all(goal == TRUE for goal in goals)
 
 
 def _left_to_others(place: Place) -> list[str]:

@@ -30,19 +30,30 @@ def _cured(place: Place, cured: Cured, whole: int) -> str:
         of += f", such as {place.state(cured.example)}"
     match cured.cure:
         case "bounded" if cured.worst is not None and cured.most_steps is not None:
-            limit = f"in at most {count(cured.most_steps, 'step')} (duration {cured.worst[0]} at most)"
+            limit = f"{_aim(place)}in at most {count(cured.most_steps, 'step')} (duration {cured.worst[0]} at most)"
             return f"`restoration: bounded` in CONFIG: {of}, {limit}, whatever happens"
         case "fair":
             return f"`restoration: fair` in CONFIG: {of}, if nominal effects occur often enough"
         case _:
-            return f"for {of}, no setting: no sequence of actions leads back to safety without breaking another rule"
+            return f"for {of}, no setting: no sequence of actions leads {_lost(place)}"
+
+
+def _aim(place: Place) -> str:
+    """What restoring comes to first, where rules have severities; else nothing, for it is safety."""
+    return "to a higher level " if len(place.spec.tiers) > 1 else ""
+
+
+def _lost(place: Place) -> str:
+    if len(place.spec.tiers) > 1:
+        return "to a higher level without breaking another rule that has to be kept"
+    return "back to safety without breaking another rule"
 
 
 def _joint(place: Place, joint: JointAction, whole: int) -> str:
     variables = place.spec.variables
     effects = enumeration([f"{variables[v].name} is {variables[v].values[value]}" for v, value in joint.effects])
     restored = "it" if whole == 1 else f"{whole - joint.left:,} of them"
-    return f"one action with the effects {effects} (tried): {restored}, in one step"
+    return f"one action with the effects {effects} (tried): {restored}, {_aim(place)}in one step"
 
 
 def restorable_json(place: Place, found: Restorability | None) -> dict[str, object]:

@@ -206,7 +206,7 @@ def _certified(done: Synthesized, outcome: Unrealizable, paint: Paint) -> list[s
 
         proved = done.unrealizability.verdict == "proved"
         lines.append(
-            f"{paint.good('Proved')}: {proof_line(done.unrealizability)}."
+            f"{paint.good('Proved')}: {proof_line(done.spec, done.unrealizability)}."
             if proved
             else f"{paint.doubt('The certificate could not be proved')}: {done.unrealizability.reason}."
         )

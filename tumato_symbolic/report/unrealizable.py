@@ -21,6 +21,7 @@ _REASONS: Final[dict[UnrealizabilityKind, str]] = {
     "conflict": "there are states that each have a plan, but no policy works for all of them",
     "no-part": "there is no policy from the starts that never leaves what it decides",
 }
+_NO_PART_WITHOUT_STARTS: Final = "there is no policy that decides every valid state"
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +60,7 @@ def as_text(done: VerifiedUnrealizable, colour: bool) -> str:
         f"  certificate: made for {fits}",
     ]
     if found.verdict == "proved":
-        head.append(f"  {proof_line(found)}")
+        head.append(f"  {proof_line(done.spec, found)}")
         if done.not_accepted:
             head += ["", f"{paint.bad('Not accepted')} (--strict): the certificate is stale."]
         return "\n".join(head)
@@ -70,12 +71,13 @@ def as_text(done: VerifiedUnrealizable, colour: bool) -> str:
     return "\n".join(head)
 
 
-def proof_line(found: UnrealizabilityVerdict) -> str:
+def proof_line(spec: Spec, found: UnrealizabilityVerdict) -> str:
     """What a certificate that holds proves."""
+    reason = _REASONS[found.kind] if spec.starts or found.kind != "no-part" else _NO_PART_WITHOUT_STARTS
     by = proved_by(found)
     how = f"proved by {by}" if by else "checked by direct evaluation"
     obligations = "" if found.by_checker else f"{count(found.obligations, 'obligation')} "
-    return f"{_REASONS[found.kind]} ({found.kind}): {obligations}{how}"
+    return f"{reason} ({found.kind}): {obligations}{how}"
 
 
 def proved_by(found: UnrealizabilityVerdict) -> str:
@@ -161,6 +163,6 @@ def _main_finding(done: VerifiedUnrealizable) -> Finding:
         message = f"proves that {name} has no policy, but was made for another specification"
         return Finding("error", message, done.certificate, title="certificate stale")
     if found.verdict == "proved":
-        return Finding("notice", f"{name} is proved unrealizable: {proof_line(found)}", done.certificate)
+        return Finding("notice", f"{name} is proved unrealizable: {proof_line(done.spec, found)}", done.certificate)
     message = f"{found.verdict} against {name}: {found.reason}"
     return Finding("error", message, done.certificate, title=f"certificate {found.verdict}")

@@ -13,6 +13,9 @@ from tumato_symbolic.spec.formula import And, Formula, Is, Not, Or, atoms, varia
 from tumato_symbolic.spec.satisfiability import Budget, OutOfBudgetError, models, unknowns
 from tumato_symbolic.spec.specification import Action, ConditionalGoal, Rule, Spec
 
+NOT_KNOWN = "unknown"
+"""A value of this name, in any case, is what a sensor says that has failed: that another is treated alike is meant."""
+
 MAX_WORK = 500_000
 """How many terms are looked at to find out which values actions leave; what is open then is taken for left."""
 
@@ -41,12 +44,13 @@ def _unmentioned(spec: Spec, used_variables: Set[int]) -> Iterator[Diagnostic]:
         texts = [text for value, text in enumerate(variable.values) if (number, value) not in mentioned]
         if all(text.lstrip("-").isdigit() for text in variable.values) or not texts:
             continue
-        if len(texts) > 1:
-            message = f"nothing tells the values {listed(texts)} of {quoted(variable.name)} apart"
+        known = [text for text in texts if text.lower() != NOT_KNOWN]
+        if len(known) > 1:
+            message = f"nothing tells the values {listed(known)} of {quoted(variable.name)} apart"
             yield Diagnostic(
                 Code.TUM342, message, variable.span, "one of them will do, or mention them where they matter"
             )
-        elif len(variable.values) > 2 and number not in environment:
+        elif len(texts) == 1 and len(variable.values) > 2 and number not in environment:
             message = f"nothing mentions the value {quoted(texts[0])} of {quoted(variable.name)}"
             yield Diagnostic(Code.TUM343, message, variable.span, "remove it, or mention it where it matters")
 

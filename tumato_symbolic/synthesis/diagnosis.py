@@ -77,7 +77,7 @@ def restorability(problem: Problem) -> Restorability | None:
         return _by_repetition(problem)
     steps = problem.steps
     stuck = steps.unsafe & ~steps.states_of(steps.allowed)
-    if problem.spec.restores_stepwise or stuck == problem.false:
+    if problem.spec.restoration != "one_step" or stuck == problem.false:
         return None
     problem.context.tell("looking for other ways to restore safety")
     fair = _several_steps(problem)
@@ -125,9 +125,10 @@ def _several_steps(problem: Problem) -> Problem:
 
 
 def _joint_actions(problem: Problem, stuck: Bdd) -> Iterator[JointAction]:
-    """Actions with the nominal effects of sets that would restore safety if they all took effect at once."""
+    """Actions with the nominal effects of sets that would restore in one step if they all took effect at once."""
     steps, encoding = problem.steps, problem.encoding
-    jumps = steps.candidates & stuck & steps.before(steps.safe)
+    restoring = encoding.manager.union(states & steps.before(upper) for states, upper in steps.levels)
+    jumps = steps.candidates & stuck & restoring
     jumps = jumps & encoding.all_of(rule.formula for rule in problem.spec.reaction_rules)
     moves = steps.moves(jumps, MOST_MOVES)
     if moves is None:

@@ -118,7 +118,7 @@ def _no_verdict(page: NoPolicyPage) -> dict[str, Json]:
     return {
         "verdict": found.verdict,
         "by": proved_by(found),
-        "line": proof_line(found) if found.verdict == "proved" else found.reason,
+        "line": proof_line(page.spec, found) if found.verdict == "proved" else found.reason,
     }
 
 
