@@ -1,4 +1,5 @@
-// Opens pages in Chromium and uses them: [{ page, other }, …] as JSON in, what was seen of each as JSON out.
+// Opens pages in Chromium and uses them: [{ page, other }, …] as JSON in, what was seen of each as JSON out. With
+// { page, acts }, what was read on the way.
 const { existsSync, readFileSync } = require("node:fs");
 const { pathToFileURL } = require("node:url");
 const { chromium } = require("playwright-core");
@@ -6,14 +7,36 @@ const { chromium } = require("playwright-core");
 const ARGUMENTS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
   "--disable-background-networking", "--disable-component-update", "--disable-sync"];
 
-// What a page shows when it is opened, filtered, stepped through and compared.
-async function used(browser, { page: path, other }) {
+async function opened(browser, path, seen) {
   const page = await browser.newPage({ viewport: { width: 1280, height: 900 } });
-  const seen = { errors: [], requests: [] };
   page.on("console", (message) => ["error", "warning"].includes(message.type()) && seen.errors.push(message.text()));
   page.on("pageerror", (error) => seen.errors.push(String(error)));
   page.on("request", (request) => request.url().startsWith("file:") || seen.requests.push(request.url()));
   await page.goto(pathToFileURL(path).href);
+  return page;
+}
+
+// What is read on a page where some things are done, one after the other.
+async function read(browser, { page: path, acts }) {
+  const seen = { errors: [], requests: [], read: [] };
+  const page = await opened(browser, path, seen);
+  await page.locator(".check p:not(:has-text('by now'))").first().waitFor({ timeout: 120000 });
+  const does = {
+    click: (selector) => page.locator(selector).first().click(),
+    choose: (selector, label) => page.selectOption(selector, { label }),
+    scroll: (selector, top) => page.$eval(selector, (element, to) => { element.scrollTop = to; }, top),
+    text: async (selector) => seen.read.push((await page.locator(selector).allTextContents()).join("\n")),
+    property: async (selector, name) => seen.read.push(await page.$eval(selector, (element, of) => element[of], name)),
+  };
+  for (const [act, ...details] of acts) await does[act](...details);
+  await page.close();
+  return seen;
+}
+
+// What a page shows when it is opened, filtered, stepped through and compared.
+async function used(browser, { page: path, other }) {
+  const seen = { errors: [], requests: [] };
+  const page = await opened(browser, path, seen);
   seen.painted = await page.evaluate(() => new Promise((done) => {
     const look = () => requestAnimationFrame(() => (document.querySelector("h1") ? done(performance.now()) : look()));
     look();
@@ -77,7 +100,7 @@ async function main() {
   const executablePath = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(existsSync);
   const browser = await chromium.launch({ executablePath, args: ARGUMENTS });
   const found = [];
-  for (const each of JSON.parse(readFileSync(0, "utf-8"))) found.push(await used(browser, each));
+  for (const each of JSON.parse(readFileSync(0, "utf-8"))) found.push(await (each.acts ? read : used)(browser, each));
   await browser.close();
   console.log(JSON.stringify(found));
 }

@@ -29,9 +29,20 @@ def missing() -> str | None:
 
 def seen(pages: Sequence[tuple[Path, Path]]) -> list[dict[str, Any]]:
     """What there is to see on pages, each compared with a policy file."""
-    asked = json.dumps([{"page": str(page.resolve()), "other": str(other.resolve())} for page, other in pages])
+    return _answered([{"page": str(page.resolve()), "other": str(other.resolve())} for page, other in pages])
+
+
+def read(page: Path, acts: Sequence[tuple[object, ...]]) -> list[Any]:
+    """What `text` and `property` find on a page, among other acts: name, selector, and a detail."""
+    (found,) = _answered([{"page": str(page.resolve()), "acts": acts}])
+    assert (found["errors"], found["requests"]) == ([], [])
+    values: list[Any] = found["read"]
+    return values
+
+
+def _answered(asked: Sequence[dict[str, object]]) -> list[dict[str, Any]]:
     command = [str(NODE), str(PROGRAM)]
-    ran = subprocess.run(command, input=asked, capture_output=True, text=True, check=False, env=os.environ)
+    ran = subprocess.run(command, input=json.dumps(asked), capture_output=True, text=True, check=False, env=os.environ)
     assert ran.returncode == 0, ran.stderr
     found: list[dict[str, Any]] = json.loads(ran.stdout)
     return found

@@ -16,8 +16,8 @@ from tumato_symbolic.report.element_roles import KINDS, declared, role, where
 from tumato_symbolic.report.failures import FAILURE_CODES
 from tumato_symbolic.report.layout import count, enumeration
 from tumato_symbolic.report.objections import Place, objection_text
-from tumato_symbolic.semantics import Objection
-from tumato_symbolic.spec import Spec, variables_of
+from tumato_symbolic.semantics import Objection, State, goals_as_written
+from tumato_symbolic.spec import Rule, Spec, variables_of
 
 _REASONS_IN_FULL = 3
 _REASONS_IN_SHORT = 12
@@ -190,10 +190,16 @@ def _where(place: Place, reason: Reason, limit: int) -> str:
     return "; ".join(texts) + (f" (and {more} more)" if more > 0 else "")
 
 
+def first_written(spec: Spec, state: State) -> dict[int, Rule]:
+    """The bodies of the active goals, each with the place of the first that has it."""
+    return dict(reversed(goals_as_written(spec, state)))
+
+
 def goal_sentences(place: Place, reason: Reason) -> Iterator[str]:
     """The goals of a state that fails whatever is dropped, and what in them never comes true; one sentence each."""
+    written = first_written(place.spec, reason.example)
     for goal in reason.goals:
-        rule = place.rule(place.spec.bodies[goal.body])
+        rule = place.rule(written[goal.body])
         never = [f"`{predicate_text(place.spec, part)}`" for part in goal.never]
         if never:
             yield f"the goal is {rule}, and no nominal effect ever makes {enumeration(never)} true"
@@ -201,7 +207,7 @@ def goal_sentences(place: Place, reason: Reason) -> Iterator[str]:
             yield f"the goal is {rule}, too"
         else:
             clashing = [each.body for each in reason.goals if each.clashes and each.body != goal.body]
-            others = [place.rule(place.spec.bodies[body]) for body in clashing]
+            others = [place.rule(written[body]) for body in clashing]
             whole = f"it and {enumeration(others)}" if others else "all of it"
             yield f"the goal is {rule}, and nominal effects never make {whole} true at once"
 

@@ -19,7 +19,7 @@ from tumato_symbolic.explain.explanation import (
     Repair,
     Unexplained,
 )
-from tumato_symbolic.report.blame import goal_sentences, headline, near_miss_lines, summary_text
+from tumato_symbolic.report.blame import first_written, goal_sentences, headline, near_miss_lines, summary_text
 from tumato_symbolic.report.cubes import cube_json, cube_text
 from tumato_symbolic.report.element_roles import role
 from tumato_symbolic.report.explained import Explained
@@ -28,8 +28,8 @@ from tumato_symbolic.report.findings import Finding, finding_json, findings_of, 
 from tumato_symbolic.report.layout import count
 from tumato_symbolic.report.possible_changes import added_lines, controlled, environment_text, left_out_lines
 from tumato_symbolic.report.restorable import restorable_json
-from tumato_symbolic.semantics import action_names, active_goals, in_json
-from tumato_symbolic.spec import Spec, value_of
+from tumato_symbolic.semantics import action_names, active_goals, goals_as_written, in_json
+from tumato_symbolic.spec import Rule, Spec, value_of
 
 
 def as_json(done: Explained) -> dict[str, object]:
@@ -109,7 +109,7 @@ def _reason_json(done: Explained, reason: Reason) -> dict[str, object]:
         "core": [_in_core(done, element, reason.core, reason) for element in reason.core],
         "summary": None if reason.summary is None else summary_text(spec, reason.summary),
         "more_cores": [[_in_core(done, element, core, reason) for element in core] for core in reason.cores[1:]],
-        "goals": [_goal_json(spec, goal) for goal in reason.goals],
+        "goals": [_goal_json(spec, goal, first_written(spec, reason.example)[goal.body]) for goal in reason.goals],
         "near": [
             {
                 "actions": list(action_names(spec, near.chosen)),
@@ -145,8 +145,7 @@ def _in_core(done: Explained, element: Element, core: tuple[Element, ...], reaso
     }
 
 
-def _goal_json(spec: Spec, goal: OwnGoal) -> dict[str, object]:
-    body = spec.bodies[goal.body]
+def _goal_json(spec: Spec, goal: OwnGoal, body: Rule) -> dict[str, object]:
     return {
         "text": " ".join(body.text.split()),
         "line": body.span.line,
@@ -223,9 +222,11 @@ def _told(done: Explained, reason: Reason) -> list[tuple[str, Span | None]]:
     if reason.core:
         return [(role(done.place, each, reason.core, reason), span_of(done.spec, each)) for each in reason.core]
     if reason.kind == "conflict":
-        bodies = {body for state in reason.together for body in active_goals(done.spec, state)}
-        return [("this goal conflicts with others", done.spec.bodies[body].span) for body in sorted(bodies)]
-    spans = [done.spec.bodies[goal.body].span for goal in reason.goals]
+        written = (rule.span for state in reason.together for _, rule in goals_as_written(done.spec, state))
+        spans = sorted(set(written), key=lambda span: (span.line, span.column))
+        return [("this goal conflicts with others", span) for span in spans]
+    first = first_written(done.spec, reason.example)
+    spans = [first[goal.body].span for goal in reason.goals]
     found: list[tuple[str, Span | None]] = list(zip(goal_sentences(done.place, reason), spans, strict=True))
     return found or [("no decision here leads to safety and to the goal", None)]
 

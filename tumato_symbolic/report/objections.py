@@ -13,7 +13,7 @@ from tumato_symbolic.semantics import (
     Objection,
     State,
     action_names,
-    active_goals,
+    goals_as_written,
     holds,
     in_json,
     is_safe,
@@ -53,7 +53,7 @@ class Place:
 
     def goals(self, state: State) -> str:
         """The goals that are active in a state."""
-        bodies = [self.rule(self.spec.bodies[body]) for body in sorted(active_goals(self.spec, state))]
+        bodies = [*dict.fromkeys(self.rule(rule) for _, rule in goals_as_written(self.spec, state))]
         if self.spec.restores_stepwise and not is_safe(self.spec, state):
             return f"{enumeration(bodies)}, in a safe state" if bodies else "none but safety"
         return enumeration(bodies) or "none: any allowed step will do"

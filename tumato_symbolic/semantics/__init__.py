@@ -9,7 +9,14 @@ from tumato_symbolic.semantics.exclusion import (
     excluded,
     exclusive_groups,
 )
-from tumato_symbolic.semantics.goals import ActiveGoals, Residual, active_goals, reached, residual_goal
+from tumato_symbolic.semantics.goals import (
+    ActiveGoals,
+    Residual,
+    active_goals,
+    goals_as_written,
+    reached,
+    residual_goal,
+)
 from tumato_symbolic.semantics.guarantees import Guarantee, Prospects, guarantees, steps_from
 from tumato_symbolic.semantics.judge import Judgement, better_sets, judge
 from tumato_symbolic.semantics.partial import settled_truth
@@ -103,6 +110,7 @@ __all__ = [
     "fault_after",
     "first_broken",
     "follow",
+    "goals_as_written",
     "guarantees",
     "holds",
     "in_json",

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 from tumato_symbolic.semantics.states import ActionSet, State, holds, is_safe
-from tumato_symbolic.spec import ConditionalGoal, Goal, SimpleGoal, Spec, executing_atoms
+from tumato_symbolic.spec import ConditionalGoal, Goal, Rule, SimpleGoal, Spec, executing_atoms
 
 ActiveGoals: TypeAlias = frozenset[int]
 """`Γ(s)`: numbers of goal bodies (`Spec.bodies`)."""
@@ -26,24 +26,36 @@ class Residual:
 
 def active_goals(spec: Spec, state: State) -> ActiveGoals:
     """`Γ(s)`."""
+    return frozenset(goal.body for goal in _active(spec, state))
+
+
+def goals_as_written(spec: Spec, state: State) -> tuple[tuple[int, Rule], ...]:
+    """The goals that are active, in the order of the text: the number of the body, and the body with the goal's place.
+
+    Several may have one body.
+    """
+    return tuple((goal.body, replace(spec.bodies[goal.body], span=goal.span)) for goal in _active(spec, state))
+
+
+def _active(spec: Spec, state: State) -> tuple[SimpleGoal, ...]:
     if spec.goals is None:
-        return frozenset()
+        return ()
     entered, found = _walk(spec.goals, state)
-    return found if entered else frozenset()
+    return found if entered else ()
 
 
-def _walk(goal: Goal, state: State) -> tuple[bool, ActiveGoals]:
+def _walk(goal: Goal, state: State) -> tuple[bool, tuple[SimpleGoal, ...]]:
     """Whether `goal` is entered in `state`, and the simple goals that it makes active there."""
     if isinstance(goal, SimpleGoal):
-        return True, frozenset((goal.body,))
+        return True, (goal,)
     if isinstance(goal, ConditionalGoal):
         if not holds(goal.condition.formula, state):
-            return False, frozenset()
+            return False, ()
         return True, _walk(goal.goal, state)[1]
-    found: ActiveGoals = frozenset()
+    found: tuple[SimpleGoal, ...] = ()
     for member in goal.members:
         entered, active = _walk(member, state)
-        found |= active
+        found += active
         if entered and goal.kind == "priority":
             break
     return True, found

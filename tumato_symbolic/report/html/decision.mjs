@@ -1,10 +1,10 @@
 // What the policy does in a state, why, and what may come of it.
 import { h, link } from "./dom.mjs";
 import { fault } from "./judge.mjs";
-import { run } from "./runs.mjs";
+import { activeGoals, run } from "./runs.mjs";
 import { faultText, goalsIn, others, section } from "./state.mjs";
-import { agree, duration, isSafe, objection, outcomes, successor } from "./steps.mjs";
-import { actionsText, changeText, counted, ENDS, wayText } from "./words.mjs";
+import { agree, duration, isSafe, level, objection, outcomes, successor } from "./steps.mjs";
+import { actionsText, changeText, counted, ENDS, otherwise } from "./words.mjs";
 
 const MOST_OUTCOMES = 40;
 
@@ -28,7 +28,14 @@ export function decisionIn(app, state) {
 function nominalRun(app, { states, decisions, end }) {
   return [h("ol", decisions.map((chosen, n) => h("li",
     link(app, actionsText(app.spec, chosen), states[n], `r${n}`), ` → ${changeText(app.spec, states[n], states[n + 1])}`))),
-  h("p", { class: end === "goal" ? "good" : "bad" }, `After ${counted(decisions.length, "step")} ${ENDS[end]}.`)];
+  h("p", { class: end === "goal" ? "good" : "bad" }, `After ${counted(decisions.length, "step")} ${endText(app, states[0], end)}.`)];
+}
+
+// How a run ends; what is unsafe is restored on the way.
+function endText({ spec, model }, state, end) {
+  if (end !== "goal" || !spec.stepwise || isSafe(model, state)) return ENDS[end];
+  const nothingElse = activeGoals(spec, state).every((body) => spec.bodies[body].is === true);
+  return nothingElse ? "safety is restored" : `safety is restored and ${ENDS[end]}`;
 }
 
 function outcomeList(app, state, chosen) {
@@ -36,9 +43,9 @@ function outcomeList(app, state, chosen) {
   if (!agree(spec, state, chosen)) return h("p.bad", "Its effects contradict each other.");
   const end = successor(spec, state, chosen);
   const rest = outcomes(spec, state, chosen).filter((each) => spec.key(each.state) !== spec.key(end));
-  const line = (after, words, n) => h("li", link(app, changeText(spec, state, after), after, `o${n}`), words, isSafe(model, after) ? "" : h("b.bad", " unsafe"));
-  return h("ul", line(end, " as intended", 0),
-    rest.slice(0, MOST_OUTCOMES).map((each, n) => line(each.state, h("small", ` ${wayText(spec, each.way)}`), n + 1)),
+  const line = (words, after, text, n) => h("li", words, link(app, text, after, `o${n}`), isSafe(model, after) ? "" : h("b.bad", " unsafe"));
+  return h("ul", line("as intended: ", end, changeText(spec, state, end), 0),
+    rest.slice(0, MOST_OUTCOMES).map((each, n) => line("or it may instead: ", each.state, otherwise(spec, state, chosen, each), n + 1)),
     rest.length > MOST_OUTCOMES ? h("li", `and ${rest.length - MOST_OUTCOMES} more`) : null);
 }
 
@@ -48,8 +55,9 @@ function wayToSafety(app, state, chosen) {
   const quality = app.judge.restorations.quality(state, chosen);
   if (!quality) return h("p.bad", "It need not end in safety.");
   const [kind, lasting, steps] = quality;
-  const better = spec.tiers.length > 1 ? "a severity more is kept" : "safety is restored";
-  const words = kind === 2 ? `If effects are as intended, ${better} after ${counted(steps, "step")}, which take ${lasting}.` : `Whatever happens, ${better} after at most ${counted(steps, "step")}, which take at most ${lasting}.`;
+  const better = spec.tiers.length > 1 ? `the rules of severity ${spec.tiers[level(model, state)][0].severity} hold again` : "safety is restored";
+  const most = kind === 2 ? "" : "at most ";
+  const words = `${most ? "Whatever happens" : "If effects are as intended"}, ${better} after ${most}${counted(steps, "step")}, which take ${most}${lasting} in all.`;
   const list = [];
   let here = state;
   while (!isSafe(model, here) && list.length < 30) {

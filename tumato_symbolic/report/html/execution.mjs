@@ -5,7 +5,7 @@ import { decided } from "./policy.mjs";
 import { reached, residual } from "./runs.mjs";
 import { agree, applied, isSafe, isValid, outcomes, successor } from "./steps.mjs";
 import { upTo, valuesOf } from "./spec.mjs";
-import { actionsText, changeText, counted, ENDS, grouped, stateText, wayText } from "./words.mjs";
+import { actionsText, changeText, counted, ENDS, grouped, otherwise, stateText, wayText } from "./words.mjs";
 
 const RUNS = 1_000;
 const LONGEST = 1_000;
@@ -15,7 +15,7 @@ export function executionView(app) {
   const chance = dice(7);
   const settings = { faults: true, disturb: 0.05, from: "here" };
   let trace = { start: app.selected, events: [] };
-  let statistics = null;
+  let results = {};
   const here = () => trace.events.at(-1)?.state ?? trace.start;
   const add = (event) => {
     trace = { ...trace, events: [...trace.events, event] };
@@ -25,6 +25,7 @@ export function executionView(app) {
   const begin = (state) => { trace = { start: state, events: [] }; app.change(); };
   const update = () => {
     if (app.spec.key(here()) !== app.spec.key(app.selected)) trace = { start: app.selected, events: [] };
+    const asked = JSON.stringify([settings, app.selected, app.filter.map((some) => some && [...some])]);
     redraw(element,
       h("p.quiet", "From the chosen state: choose what happens. To choose another one begins anew."),
       history(app, trace), h("h3", "Next"), choices(app, here(), add, chance), disturbances(app, here(), add),
@@ -32,7 +33,7 @@ export function executionView(app) {
         button("run to the goal", () => goOn(app, here, add), { key: "run" }), " ",
         button("begin again", () => { app.selected = trace.start; begin(trace.start); }, { disabled: !trace.events.length, key: "again" }), " ",
         button("download this as ITF", () => save("trace.itf.json", itf(app, trace)), { key: "itf" })),
-      h("h3", `${grouped(RUNS)} executions`), many(app, settings, (found) => { statistics = found; update(); }), statistics);
+      h("h3", `${grouped(RUNS)} executions`), many(app, settings, update, () => { results = { asked, found: counts(app, settings) }; update(); }), results.asked === asked ? results.found : null);
   };
   return { element, update };
 }
@@ -73,8 +74,8 @@ function choices(app, state, add, chance) {
   return [h("p", "The policy does ", h("b", actionsText(spec, chosen)), ". It goes"),
     h("p.choices",
       button(`as intended: ${changeText(spec, state, nominal)}`, () => add({ state: nominal, chosen, way: null }), { key: "nominal", class: "main" }),
-      rest.slice(0, 30).map((each, n) => button(wayText(spec, each.way), () => add({ state: each.state, chosen, way: each.way }), { key: `way${n}` })),
-      button("by chance", () => add({ ...randomMove(spec, state, chosen, chance), chosen }), { key: "chance" }))];
+      rest.slice(0, 30).map((each, n) => button(`or instead: ${otherwise(spec, state, chosen, each)}`, () => add({ state: each.state, chosen, way: each.way }), { key: `way${n}` })),
+      rest.length ? button("by chance", () => add({ ...randomMove(spec, state, chosen, chance), chosen }), { key: "chance" }) : null)];
 }
 
 function disturbances(app, state, add) {
@@ -87,13 +88,14 @@ function disturbances(app, state, add) {
     button("disturb", () => add({ state: applied(list.value.split(",").map(Number), state), chosen: null, way: null }), { disabled: !possible.length, key: "disturb" }));
 }
 
-function many(app, settings, tell) {
-  const option = (name, value, label) => h("label", h("input", { type: "checkbox", checked: value, key: name, onchange: (event) => { settings[name] = name === "disturb" ? (event.target.checked ? 0.05 : 0) : event.target.checked; } }), ` ${label} `);
-  const from = h("select", { "aria-label": "where they start", key: "from", onchange: () => { settings.from = from.value; } },
+// `changed` is called when something else is asked for, `go` when they are to be executed.
+function many(app, settings, changed, go) {
+  const option = (name, value, label) => h("label", h("input", { type: "checkbox", checked: value, key: name, onchange: (event) => { settings[name] = name === "disturb" ? (event.target.checked ? 0.05 : 0) : event.target.checked; changed(); } }), ` ${label} `);
+  const from = h("select", { "aria-label": "where they start", key: "from", onchange: () => { settings.from = from.value; changed(); } },
     h("option", { value: "here", selected: settings.from === "here" }, "the chosen state"),
     h("option", { value: "filter", selected: settings.from === "filter" }, "the states chosen above, by chance"));
   return h("p", option("faults", settings.faults, "effects by chance"), option("disturb", settings.disturb > 0, "disturbances (1 in 20 steps)"), " from ", from, " ",
-    button("execute", () => tell(counts(app, settings)), { key: "execute" }));
+    button("execute", go, { key: "execute" }));
 }
 
 function counts(app, { faults, disturb, from }) {
@@ -120,7 +122,7 @@ function counts(app, { faults, disturb, from }) {
   const more = { goal: middle, bound: ` (${grouped(LONGEST)} events)` };
   return h("ul", Object.entries(ends).filter(([, number]) => number).map(([end, number]) =>
     h("li", { class: end === "goal" ? "good" : "doubt" }, `${grouped(number)} of ${grouped(RUNS)}: ${ENDS[end]}${more[end] ?? ""}`)),
-  h("li", { class: unsafe ? "bad" : "good" }, unsafe ? `${counted(unsafe, "step")} led from a safe state to an unsafe one` : "no step led from a safe state to an unsafe one"));
+  h("li", { class: unsafe ? "bad" : "good" }, `${unsafe ? counted(unsafe, "step") : "no step"} of the policy led from a safe state to an unsafe one${disturb ? " (disturbances are not counted)" : ""}`));
 }
 
 // The trace format of Apalache; the variables with colons are not of the specification.

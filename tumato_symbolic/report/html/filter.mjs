@@ -19,10 +19,13 @@ export function filterView(app) {
     app.executed = executed.value === "" ? null : Number(executed.value);
     looked(app);
   } }, h("option", { value: "" }, "whatever is done"), spec.actions.map((action, number) => h("option", { value: number }, `where ${action.name} is done`)));
-  const clear = button("clear", () => {
+  const anew = () => {
     app.filter = spec.names.map(() => null);
     app.executed = null;
     executed.value = "";
+  };
+  const clear = button("clear", () => {
+    anew();
     looked(app);
   });
   const update = () => {
@@ -36,7 +39,10 @@ export function filterView(app) {
   };
   const example = spec.environment[0] ?? 0;
   const hint = h("p.quiet", "Press values to ask what is done where they hold, for instance ",
-    button(`${spec.names[example]} is ${spec.values[example].at(-1)}`, () => toggle(app, example, spec.sizes[example] - 1), { class: "link" }), ".");
+    button(`${spec.names[example]} is ${spec.values[example].at(-1)}`, () => {
+      anew();
+      toggle(app, example, spec.sizes[example] - 1);
+    }, { class: "link" }), ".");
   const element = h("section.filter", { "aria-label": "which states" },
     h("div", { class: "line-of" }, h("h2", "In which states?"), count, executed, clear, spec.names.length > 12 ? search : null), hint,
     h("div.variables", rows));
@@ -47,12 +53,13 @@ function toggle(app, n, value) {
   const some = new Set(app.filter[n] ?? []);
   if (!some.delete(value)) some.add(value);
   app.filter[n] = some.size && some.size < app.spec.sizes[n] ? some : null;
-  if (app.filter[n] && !some.has(app.selected[n])) app.selected = app.selected.map((one, at) => (at === n ? Math.min(...some) : one));
   looked(app);
 }
 
-// Other states are looked at.
+// Other states are looked at. The chosen one is among them, and is again the one before when the filter no longer excludes it.
 function looked(app) {
+  if (app.selected !== app.narrowed) app.own = app.selected;
+  app.selected = app.narrowed = app.own.map((value, n) => (app.filter[n] && !app.filter[n].has(value) ? Math.min(...app.filter[n]) : value));
   app.wanted = null;
   app.page = 0;
   app.change();

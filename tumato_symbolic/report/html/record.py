@@ -173,8 +173,8 @@ def _effect(effect: Assignment) -> list[int]:
 
 def _goal(record: _Predicates, goal: Goal) -> Json:
     match goal:
-        case SimpleGoal(body):
-            return body
+        case SimpleGoal(body, span):
+            return {"body": body, **place(span)}
         case ConditionalGoal(condition, inner):
             return {"when": record.rule(condition), "then": _goal(record, inner)}
         case GoalList(kind, members):

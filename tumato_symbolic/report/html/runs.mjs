@@ -2,7 +2,7 @@
 import { agree, isSafe, successor } from "./steps.mjs";
 
 function walk(goal, state) {
-  if (goal.body !== undefined) return { entered: true, active: [goal.body] };
+  if (goal.body !== undefined) return { entered: true, active: [goal] };
   if (goal.when) {
     return goal.when.holds(state, []) ? { entered: true, active: walk(goal.then, state).active } : { entered: false, active: [] };
   }
@@ -15,10 +15,13 @@ function walk(goal, state) {
   return { entered: true, active };
 }
 
+const active = (spec, state) => (spec.goals ? walk(spec.goals, state).active : []);
+
 // The numbers of the goal bodies that are active in a state.
-export function activeGoals(spec, state) {
-  return spec.goals ? [...new Set(walk(spec.goals, state).active)].sort((a, b) => a - b) : [];
-}
+export const activeGoals = (spec, state) => [...new Set(active(spec, state).map(({ body }) => body))].sort((a, b) => a - b);
+
+// The goals that are active in a state, each with its own place: several may have one body.
+export const writtenGoals = (spec, state) => active(spec, state).map((goal) => ({ ...spec.bodies[goal.body], with: null, ...goal }));
 
 // What is left of the goals of a state once its first set is chosen.
 export const residual = (spec, state, first) => ({ bodies: activeGoals(spec, state), first });

@@ -22,7 +22,7 @@ export function compiled(predicate) {
 const rule = (data) => ({ ...data, holds: compiled(data.is) });
 
 function goalFrom(data) {
-  if (typeof data === "number") return { body: data };
+  if (data.body !== undefined) return data;
   if (data.when) return { when: rule(data.when), then: goalFrom(data.then) };
   return { kind: data.kind, members: data.members.map(goalFrom) };
 }

@@ -1,7 +1,7 @@
 // One state: what holds in it, and why things are not done in it.
 import { button, h, lineLink, redraw, ruleText } from "./dom.mjs";
 import { smaller } from "./restoring.mjs";
-import { activeGoals, run } from "./runs.mjs";
+import { run, writtenGoals } from "./runs.mjs";
 import { duration, isSafe, objection } from "./steps.mjs";
 import { counted, ENDS, objectionText } from "./words.mjs";
 
@@ -12,6 +12,7 @@ export function stateView(app, explain) {
     app.select(app.selected.map((value, at) => (at === n ? Number(event.target.value) : value)));
   } }, spec.values[n].map((value, number) => h("option", { value: number }, value))));
   const body = h("div");
+  let shown = null;
   const element = h("section.state", { "aria-label": "one state" },
     button("↑ back", () => scrollTo(0, app.from ?? 0), { class: "back" }), h("h2", "One state"),
     h("div.selects", spec.names.map((name, n) => h("label", h("span", name), selects[n]))), body);
@@ -21,6 +22,8 @@ export function stateView(app, explain) {
       each.parentElement.classList.toggle("narrowed", Boolean(app.filter[n]));
     });
     redraw(body, standing(app, app.selected), explain(app.selected));
+    if (shown !== app.selected) element.scrollTop = 0;
+    shown = app.selected;
   };
   return { element, update };
 }
@@ -38,8 +41,8 @@ function standing(app, state) {
 export const section = (title, content) => h("details", { open: true }, h("summary", title), content);
 
 export function goalsIn(app, state) {
-  const active = activeGoals(app.spec, state);
-  return section("Goals", active.length ? h("ul", active.map((body) => h("li", ruleText(app, app.spec.bodies[body])))) : h("p", "No goal is active: any allowed step will do."));
+  const active = writtenGoals(app.spec, state);
+  return section("Goals", active.length ? h("ul", active.map((goal) => h("li", ruleText(app, goal)))) : h("p", "No goal is active: any allowed step will do."));
 }
 
 // What is wrong with the decision in a state, as the judge says it.

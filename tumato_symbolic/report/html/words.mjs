@@ -26,6 +26,9 @@ export function changeText(spec, before, after) {
 export const wayText = (spec, way) =>
   way.map(({ action, effect }) => `${spec.actions[action].name}: ${effectText(spec, effect)}`).join(", then ");
 
+// What happens where effects are not as intended.
+export const otherwise = (spec, state, chosen, each) => (chosen.length > 1 ? wayText(spec, each.way) : changeText(spec, state, each.state));
+
 export const stateText = (spec, state) => state.map((value, n) => `${spec.names[n]}=${spec.values[n][value]}`).join(" ");
 
 // The values of a cube that are not all values, as [variable, text, number of values].
