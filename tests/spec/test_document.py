@@ -71,6 +71,9 @@ def diagnostics_document() -> str:
         "// allow TUM341, TUM344: set by the operator\n"
         "state S_Mode can be manual, automatic\n"
         "```\n\n"
+        "TUM342 leaves a value `unknown` out: a sensor that may fail has one, and rules treat it as the worst\n"
+        "([modelling.md](modelling.md)). `near` and `unknown` may be treated alike; of `near`, `far` and `unknown` "
+        "it names the first two.\n\n"
         "| code | | what it is about |\n|---|---|---|\n"
     )
     return head + "".join(f"| {code.name} | {code.severity} | {code.title} |\n" for code in Code)
