@@ -11,14 +11,14 @@ from pathlib import Path
 
 import pytest
 
-from tests.repo.documents import ROOT
+from benchmarks.robots import loads
 from tests.sweep.here import COIN, answer
 from tumato_symbolic.limits.processes import megabytes_of
 from tumato_symbolic.sweep import Task, asking
 from tumato_symbolic.sweep.asking import Children
 
 QUICK = Task("coin.tum", COIN.text)
-LONG = Task("grid5.tum", (ROOT / "examples" / "grid5.tum").read_text(), prover="explicit")
+LONG = Task("loads.tum", loads(25, realizable=True))
 
 
 @pytest.fixture
