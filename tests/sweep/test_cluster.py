@@ -2,9 +2,7 @@
 
 import os
 import signal
-import threading
-import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
@@ -27,23 +25,24 @@ def workers() -> Iterator[Any]:
         yield found
 
 
-def swept(hired: Any, plan: Plan = PLAN) -> str:
+def swept(hired: Any, plan: Plan = PLAN, heard: Callable[[], None] = lambda: None) -> str:
     """All results as text."""
     with kept(None, plan.header("0")) as results:
-        sweep(plan, Task("", "", prove=False), hired, results, heard=lambda: None)
+        sweep(plan, Task("", "", prove=False), hired, results, heard=heard)
         return results.text()
 
 
 def test_a_worker_that_is_killed_loses_nothing(workers: Any) -> None:
     """The results are the same bytes as on one machine."""
     alone = run(None, shuffling(0, {}), PLAN)
+    victims = [next(each.pid for each in workers.workers.values())]
 
-    def kill() -> None:
-        time.sleep(0.4)
-        os.kill(next(each.pid for each in workers.workers.values()), signal.SIGKILL)
+    def heard() -> None:
+        if victims:
+            os.kill(victims.pop(), signal.SIGKILL)
 
-    threading.Thread(target=kill).start()
-    assert swept(lambda: cluster.cluster(workers.scheduler_address)) == alone
+    assert swept(lambda: cluster.cluster(workers.scheduler_address), heard=heard) == alone
+    assert not victims
 
 
 def test_other_versions_are_refused(workers: Any, monkeypatch: pytest.MonkeyPatch) -> None:
