@@ -60,6 +60,7 @@ def test_a_process_that_is_ended_leaves_nothing(tmp_path: Path, number: str) -> 
     code = (
         "import os, signal, sys, time\nfrom pathlib import Path\nfrom tumato_symbolic.policy import save_text\n"
         "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
+        "signal.signal(signal.SIGHUP, signal.SIG_DFL)\n"
         "os.fsync = lambda _: (print('writing', flush=True), time.sleep(100))\n"
         "save_text('new', Path(sys.argv[1]), 'policy')"
     )
