@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Final
 
 YES: Final = 0
@@ -27,3 +28,10 @@ TERMINATED: Final = 128
 
 BROKEN_PIPE: Final = 141
 """The reader of the output has gone (128 + SIGPIPE)."""
+
+_WORST_FIRST: Final = (BUG, USAGE, NO, UNDECIDED, YES)
+
+
+def worst(codes: Iterable[int]) -> int:
+    """The exit code of a command that did several things, of which these are the codes."""
+    return min(codes, key=_WORST_FIRST.index)

@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
-from tumato_symbolic.cli.exits import NO, UNDECIDED, USAGE, YES
+from tumato_symbolic.cli.exits import NO, UNDECIDED, USAGE, worst
 from tumato_symbolic.cli.matching import Specifications
 from tumato_symbolic.cli.verifying import Criteria, exit_code, verify_claim
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
@@ -27,8 +27,6 @@ SUFFIXES = (".policy.json", ".unrealizable.json")
 
 FEWEST_BYTES = 100_000
 """Smaller folders are verified sooner than children are made."""
-
-_WORST_FIRST = (USAGE, NO, UNDECIDED, YES)
 
 
 def verify_folder(
@@ -70,7 +68,7 @@ def ended_folder(known: Folder, why: str) -> Folder:
 
 def folder_code(done: Folder) -> int:
     """The exit code of the worst file."""
-    return min(map(_code, done.entries), key=_WORST_FIRST.index)
+    return worst(map(_code, done.entries))
 
 
 def _without(entries: Iterable[Entry], specs: Specifications) -> list[Path]:

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from tumato_symbolic.cli.console import wants_colour, write
+from tumato_symbolic.cli.exits import UNDECIDED, worst
 from tumato_symbolic.cli.matching import Specifications, inside
 from tumato_symbolic.cli.options import CommandOptions, is_folder
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
@@ -121,7 +122,7 @@ def report(done: Many, doing: Doing, options: CommandOptions) -> int:
     """Print the table, where the lines are not printed already."""
     if options.output_format == "text":
         write(as_text(done, doing.said, wants_colour(sys.stdout)))
-    return done.code
+    return worst([*(row.code for row in done.rows), *([UNDECIDED] if len(done.rows) < done.of else [])])
 
 
 def ended(known: Many, why: str, doing: Doing, options: CommandOptions) -> int:

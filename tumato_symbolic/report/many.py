@@ -15,9 +15,6 @@ from tumato_symbolic.report.layout import Paint, count, seconds
 Report: TypeAlias = Mapping[str, Any]
 """What a command says of one file to a program."""
 
-_WORST_FIRST = (70, 2, 1, 3, 0)
-"""Exit codes."""
-
 
 @dataclass(frozen=True, slots=True)
 class Row:
@@ -36,12 +33,6 @@ class Many:
     of: int
     took: float
     limit: str | None = None
-
-    @property
-    def code(self) -> int:
-        """That of the worst file."""
-        codes = [row.code for row in self.rows] + ([3] if len(self.rows) < self.of else [])
-        return min(codes, key=lambda code: _WORST_FIRST.index(code) if code in _WORST_FIRST else 0)
 
 
 def failed(name: str, error: UserError) -> Row:
