@@ -2,6 +2,7 @@
 
 import re
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -11,8 +12,16 @@ from tumato_symbolic.cli.main import main
 
 ROOT = Path(__file__).parents[2]
 PACKAGE = ROOT / "tumato_symbolic"
+DECISIONS = ROOT / "docs" / "decisions"
 TEXT = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
 NAMED = re.findall(r"`([\w./-]+)`", TEXT)
+TRUSTED = TEXT[TEXT.index("## What has to be trusted") : TEXT.index("## Glossary")]
+KERNELS = re.findall(r"^\| (`.*?`) \| (\d+) \|", TRUSTED, re.MULTILINE)
+CHANGES = TEXT[TEXT.index("## Where a change goes") : TEXT.index("**A worked example")]
+EXAMPLES = {"cli/commands/NAME.py", "cli/commands/count.py"}
+"""Files that are to be written."""
+
+_ENDING = re.compile(r"\w\.(?:py|md|mjs|json|lark|toml|tum|v|cpp|hpp|el|vim|ya?ml|txt)$")
 
 
 def test_every_room_is_named() -> None:
@@ -22,15 +31,38 @@ def test_every_room_is_named() -> None:
     assert rooms <= {name.rstrip("/") for name in NAMED}
 
 
-def test_every_file_that_is_named_exists() -> None:
-    """From the root, from the package, or by a name that only one file of the package has."""
-    placeholders = {"cli/commands/NAME.py", "cli/commands/count.py"}
-    names = [name for name in NAMED if re.search(r"\.(py|md|lark|toml)$", name) and name not in placeholders]
-    assert len(names) > 50
-    known = [path.name for path in PACKAGE.rglob("*.py")]
-    for name in names:
-        found = (ROOT / name).exists() or (PACKAGE / name).exists() or known.count(name) == 1
-        assert found, name
+def test_every_path_leads_somewhere() -> None:
+    """A path begins at the root or in the package, not in a folder that was named before, and means one file."""
+    paths = [name for name in NAMED if _is_path(name) and name not in EXAMPLES]
+    assert len(paths) > 200
+    assert [name for name in paths if len(_places(name)) != 1] == []
+
+
+def test_a_shortened_path_is_noticed() -> None:
+    """The name of a file alone, or what is no file at all."""
+    assert all(map(_is_path, ("goals.py", "semantics/goals.py", "export/nothing", ".ci/run", "pyproject.toml")))
+    assert not any(map(_is_path, ("Steps.valid", "report", "Makefile", ".mjs")))
+    assert [len(_places(name)) for name in ("goals.py", "export/nothing", "semantics/goals.py", ".ci/run")] == [
+        0,
+        0,
+        1,
+        1,
+    ]
+
+
+def test_paths_in_decisions_lead_somewhere() -> None:
+    """In the same way."""
+    for document in DECISIONS.glob("*.md"):
+        names = re.findall(r"`([\w./-]+)`", document.read_text(encoding="utf-8"))
+        assert [name for name in names if _is_path(name) and len(_places(name)) != 1] == [], document.name
+
+
+def test_what_is_in_a_file_is_there() -> None:
+    """`NAME` in `PATH`: a function, a class, a constant or a field of that name."""
+    found = [pair for pair in re.findall(r"`(\w+)` in `([\w./-]+)`", TEXT) if _places(pair[1])[0].is_file()]
+    assert len(found) > 20
+    for name, path in found:
+        assert _defines(_places(path)[0].read_text(encoding="utf-8"), name), (name, path)
 
 
 def test_every_name_in_the_glossary_is_in_the_code() -> None:
@@ -41,18 +73,40 @@ def test_every_name_in_the_glossary_is_in_the_code() -> None:
     names = [name for row in rows for name in re.findall(r"`([\w.]+)`", row)]
     assert len(names) > 25
     for name in names:
-        for part in name.split("."):
-            defined = rf"^\s*(?:(?:class|def) {part}\b|{part}(?:: | = ))"
-            assert re.search(defined, code, re.MULTILINE), name
+        assert all(_defines(code, part) for part in name.split(".")), name
 
 
 def test_kernels_are_as_large_as_is_said() -> None:
     """Lines that are not blank, to within a tenth."""
-    rows = re.findall(r"^\| (`.*?`) \| (\d+) \|", TEXT, re.MULTILINE)
-    assert len(rows) == 11
-    for kernel, size in rows:
-        lines = sum(map(_size, re.findall(r"`([\w./]+)`", kernel)))
+    assert len(KERNELS) > 10
+    for kernel, size in KERNELS:
+        lines = sum(_size(name) for name in _names(kernel))
         assert 0.9 * int(size) <= lines <= 1.1 * int(size), (kernel, lines)
+
+
+def test_every_file_of_the_verifier_is_in_one_row_of_what_is_trusted() -> None:
+    """By itself, or with its folder."""
+    trusted = [name for kernel, _ in KERNELS for name in _names(kernel)]
+    for path in sorted((PACKAGE / "verify").rglob("*.py")):
+        name = path.relative_to(PACKAGE).as_posix()
+        assert [each for each in trusted if name == each or name.startswith(f"{each}/")] != [], name
+    assert len(set(trusted)) == len(trusted)
+
+
+def test_every_room_is_trusted_or_said_not_to_be() -> None:
+    """In a row, or in what is said of the others."""
+    rooms = {path.parent.name for path in PACKAGE.glob("*/__init__.py")}
+    assert rooms - {"verify"} <= set(_names(TRUSTED))
+
+
+def test_every_change_has_one_row_that_says_where_to_begin() -> None:
+    """Three columns, the second with a file, a folder or something to look for; no change is there twice."""
+    rows = list(_rows(CHANGES))
+    assert len(rows) > 70
+    for row in rows:
+        assert len(row) == 3, row
+        assert "`" in row[1], row
+    assert len({change for change, *_ in rows}) == len(rows)
 
 
 def test_the_worked_example_works(
@@ -75,15 +129,39 @@ def test_the_worked_example_works(
 
 def test_every_decision_is_listed() -> None:
     """And has a context, what was decided, what was rejected, and what follows."""
-    folder = ROOT / "docs" / "decisions"
-    listed = re.findall(r"\((\d{4}-[\w-]+\.md)\)", (folder / "README.md").read_text(encoding="utf-8"))
-    assert listed == sorted(path.name for path in folder.glob("0*.md"))
+    listed = re.findall(r"\((\d{4}-[\w-]+\.md)\)", (DECISIONS / "README.md").read_text(encoding="utf-8"))
+    assert listed == sorted(path.name for path in DECISIONS.glob("0*.md"))
     for name in listed:
-        text = (folder / name).read_text(encoding="utf-8")
+        text = (DECISIONS / name).read_text(encoding="utf-8")
         assert all(f"**{part}.**" in text for part in ("Context", "Decision", "Rejected", "Consequences")), name
 
 
+def _is_path(name: str) -> bool:
+    """Whether a name in code marks is that of a file, or of something in a folder."""
+    return "/" in name or _ENDING.search(name) is not None
+
+
+def _places(name: str) -> list[Path]:
+    """What a path that is written in full leads to."""
+    return [path for path in (PACKAGE / name, ROOT / name) if path.exists()]
+
+
+def _names(text: str) -> list[str]:
+    return re.findall(r"`([\w./]+)`", text)
+
+
+def _rows(text: str) -> Iterator[list[str]]:
+    """The rows of all tables in a text, without their heads."""
+    for line in text.splitlines():
+        if line.startswith("| ") and not line.startswith("| change |"):
+            yield [cell.strip() for cell in line.strip().strip("|").split(" |")]
+
+
+def _defines(code: str, name: str) -> bool:
+    return re.search(rf"^\s*(?:(?:class|def) {name}\b|{name}(?:: | = ))", code, re.MULTILINE) is not None
+
+
 def _size(name: str) -> int:
-    path = next(path for path in (PACKAGE / name, ROOT / name) if path.exists())
+    path = _places(name)[0]
     files = [path] if path.is_file() else sorted(path.rglob("*.py"))
     return sum(1 for file in files for line in file.read_text(encoding="utf-8").splitlines() if line.strip())
