@@ -242,8 +242,16 @@ ENTRIES = [
 ]
 
 CONDITIONAL = action("nominal effects: when S is a: T is x")
+TWO_CLAUSES = action("nominal effects: when S is a: T is x when S is b: T is y")
 EFFECTS = [
     ("TUM305", action("«nominal effects: IF S is a THEN T is x»"), "write `when CONDITION: EFFECT`", CONDITIONAL),
+    ("TUM105", action("nominal effects: when S is a: T is x«,» when S is b: T is y"), "leave it out", TWO_CLAUSES),
+    (
+        "TUM105",
+        action("nominal effects: T is x«,» when S is a: S is b"),
+        "leave it out",
+        action("nominal effects: T is x when S is a: S is b"),
+    ),
     ("TUM105", action("nominal effects: T is x «IF» S is a"), "write `when CONDITION: EFFECT`", CONDITIONAL),
     ("TUM105", action("nominal effects: «if» S is a then T is x"), "write `when CONDITION: EFFECT`", CONDITIONAL),
     ("TUM105", action("nominal effects: when S is a «then» T is x"), "write `when CONDITION: EFFECT`", CONDITIONAL),

@@ -92,16 +92,25 @@ def listing(tokens: tuple[Token, ...]) -> str:
 
 def _conditional_effect(here: Situation) -> Diagnostic | None:
     """A condition before or after an effect; after it there is one only where the predicate is over."""
+    before, token = here.at(-1), here.token
+    if token.text == "when" and before.text == "," and here.in_effects_or_clause:
+        return _comma_before_clause(before)
     if here.in_condition_of_effect and ":" in here.expected:
-        return unexpected(here.token.span, here.token.text, CONDITIONAL_EFFECT)
+        return unexpected(token.span, token.text, CONDITIONAL_EFFECT)
     if not here.in_effects:
         return None
-    before, token = here.at(-1), here.token
     if token.text.lower() in _CONDITIONS and "AND" in here.expected:
         return unexpected(token.span, token.text, CONDITIONAL_EFFECT)
     if "is" in here.expected and before.text.lower() in _CONDITIONS and not here.declares(before.text):
+        comma = here.at(-2)
+        if before.text == "when" and comma.text == ",":
+            return _comma_before_clause(comma)
         return unexpected(before.span, before.text, CONDITIONAL_EFFECT)
     return None
+
+
+def _comma_before_clause(comma: Token) -> Diagnostic:
+    return unexpected(comma.span, ",", "leave it out: `when` begins a clause, which needs no comma before it")
 
 
 def _before_predicate(here: Situation) -> Diagnostic | None:

@@ -101,6 +101,12 @@ class Situation:
         return field is not None and field.text == "effects"
 
     @property
+    def in_effects_or_clause(self) -> bool:
+        """Whether a list of effects, or a clause after one, is half read."""
+        field = self.last("effects", "preconditions", "resources", "rule", "assume", "goal", "define")
+        return field is not None and field.text == "effects"
+
+    @property
     def in_condition_of_effect(self) -> bool:
         """Whether the condition after `when` among effects is half read."""
         latest = self.last("when", ":")
