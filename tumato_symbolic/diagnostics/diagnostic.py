@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from tumato_symbolic.diagnostics.codes import Code, Severity
+from tumato_symbolic.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TypeAlias
 
+from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics.states import ActionSet, State, holds, is_safe
 from tumato_symbolic.spec import ConditionalGoal, Goal, Rule, SimpleGoal, Spec, executing_atoms
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TypeAlias
 
+from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics.runs import End
 from tumato_symbolic.semantics.states import ActionSet, State
 from tumato_symbolic.semantics.step import EffectSequence, outcomes_in_turn, successor

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import ActionSet, ActiveGoals, Residual, residual_goal
 from tumato_symbolic.spec import (
     FORMULAS,

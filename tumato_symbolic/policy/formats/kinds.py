@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from typing import Any, Generic, TypeAlias, TypeVar
 
 from tumato_symbolic.diagnostics import Code
@@ -21,6 +20,7 @@ from tumato_symbolic.policy.text import (
     way_out,
     wrong,
 )
+from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import ActionSet, Effort, State
 from tumato_symbolic.spec import Assignment, value_of
 
