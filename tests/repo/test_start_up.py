@@ -30,7 +30,7 @@ def _loaded(*arguments: str) -> tuple[int, set[str]]:
     return code, set(names)
 
 
-_OF_HELP = {"cli", "diagnostics", "limits", "records"}
+_OF_HELP = {"cli", "diagnostics", "limits"}
 """The rooms that help needs."""
 
 _ROOMS = """

@@ -13,14 +13,13 @@ import signal
 import time
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import field
+from dataclasses import dataclass, field
 from types import FrameType
 from typing import NoReturn, TypeAlias
 
 from tumato_symbolic.cli import console
 from tumato_symbolic.limits import Context
 from tumato_symbolic.limits.processes import end_with, megabytes_of
-from tumato_symbolic.records import dataclass
 
 GRACE = 0.5
 """Seconds after the time limit in which a command may still report by itself."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias, cast
 
@@ -13,7 +13,6 @@ from tumato_symbolic.cli.inputs import errors_in, read_spec
 from tumato_symbolic.cli.options import STANDARD_OUTPUT
 from tumato_symbolic.limits import Context
 from tumato_symbolic.policy import Policy
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.report.verified import Verified
 from tumato_symbolic.verify import verify
 from tumato_symbolic.verify.guarantees.result import Guarantees

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import field
+from dataclasses import dataclass, field
 
 from tumato_symbolic.diagnostics.codes import Code, Severity
-from tumato_symbolic.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)

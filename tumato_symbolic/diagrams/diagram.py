@@ -8,10 +8,9 @@ their parents, so a diagram cannot contain a cycle.
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from math import prod
 from typing import Generic, TypeAlias, TypeVar
-
-from tumato_symbolic.records import dataclass
 
 Leaf = TypeVar("Leaf", bound=Hashable)
 Reference: TypeAlias = int

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from itertools import pairwise
 
 from tumato_symbolic.diagnostics import Source, UserError
 from tumato_symbolic.editor.breaks import Break, breaks
 from tumato_symbolic.editor.gaps import Gap, gaps
 from tumato_symbolic.editor.structure import STEP, Start, starts
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.syntax import ast
 from tumato_symbolic.syntax.grammar import grammar
 from tumato_symbolic.syntax.parser import read_terminals

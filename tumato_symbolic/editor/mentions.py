@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Final, Literal, NamedTuple, TypeAlias
 
 from tumato_symbolic.diagnostics import CopySpan, Source, Span
 from tumato_symbolic.editor.parameters import parameter_places
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec.collector import Findings
 from tumato_symbolic.spec.copies import copies_in, written_out
 from tumato_symbolic.syntax import Parsed, ast, parse

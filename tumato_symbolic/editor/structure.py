@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.syntax.tokens import Token
 
 STEP = 2

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 from tumato_symbolic.diagnostics import Span
 from tumato_symbolic.explain.as_predicates import cube_formula, predicate_text
 from tumato_symbolic.explain.cubes import StateCube
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec import (
     TRUE,
     Action,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from typing import Literal, TypeAlias
 
 from tumato_symbolic.explain.cubes import disjoint_cubes, set_of
@@ -11,7 +11,6 @@ from tumato_symbolic.explain.elements import Element, Elements
 from tumato_symbolic.explain.failing_states import FailingStates
 from tumato_symbolic.explain.minimize import minimal
 from tumato_symbolic.explain.requirements import Requirements
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import State
 from tumato_symbolic.symbolic import Bdd
 

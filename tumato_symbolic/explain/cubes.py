@@ -7,9 +7,9 @@ covers most is taken.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import TypeAlias
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import State
 from tumato_symbolic.symbolic import Bdd, Encoding
 

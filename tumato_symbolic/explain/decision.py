@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 from tumato_symbolic.explain.guaranteed import Guaranteed, guaranteed
 from tumato_symbolic.explain.near_misses import candidates
 from tumato_symbolic.explain.way_to_safety import RestoringFrom, WayToSafety
 from tumato_symbolic.policy import Policy, UndecidedState
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import (
     ActionSet,
     Objection,

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Final, Literal, TypeAlias
 
 from tumato_symbolic.diagnostics import Span
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec import Action, Rule, Spec
 
 ElementKind: TypeAlias = Literal[

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from itertools import chain
 
 from tumato_symbolic.explain.cubes import StateCube, disjoint_cubes
 from tumato_symbolic.explain.requirements import Requirements
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.symbolic import Bdd
 
 MOST_CUBES = 2

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Final, Literal, TypeAlias
 
 from tumato_symbolic.explain.additions import Addition
@@ -11,7 +11,6 @@ from tumato_symbolic.explain.elements import Element
 from tumato_symbolic.explain.environment import Restriction
 from tumato_symbolic.explain.near_misses import NearMiss
 from tumato_symbolic.explain.summary import Summary
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Formula, Ordering, Spec
 from tumato_symbolic.synthesis.diagnosis import Restorability

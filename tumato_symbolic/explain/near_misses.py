@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from itertools import combinations
 from math import prod
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import NOTHING, ActionSet, Objection, State, duration, holds, objections
 from tumato_symbolic.spec import Ordering, Spec
 

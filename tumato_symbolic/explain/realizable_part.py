@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from tumato_symbolic.diagnostics import Span
 from tumato_symbolic.explain.as_predicates import in_other_words, predicate_text, shortest_formula
@@ -13,7 +13,6 @@ from tumato_symbolic.explain.failing_states import restricted
 from tumato_symbolic.explain.requirements import Requirements
 from tumato_symbolic.explain.trial import is_realizable, trial
 from tumato_symbolic.game import Problem, winning_alone
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Formula, Rule, Spec
 from tumato_symbolic.symbolic import Bdd, targets

@@ -9,11 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from copy import copy
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from tumato_symbolic.explain.elements import Element, Elements, elements_of, keep_only, replace_rule, rule_of
 from tumato_symbolic.limits import Context
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Assignment, Formula, Ordering, Rule, Spec, variables_of
 from tumato_symbolic.symbolic import (

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import Literal, TypeAlias
 
@@ -11,7 +12,6 @@ from tumato_symbolic.explain.additions import every_state
 from tumato_symbolic.explain.cubes import StateCube, expanded, set_of
 from tumato_symbolic.explain.elements import Elements, rule_of
 from tumato_symbolic.explain.requirements import Requirements
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import State, active_goals, holds
 from tumato_symbolic.spec import Formula, Spec, variables_of
 from tumato_symbolic.symbolic import Bdd

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from tumato_symbolic.explain.cores import Failing, failing_states
 from tumato_symbolic.explain.failing_states import FailingStates
 from tumato_symbolic.explain.requirements import Requirements
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.symbolic import Bdd
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import TypeAlias
 
@@ -16,7 +16,6 @@ from tumato_symbolic.explain.failing_states import FailingStates, failing
 from tumato_symbolic.explain.minimize import minimal
 from tumato_symbolic.explain.requirements import Requirements
 from tumato_symbolic.explain.trial import is_realizable, trial
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import count_states
 from tumato_symbolic.spec import Action, And, Or, Rule, Spec, variables_of
 from tumato_symbolic.synthesis import Realizable

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from tumato_symbolic.explain.cores import Failing, failing_states, typical_state
@@ -13,7 +13,6 @@ from tumato_symbolic.explain.explanation import Wanted
 from tumato_symbolic.explain.failing_states import FailingStates
 from tumato_symbolic.explain.requirements import Requirements
 from tumato_symbolic.limits import Context
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec.many_goals import many_told
 from tumato_symbolic.symbolic import Bdd

@@ -7,6 +7,7 @@ and a changed decision would leave the old action running.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from string import Template
 from textwrap import fill
 from typing import Final
@@ -15,7 +16,6 @@ from xml.sax.saxutils import quoteattr
 from tumato_symbolic.export.decisions import DecisionRule, rules_of
 from tumato_symbolic.export.identifiers import distinct, identifier
 from tumato_symbolic.export.request import Request
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec import Ordering
 
 RULES_IN_A_TREE = 40

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from string import Template
 from textwrap import indent
 
@@ -10,7 +11,6 @@ from tumato_symbolic.export.c99_check import check
 from tumato_symbolic.export.c99_names import Names
 from tumato_symbolic.export.c_decisions import statements
 from tumato_symbolic.export.request import Request, commented
-from tumato_symbolic.records import dataclass
 
 _HEADER = Template("""\
 /* What to do in a state: the decisions of a policy. Written by `tumato-sym export c99`.

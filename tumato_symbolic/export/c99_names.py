@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Final
 
 from tumato_symbolic.export.identifiers import distinct, identifier
 from tumato_symbolic.export.request import Request
-from tumato_symbolic.records import dataclass
 
 WORDS: Final = """
 auto break case char const continue default do double else enum extern float for goto if inline int long register

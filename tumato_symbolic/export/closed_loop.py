@@ -10,10 +10,10 @@ is said here as formulas; targets print them.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from itertools import combinations
 
 from tumato_symbolic.export.request import Request
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import excluded
 from tumato_symbolic.spec import (
     FALSE,

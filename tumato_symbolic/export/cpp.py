@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from string import Template
 from textwrap import indent
 from typing import Final
@@ -11,7 +12,6 @@ from tumato_symbolic.export.c99_names import WORDS as C_WORDS
 from tumato_symbolic.export.c_decisions import statements
 from tumato_symbolic.export.identifiers import distinct, identifier
 from tumato_symbolic.export.request import Request, commented
-from tumato_symbolic.records import dataclass
 
 _HEADER = Template("""\
 // What to do in a state: the decisions of a policy. Written by `tumato-sym export cpp`.

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TypeAlias
 
 from tumato_symbolic.diagrams import EVERYTHING, LEAVES, Sets, room_for
 from tumato_symbolic.policy import DecisionDiagram, Policy, Roots, Vocabulary, as_diagram, decided_at, minimal_rules
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import ActionSet
 
 MOST_QUESTIONS = 20_000

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 
 from tumato_symbolic.export.closed_loop import ClosedLoop, lasting, preconditions
 from tumato_symbolic.export.decisions import DecisionRule, rules_of
 from tumato_symbolic.export.identifiers import distinct, identifier
 from tumato_symbolic.export.request import Request
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec import TRUE, Connectives, Executing, Formula, Is, executing_atoms, fold
 
 

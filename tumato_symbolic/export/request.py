@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from textwrap import fill
 
 from tumato_symbolic.policy import Policy
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec import Ordering, Spec
 
 _PROMISE = (

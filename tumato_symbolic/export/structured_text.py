@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterator
+from dataclasses import dataclass
 from string import Template
 from typing import Final
 
 from tumato_symbolic.export.decisions import DecisionRule, rules_of
 from tumato_symbolic.export.identifiers import distinct, identifier
 from tumato_symbolic.export.request import Request, commented
-from tumato_symbolic.records import dataclass
 
 _BLOCK = Template("""\
 (* What to do in a state: the decisions of a policy. Written by `tumato-sym export structured-text`.

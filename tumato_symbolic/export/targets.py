@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING, Final, TypeAlias, cast
-
-from tumato_symbolic.records import dataclass
 
 if TYPE_CHECKING:
     from tumato_symbolic.export.request import Request

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 from tumato_symbolic.game.evaluation import winning
 from tumato_symbolic.game.fixpoints import Layers, distances, preimage
 from tumato_symbolic.game.problem import Problem
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.symbolic import Bdd, compatible_sets, staying_in, without_effect
 
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 
 from tumato_symbolic.game.fixpoints import ClosedLoop, Layers, attractor, closed_loop, preimage
 from tumato_symbolic.game.problem import Problem
 from tumato_symbolic.game.restoration import Restoration, Restorer
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.symbolic import Bdd, Target
 
 

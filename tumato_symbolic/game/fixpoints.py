@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TypeAlias
 
 from tumato_symbolic.game.problem import Problem
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec import Assignment
 from tumato_symbolic.symbolic import Bdd, Leading, Target
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from tumato_symbolic.limits import Context
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.symbolic import (
     Backend,

@@ -7,6 +7,7 @@ outcome, to what is restored or decided already. There is one fixpoint step for 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from heapq import heappop, heappush
 
@@ -14,7 +15,6 @@ from tumato_symbolic.game.fixpoints import Layers, preimage
 from tumato_symbolic.game.problem import Problem
 from tumato_symbolic.game.routing import shortest_decisions
 from tumato_symbolic.policy import Deviation
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import AT_ONCE, Effort, longer
 from tumato_symbolic.symbolic import Bdd, by_duration, compatible_sets, preferred, staying_in
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 from tumato_symbolic.game.fixpoints import Layers, attractor, closed_loop, preimage
 from tumato_symbolic.game.problem import Problem
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import ActiveGoals
 from tumato_symbolic.symbolic import Bdd, Target, preferred, with_own_bits
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable
-
-from tumato_symbolic.records import dataclass
+from dataclasses import dataclass
 
 
 class LimitReachedError(Exception):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import PurePosixPath
 from typing import cast
@@ -12,7 +13,6 @@ from lsprotocol import types
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.editor.mentions import Index, index
 from tumato_symbolic.editor.positions import Encoding, Position, Positions
-from tumato_symbolic.records import dataclass
 
 
 @dataclass

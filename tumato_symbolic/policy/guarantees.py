@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from tumato_symbolic.diagrams import Diagram, Reference
@@ -12,7 +12,6 @@ from tumato_symbolic.policy.formats.kinds import Names
 from tumato_symbolic.policy.formats.tables import NEEDED, Entries, Field, Record, plain, text_of
 from tumato_symbolic.policy.records import Drawing, Vocabulary
 from tumato_symbolic.policy.text import save_text
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec import Ordering, Restoration
 
 GUARANTEES = "guarantees"

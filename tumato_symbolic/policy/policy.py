@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from tumato_symbolic.diagnostics.wording import count
@@ -12,7 +12,6 @@ from tumato_symbolic.policy.formats import policy_fields
 from tumato_symbolic.policy.lookup import Decider, make_decider
 from tumato_symbolic.policy.records import Certificate, DecisionDiagram, PolicyFields, Table, Vocabulary
 from tumato_symbolic.policy.text import read_text
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec import Ordering, Restoration, Spec, Value
 
 if TYPE_CHECKING:

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple, Protocol, Self, TypeAlias, TypeVar
 
 from tumato_symbolic.diagrams import Diagram, Reference, count_true, rebuild
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import ActionSet, Effort, State
 from tumato_symbolic.spec import Ordering, Restoration, Spec
 

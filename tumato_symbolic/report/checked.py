@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Diagnostic, Severity, Source, render
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.report.findings import Finding, finding_json, findings_of
 from tumato_symbolic.report.layout import Paint, count
 from tumato_symbolic.semantics import count_states

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 from tumato_symbolic.explain.decision import Decision, GoalNote, Other
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.report.guaranteed import guarantee_json, guarantee_text, shortcoming_json, shortcoming_lines
 from tumato_symbolic.report.layout import count, enumeration
 from tumato_symbolic.report.objections import Place, broken_here, effects_text, objection_text

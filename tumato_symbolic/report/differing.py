@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from tumato_symbolic.diagnostics import Span
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.report.differing_decisions import change_lines, difference_json, difference_lines, names_lines
 from tumato_symbolic.report.differing_elements import element_json, element_lines, element_message
 from tumato_symbolic.report.findings import Finding

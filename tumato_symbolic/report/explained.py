@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Diagnostic, Source
 from tumato_symbolic.explain.explanation import STAGES, Explanation, Found, NothingToExplain, Unexplained
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.report.blame import group_lines, near_pieces, reason_pieces
 from tumato_symbolic.report.layout import Paint, count
 from tumato_symbolic.report.objections import Place

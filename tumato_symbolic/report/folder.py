@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import dataclass
 from typing import Literal
 
 from tumato_symbolic.diagnostics import UserError, render
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.report import unrealizable, verified
 from tumato_symbolic.report.findings import Finding, finding_json, findings_of, undecided
 from tumato_symbolic.report.layout import Paint, count, seconds

@@ -5,10 +5,10 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from tumato_symbolic.diagnostics import UserError
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.report.findings import finding_json
 from tumato_symbolic.report.layout import Paint, count, seconds
 

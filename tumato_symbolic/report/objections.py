@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.report.layout import enumeration
 from tumato_symbolic.semantics import (
     ActionSet,

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics.cubes import actions_text, named_cube_text
 from tumato_symbolic.policy import RuleList
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.report.cubes import named_json
 from tumato_symbolic.report.layout import count
 from tumato_symbolic.report.rules import rule_lines, rules_json

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.report.layout import count
 from tumato_symbolic.report.objections import Place
 from tumato_symbolic.report.traces import trace_json, trace_lines

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Span
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.report.findings import Finding
 from tumato_symbolic.report.layout import Paint, count, enumeration
 from tumato_symbolic.sweep import Line, Plan

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import shlex
+from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Diagnostic, Source
 from tumato_symbolic.policy import never_executed, some_decided
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.report.failures import FAILURE_CODES, failure_json, failure_line, failure_text, left_out_lines
 from tumato_symbolic.report.findings import Finding, finding_json, findings_of, undecided
 from tumato_symbolic.report.layout import Paint, count, every, seconds

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics.cubes import actions_text, shown
 from tumato_symbolic.policy import Vocabulary
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.report.cubes import named_json
 from tumato_symbolic.report.layout import count
 from tumato_symbolic.report.rules import SOMETHING_ELSE

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import shlex
+from dataclasses import dataclass
 from typing import Final
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.report.findings import Finding, finding_json, findings_of
 from tumato_symbolic.report.layout import Paint, count, seconds
 from tumato_symbolic.report.proof import ORDERINGS

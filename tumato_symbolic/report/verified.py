@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import shlex
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Final
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.report.findings import Finding, finding_json, findings_of
 from tumato_symbolic.report.guaranteed import guarantees_json, guarantees_lines, guarantees_summary
 from tumato_symbolic.report.layout import Paint, enumeration, seconds

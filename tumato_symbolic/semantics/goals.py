@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics.states import ActionSet, State, holds, is_safe
 from tumato_symbolic.spec import ConditionalGoal, Goal, Rule, SimpleGoal, Spec, executing_atoms
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from math import inf
 from typing import Literal, TypeAlias
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics.goals import Residual, reached, residual_goal
 from tumato_symbolic.semantics.states import ActionSet, State, is_valid
 from tumato_symbolic.semantics.step import nominal_agrees, outcomes_in_turn, successor

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics.restoration import Restorations
 from tumato_symbolic.semantics.runs import Run, follow
 from tumato_symbolic.semantics.states import ActionSet, State, all_states, duration, is_safe, is_start, is_valid

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics.goals import reached, residual_goal
 from tumato_symbolic.semantics.states import ActionSet, State
 from tumato_symbolic.semantics.step import nominal_agrees, successor

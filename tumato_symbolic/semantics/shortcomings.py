@@ -6,9 +6,9 @@ See `docs/semantics.md`, section 11.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from itertools import islice
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics.goals import Residual, reached, residual_goal
 from tumato_symbolic.semantics.guarantees import Guarantee
 from tumato_symbolic.semantics.states import ActionSet, State

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from itertools import combinations
 from typing import Literal, TypeAlias
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics.states import ActionSet, State, apply, holds, required_rules
 from tumato_symbolic.spec import Assignment, Ordering, Rule, Spec
 

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics.runs import End
 from tumato_symbolic.semantics.states import ActionSet, State
 from tumato_symbolic.semantics.step import EffectSequence, outcomes_in_turn, successor

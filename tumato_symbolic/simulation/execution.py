@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import (
     ActionSet,
     Disturbance,

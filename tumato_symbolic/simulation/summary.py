@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import Disturbance, End, State, Trace, duration, is_safe
 from tumato_symbolic.spec import Spec
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence, Set
+from dataclasses import dataclass
 from typing import TypeAlias
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec.names import Names
 from tumato_symbolic.syntax import ast
 

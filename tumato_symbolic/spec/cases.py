@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import product
 from math import prod
 
 from tumato_symbolic.diagnostics import Code, Note
 from tumato_symbolic.diagnostics.wording import quoted
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec.clauses import Change, ClauseSet
 from tumato_symbolic.spec.collector import Findings
 from tumato_symbolic.spec.components import Active, Part, components, parts

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Code, CopySpan, Note, Span
 from tumato_symbolic.diagnostics.wording import listed, quoted
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec.collector import Findings
 from tumato_symbolic.spec.formula import TRUE, And, Formula, Is
 from tumato_symbolic.spec.names import Names

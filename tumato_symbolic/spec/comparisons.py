@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Final
 
 from tumato_symbolic.diagnostics import Code, CopySpan, Note
 from tumato_symbolic.diagnostics.wording import listed, quoted
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec.collector import Findings
 from tumato_symbolic.spec.formula import FALSE, TRUE, And, Formula, Is, Not, Or
 from tumato_symbolic.spec.names import Declared, Kind, Names

@@ -7,11 +7,11 @@ variables; the cases of an action are the product of those of its components.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import product
 from math import prod
 from typing import TypeAlias
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec.clauses import Clause, ClauseSet
 from tumato_symbolic.spec.effects import conjunction
 from tumato_symbolic.spec.formula import TRUE, Formula, Is, Or, variables_of

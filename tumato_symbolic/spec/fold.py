@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Generic, TypeVar
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec.formula import And, Constant, Executing, Formula, Iff, Is, Not, Or
 from tumato_symbolic.spec.specification import ConditionalGoal, Goal, GoalList, SimpleGoal
 

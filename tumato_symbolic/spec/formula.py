@@ -7,9 +7,8 @@ over them is safe.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import TypeAlias
-
-from tumato_symbolic.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Diagnostic, Source, not_allowed
 from tumato_symbolic.diagnostics.copies import merged
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec.collector import MAX_FINDINGS, Findings
 from tumato_symbolic.spec.lint import lint
 from tumato_symbolic.spec.resolve import resolve

@@ -7,9 +7,9 @@ executed first*, tell the residual goals apart.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import prod
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec.fold import fold_goal
 from tumato_symbolic.spec.formula import executing_atoms
 from tumato_symbolic.spec.specification import ConditionalGoal, Goal, GoalList, Spec

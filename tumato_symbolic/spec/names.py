@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Final, Literal, TypeAlias, get_args
 
 from tumato_symbolic.diagnostics import Code, Note, Span
 from tumato_symbolic.diagnostics.wording import quoted
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec.collector import Findings
 from tumato_symbolic.spec.specification import Variable
 from tumato_symbolic.spec.values import declared_values

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from itertools import product
 from math import prod
 from operator import eq, ge, gt, le, lt, ne
@@ -11,7 +12,6 @@ from typing import Final, TypeAlias
 
 from tumato_symbolic.diagnostics import Code
 from tumato_symbolic.diagnostics.wording import listed, quoted
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec.collector import Findings
 from tumato_symbolic.spec.numbers import ends_of, is_right, number_of, texts_of
 from tumato_symbolic.syntax import ast

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Code, CopySpan, Note, Span
 from tumato_symbolic.diagnostics.wording import listed, quoted
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec.alias_uses import Cycle, definitions, mentioned, reachable
 from tumato_symbolic.spec.collector import Findings
 from tumato_symbolic.spec.comparisons import Comparisons, ValuePredicate

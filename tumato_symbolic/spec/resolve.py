@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Note, Source, Span
 from tumato_symbolic.diagnostics.wording import quoted
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec.actions import Actions
 from tumato_symbolic.spec.by_action import executing_cases
 from tumato_symbolic.spec.collector import Findings

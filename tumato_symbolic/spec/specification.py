@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from typing import Literal, TypeAlias
 
 from tumato_symbolic.diagnostics import Span
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec.formula import TRUE, Formula, Or
 
 Ordering: TypeAlias = Literal["any", "first"]

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Code, Note, Span
 from tumato_symbolic.diagnostics.wording import quoted
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec.collector import Findings
 from tumato_symbolic.spec.numbers import ends_of, texts_of
 from tumato_symbolic.syntax import ast

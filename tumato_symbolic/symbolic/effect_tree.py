@@ -8,10 +8,10 @@ the values apart.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import TypeAlias
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec import Assignment
 from tumato_symbolic.symbolic.manager import Bdd, Manager
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import groupby
 
 from tumato_symbolic.limits import Context
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec import Assignment, Spec
 from tumato_symbolic.symbolic.effect_tree import EffectTree, after_every, effect_tree
 from tumato_symbolic.symbolic.layout import Group, Layout, lay_out, number_bits

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import ActionSet, ActiveGoals, Residual, residual_goal
 from tumato_symbolic.spec import (
     FORMULAS,

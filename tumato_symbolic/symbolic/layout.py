@@ -8,11 +8,10 @@ first variable that it writes, so that independent parts of a robot stay apart i
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 
 from tumato_symbolic.limits import Context
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import ActionSet, State, exclusive_groups
 from tumato_symbolic.spec import (
     Assignment,

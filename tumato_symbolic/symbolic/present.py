@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import TypeAlias
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec import Assignment
 from tumato_symbolic.symbolic.manager import Bdd, Manager
 

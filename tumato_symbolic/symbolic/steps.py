@@ -6,10 +6,10 @@ is composed group by group (`docs/semantics.md`, section 3).
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import accumulate, pairwise
 from operator import and_
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import contested_resources, contested_values
 from tumato_symbolic.spec import Assignment, Ordering, Spec
 from tumato_symbolic.symbolic.encoding import Encoding

@@ -9,10 +9,10 @@ Longer than 300 lines because it has one small record for every sentence of the 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from typing import Literal, TypeAlias, TypeVar
 
 from tumato_symbolic.diagnostics import Span
-from tumato_symbolic.records import dataclass
 
 One = TypeVar("One")
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.syntax.table import Table, read
 from tumato_symbolic.syntax.tokens import pattern
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from tumato_symbolic.diagnostics import Diagnostic
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.syntax import ast
 
 

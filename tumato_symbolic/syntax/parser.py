@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source, Span
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.syntax import ast
 from tumato_symbolic.syntax.grammar import Grammar, grammar
 from tumato_symbolic.syntax.nesting import MAX_NESTING, deepest

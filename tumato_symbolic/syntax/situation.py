@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from difflib import get_close_matches
 
 from tumato_symbolic.diagnostics.wording import MAX_QUOTED
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.syntax.tokens import BLOCKS, COMPARING, HARD, Token
 
 _PREDICATE = frozenset({"NAME", "(", "executing", "true", "false"})

@@ -8,10 +8,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import dataclass
 from hashlib import sha256
 from typing import Any
-
-from tumato_symbolic.records import dataclass
 
 START = 0
 """The state in which parsing starts."""

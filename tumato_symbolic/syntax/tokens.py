@@ -6,11 +6,11 @@ Whether a word is a keyword depends on where it stands, so the parser decides th
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from typing import Literal, NamedTuple, TypeAlias
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source, Span
 from tumato_symbolic.diagnostics.wording import quoted
-from tumato_symbolic.records import dataclass
 
 HARD = frozenset({"AND", "OR", "NOT", "IF", "THEN", "IFONLYIF", "BEGIN", "END"})
 """Words that are keywords everywhere."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from tumato_symbolic.diagnostics import Diagnostic
 from tumato_symbolic.game import (
@@ -14,7 +14,6 @@ from tumato_symbolic.game import (
     route,
     shortest_decisions,
 )
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec.many_goals import many_told
 from tumato_symbolic.symbolic import Bdd
 from tumato_symbolic.synthesis.conflict import RepairConflict

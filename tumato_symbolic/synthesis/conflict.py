@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from tumato_symbolic.game import Layers
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.symbolic import Target
 

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 from tumato_symbolic.diagrams import Diagram, DiagramBuilder, Reference
 from tumato_symbolic.game import Problem, Restorer, alone
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import Effort, State
 from tumato_symbolic.spec import Action, Assignment, Spec
 from tumato_symbolic.symbolic import Bdd, Extractor, build_steps, lay_out

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from tumato_symbolic.game import Alone, Layers, Problem, chances, distances, way_of, winning
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.symbolic import Bdd
 from tumato_symbolic.synthesis.result import STATES_LISTED, Failure, FailureKind
 

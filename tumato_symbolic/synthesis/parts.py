@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from tumato_symbolic.diagrams import DiagramBuilder
 from tumato_symbolic.game import Problem, with_goals
 from tumato_symbolic.policy import formula_of
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Formula
 from tumato_symbolic.symbolic import Bdd, Encoding, Extractor, build_steps

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Note
 from tumato_symbolic.game import Problem
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import State, apply, holds, named
 from tumato_symbolic.spec import Assignment, Rule, Spec, variables_of
 from tumato_symbolic.symbolic import Bdd, Encoding

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from tumato_symbolic.diagnostics import Diagnostic
 from tumato_symbolic.diagnostics.wording import count
 from tumato_symbolic.policy import Policy
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Formula, Ordering, Spec
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
 from tumato_symbolic.diagnostics.cubes import actions_text
 from tumato_symbolic.diagnostics.wording import count
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import (
     ActionSet,
     EffectSequence,

@@ -10,10 +10,10 @@ import gc
 import os
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from tumato_symbolic.limits.processes import end_with
-from tumato_symbolic.records import dataclass
 
 if TYPE_CHECKING:
     from multiprocessing.connection import Connection

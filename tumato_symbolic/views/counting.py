@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from tumato_symbolic.limits import Context
 from tumato_symbolic.policy import Policy
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.views.compared import states_changed
 from tumato_symbolic.views.placing import placed_together
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Literal, Protocol, TypeAlias
 
 from tumato_symbolic.diagnostics import Span
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec import Action, Assignment, EffectSet, Goal, Rule, Spec, fold_goal
 from tumato_symbolic.spec.canonical import canonical_text
 

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from tumato_symbolic.diagrams import NOTHING, Diagram, Reference, Sets, room_for
 from tumato_symbolic.limits import Context
 from tumato_symbolic.policy import Policy, Vocabulary, as_diagram
-from tumato_symbolic.records import dataclass
 
 Values = tuple[tuple[str, tuple[str, ...]], ...]
 """Variables, each with some of its values."""

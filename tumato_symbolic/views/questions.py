@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from heapq import heappop, heappush
 from typing import TypeAlias
 
 from tumato_symbolic.diagrams import NOTHING, Reference, room_for
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.views.joint import Joint
 from tumato_symbolic.views.selected import OTHERS, Label
 

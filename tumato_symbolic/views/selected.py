@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from tumato_symbolic.diagrams import LEAVES, NOTHING, Cube, Reference, Sets, room_for
 from tumato_symbolic.limits import Context
 from tumato_symbolic.policy import DecisionDiagram, Policy, StateSets, Vocabulary, as_diagram
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.views.joint import Joint
 from tumato_symbolic.views.selection import Selection

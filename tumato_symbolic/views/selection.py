@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from typing import NoReturn
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.diagnostics.wording import listed, nearest, quoted
 from tumato_symbolic.policy import Vocabulary, parse_assignments
-from tumato_symbolic.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)

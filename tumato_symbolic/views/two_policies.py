@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import TypeAlias
 
 from tumato_symbolic.diagnostics import UserError
@@ -17,7 +18,6 @@ from tumato_symbolic.diagrams import (
 )
 from tumato_symbolic.limits import Context, LimitReachedError
 from tumato_symbolic.policy import Policy, Vocabulary
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.views.compared import states_changed, states_compared
 from tumato_symbolic.views.joint import MOST_LABELS, Joint

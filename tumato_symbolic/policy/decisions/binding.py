@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import islice
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
@@ -20,7 +20,6 @@ from tumato_symbolic.policy.records import (
     Vocabulary,
 )
 from tumato_symbolic.policy.text import MOST, show, way_out
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import Assignment, Spec
 

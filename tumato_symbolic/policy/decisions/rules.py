@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from typing import TypeAlias
 
 from tumato_symbolic.diagnostics import Code, UserError
@@ -23,7 +24,6 @@ from tumato_symbolic.policy.decisions.convert import as_diagram
 from tumato_symbolic.policy.policy import Policy
 from tumato_symbolic.policy.records import DecisionDiagram, Vocabulary
 from tumato_symbolic.policy.text import fault
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import ActionSet
 
 _Region: TypeAlias = tuple[ActionSet, int]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from json import dumps as _json
 from typing import Any
 
@@ -13,7 +14,6 @@ from tumato_symbolic.policy.formats.kinds import REFERENCE, TEXTS, Kind, Names, 
 from tumato_symbolic.policy.formats.tables import Attributes, Block, Part, Place, Record, block, described, dotted
 from tumato_symbolic.policy.records import SomeDrawn, canonical
 from tumato_symbolic.policy.text import as_list, as_names, as_whole, fault, member, show, way_out
-from tumato_symbolic.records import dataclass
 
 _LINE = 110
 """Columns that the nodes of one line may take."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from typing import Any, Generic, TypeAlias, TypeVar
 
 from tumato_symbolic.diagnostics import Code
@@ -20,7 +21,6 @@ from tumato_symbolic.policy.text import (
     way_out,
     wrong,
 )
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import ActionSet, Effort, State
 from tumato_symbolic.spec import Assignment, value_of
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 from tumato_symbolic.diagnostics import Code, Source, UserError
@@ -33,7 +34,6 @@ from tumato_symbolic.policy.text import (
     too_large,
     way_out,
 )
-from tumato_symbolic.records import dataclass
 
 UNREALIZABLE = "unrealizable"
 """The `Type` of certificates of unrealizability."""

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from json import dumps as _json
 from typing import Any, Generic, NamedTuple, TypeAlias
 
 from tumato_symbolic.diagnostics import Code
 from tumato_symbolic.policy.formats.kinds import Kind, Names, Schema, Value, one_of
 from tumato_symbolic.policy.text import as_list, as_object, fault, member
-from tumato_symbolic.records import dataclass
 
 Attributes: TypeAlias = Any
 """A record, whose attributes tables find by name."""

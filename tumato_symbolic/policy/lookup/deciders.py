@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Protocol
 
 from tumato_symbolic.diagrams import Reference
 from tumato_symbolic.policy.lookup.states import check_state
 from tumato_symbolic.policy.records import DecisionDiagram, Table, Vocabulary
 from tumato_symbolic.policy.text import described
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.spec import Value
 
 _MOST_REMEMBERED = 20_000

@@ -6,12 +6,11 @@ States, values and actions are numbers of the vocabulary; rules are named by the
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import ClassVar, Literal, TypeAlias
 
 from tumato_symbolic.diagrams import Diagram, Reference
 from tumato_symbolic.policy.records import Drawing, RankedGoal, Vocabulary, rooted
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import Assignment, Ordering, Restoration
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.explain.explanation import Explanation
 from tumato_symbolic.policy import Policy, RuleList
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.report.explained import Explained
 from tumato_symbolic.report.explained_data import as_json as explanation_json
 from tumato_symbolic.report.explained_data import largest_first

@@ -5,11 +5,11 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Hashable, Iterator, Sequence
+from dataclasses import dataclass
 from functools import partial
 from typing import Any, TypeVar
 
 from tumato_symbolic.limits import Budget
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.verify.by_diagrams.functions import TOO_LARGE, BudgetError, FullError, given_up
 from tumato_symbolic.verify.by_diagrams.walk import Walk
 from tumato_symbolic.verify.result import PropertyName

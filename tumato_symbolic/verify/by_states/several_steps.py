@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TypeAlias
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import ActionSet, Quality
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.verify.by_states.efforts import Efforts

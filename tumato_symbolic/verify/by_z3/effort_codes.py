@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import z3
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import Effort
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.verify.by_z3.terms import Context, Number, Term

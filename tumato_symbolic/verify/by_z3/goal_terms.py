@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import Residual
 from tumato_symbolic.spec import Spec, active_bodies, executing_atoms
 from tumato_symbolic.verify.by_z3.encoding import TERMS, Place, formula_term, safe_term

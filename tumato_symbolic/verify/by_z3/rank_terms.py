@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from typing import TypeAlias
 
 import z3
 
 from tumato_symbolic.diagrams import Diagram, Reference
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import Residual, State
 from tumato_symbolic.verify.by_z3.encoding import Place, diagram_terms
 from tumato_symbolic.verify.by_z3.goal_terms import reached_term

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import z3
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.verify.by_z3.terms import Context, Number, Term, conjunction, negation
 
 

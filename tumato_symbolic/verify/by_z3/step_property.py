@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from typing import Any
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import ActionSet, Objection, State, objections
 from tumato_symbolic.spec import Ordering
 from tumato_symbolic.verify.by_z3.encoding import formula_term

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
-from tumato_symbolic.records import dataclass
 from tumato_symbolic.semantics import Guarantee, Shortcoming
 
 if TYPE_CHECKING:
