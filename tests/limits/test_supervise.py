@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -71,6 +72,26 @@ def test_a_child_that_does_not_end_is_ended(monkeypatch: pytest.MonkeyPatch) -> 
     assert context.known == ("an", "answer")
     with pytest.raises(ChildProcessError):
         os.waitpid(children[0], os.WNOHANG)
+
+
+def test_what_was_told_before_is_not_sent_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Findings refer to what was in earlier ones; the last is known as a whole."""
+    context, large = _soon(), tuple(str(number) for number in range(100_000))
+    sizes, write = list[int](), os.write
+
+    def work() -> int:
+        monkeypatch.setattr(os, "write", lambda file, data: _kept(sizes, write(file, data)))
+        for number in range(3):
+            context.learn((number, large))
+        context.learn(((3, sum(sizes)), large))
+        return _for_ever()
+
+    with pytest.raises(EndedError):
+        supervised(work, context)
+    assert isinstance(context.known, tuple)
+    (number, sent), told = context.known
+    assert (number, told) == (3, large)
+    assert sent < 2 * len(pickle.dumps(large))
 
 
 def test_workers_of_the_child_end_with_it(tmp_path: Path) -> None:

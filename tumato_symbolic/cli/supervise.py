@@ -6,6 +6,7 @@ a child; this process waits, shows progress, and knows what the child knows: eve
 
 from __future__ import annotations
 
+import io
 import os
 import pickle
 import select
@@ -117,7 +118,7 @@ def _be_the_child(work: Callable[[], int], context: Context, sender: _Sender, pa
         end_with(parent)
         console.ask_before_writing(sender.ask)
         context.progress = lambda stage: sender.send(_STAGE, stage.encode())
-        context.learned = lambda known: sender.send(_KNOWN, pickle.dumps(known, pickle.HIGHEST_PROTOCOL))
+        context.learned = sender.tell_known
         code = work()
     finally:
         os._exit(code)
@@ -128,6 +129,15 @@ class _Sender:
 
     def __init__(self, messages: int, leave: int) -> None:
         self._messages, self._leave, self._owner = messages, leave, os.getpid()
+        self._pickled = io.BytesIO()
+        self._pickler = pickle.Pickler(self._pickled, pickle.HIGHEST_PROTOCOL)
+
+    def tell_known(self, known: object) -> None:
+        """Send what is known by now; of what was sent before, only where that was."""
+        self._pickled.seek(0)
+        self._pickled.truncate()
+        self._pickler.dump(known)
+        self.send(_KNOWN, self._pickled.getvalue())
 
     def send(self, kind: bytes, body: bytes = b"") -> None:
         """Send a message; descendants of the child and orphans send none."""
@@ -154,7 +164,7 @@ class _Watch:
     context: Context
     noted: list[int]
     _received: bytearray = field(default_factory=bytearray)
-    _known: bytes | None = None
+    _known: bytearray = field(default_factory=bytearray)
     _writing: bool = False
     _open: bool = True
     _status: int | None = None
@@ -173,7 +183,7 @@ class _Watch:
             self.kill()
             while self._open and self._receive(line, 0):
                 pass  # what it said last
-            self.context.known = None if self._known is None else pickle.loads(self._known)
+            self.context.known = _last(self._known)
             raise
         finally:
             line.wipe()
@@ -258,7 +268,7 @@ class _Watch:
             case b"S":
                 self.context.enter(body.decode())
             case b"K":
-                self._known = body
+                self._known += body
             case b"W" if self._limit() is None:
                 line.wipe()
                 self._writing = True
@@ -276,3 +286,12 @@ class _Watch:
         if -code in _SIGNALS:  # sent to all processes at once, by `timeout` or systemd
             raise TerminatedError(-code)
         raise ChildCrashedError(f"the worker process was killed by signal {-code} while {self.context.stage}")
+
+
+def _last(pickled: bytes) -> object:
+    """The last of some objects, each of which refers to what was in those before; None where there is none."""
+    file, known = io.BytesIO(pickled), None
+    unpickler = pickle.Unpickler(file)
+    while file.tell() < len(pickled):
+        known = unpickler.load()
+    return known

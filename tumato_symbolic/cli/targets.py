@@ -15,7 +15,7 @@ from tumato_symbolic.cli.console import need_output
 from tumato_symbolic.cli.options import STANDARD_OUTPUT, CommandOptions, Target
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.diagnostics.wording import quoted
-from tumato_symbolic.policy import open_file
+from tumato_symbolic.limits.processes import open_file
 
 AnyOptions = TypeVar("AnyOptions", bound=CommandOptions)
 

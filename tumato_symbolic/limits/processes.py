@@ -1,4 +1,4 @@
-"""Child processes: whether they can be made, that they end with their parent, and how much memory they take."""
+"""This process and its children: whether it can have any, that they end with it, how much memory they take."""
 
 from __future__ import annotations
 
@@ -7,6 +7,9 @@ import sys
 import time
 from contextlib import suppress
 from pathlib import Path
+
+_MOST_LINKS = 40
+"""Symbolic links that are followed one after the other."""
 
 
 def can_fork() -> bool:
@@ -64,3 +67,18 @@ def descendants(process: int) -> list[int]:
             for thread in Path(f"/proc/{each}/task").iterdir():
                 found += map(int, (thread / "children").read_text().split())
     return found
+
+
+def open_file(path: Path) -> int | None:
+    """The open file of this process that a name such as `/dev/stdout` or `/dev/fd/63` stands for, by its number.
+
+    Raises `OSError` or `RuntimeError` for names that lead nowhere.
+    """
+    ours = (Path("/dev/fd"), Path(f"/proc/{os.getpid()}/fd"))
+    for _ in range(_MOST_LINKS):
+        if path.name.isdecimal() and path.parent.resolve() in ours:
+            return int(path.name)
+        if not path.is_symlink():
+            return None
+        path = path.parent / path.readlink()
+    return None

@@ -37,7 +37,7 @@ from tumato_symbolic.policy.records import (
     Table,
     Vocabulary,
 )
-from tumato_symbolic.policy.text import open_file, save_text
+from tumato_symbolic.policy.text import save_text
 
 __all__ = [
     "Certificate",
@@ -72,7 +72,6 @@ __all__ = [
     "minimized",
     "minimized_decisions",
     "never_executed",
-    "open_file",
     "parse_assignments",
     "parse_state",
     "policy_from_rows",

@@ -99,9 +99,11 @@ class Options(CommandOptions):
 
     def inputs(self) -> list[str]:
         """The specifications, those in folders as well."""
+        if not self.is_many:
+            return list(self.specs)
         from tumato_symbolic.cli.many import specifications
 
-        return specifications(self.specs) if self.is_many else list(self.specs)
+        return specifications(self.specs)
 
     def targets(self) -> Iterator[Target]:
         """The policy, and the certificate that there is none."""

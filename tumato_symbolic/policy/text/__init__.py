@@ -3,7 +3,7 @@
 from tumato_symbolic.policy.text.messages import MOST, described, fault, show, way_out
 from tumato_symbolic.policy.text.reading import read_text
 from tumato_symbolic.policy.text.rows import Row
-from tumato_symbolic.policy.text.saving import open_file, save_text
+from tumato_symbolic.policy.text.saving import save_text
 from tumato_symbolic.policy.text.strict_json import (
     MAX_BYTES,
     as_list,
@@ -31,7 +31,6 @@ __all__ = [
     "described",
     "fault",
     "member",
-    "open_file",
     "parse_json",
     "read_text",
     "save_text",

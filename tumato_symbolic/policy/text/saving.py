@@ -12,10 +12,8 @@ from pathlib import Path
 from types import FrameType
 
 from tumato_symbolic.diagnostics import Code, Source
+from tumato_symbolic.limits.processes import open_file
 from tumato_symbolic.policy.text.messages import fault
-
-_MOST_LINKS = 40
-"""Symbolic links that are followed one after the other."""
 
 _ENDING = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name))
 """What ends a process from outside, where nothing else is said; Windows has no SIGHUP."""
@@ -32,21 +30,6 @@ def save_text(text: str, path: Path, what: str) -> None:
     except (OSError, ValueError, RuntimeError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
         raise fault(Code.TUM510, f"the {what} cannot be written: {reason}", None, Source(str(path), "")) from None
-
-
-def open_file(path: Path) -> int | None:
-    """The open file of this process that a name such as `/dev/stdout` or `/dev/fd/63` stands for, by its number.
-
-    Raises `OSError` or `RuntimeError` for names that lead nowhere.
-    """
-    ours = (Path("/dev/fd"), Path(f"/proc/{os.getpid()}/fd"))
-    for _ in range(_MOST_LINKS):
-        if path.name.isdecimal() and path.parent.resolve() in ours:
-            return int(path.name)
-        if not path.is_symlink():
-            return None
-        path = path.parent / path.readlink()
-    return None
 
 
 def _put(path: Path, data: bytes) -> None:
