@@ -288,7 +288,7 @@ class _Watch:
         raise ChildCrashedError(f"the worker process was killed by signal {-code} while {self.context.stage}")
 
 
-def _last(pickled: bytes) -> object:
+def _last(pickled: bytearray) -> object:
     """The last of some objects, each of which refers to what was in those before; None where there is none."""
     file, known = io.BytesIO(pickled), None
     unpickler = pickle.Unpickler(file)
