@@ -10,7 +10,7 @@ import pytest
 from tumato_symbolic import parse
 from tumato_symbolic.semantics import ActionSet, all_states, successor
 from tumato_symbolic.spec import Spec
-from tumato_symbolic.symbolic import Backend, available_backend, choose, encode, preferred
+from tumato_symbolic.symbolic import Backend, available_backend, build_steps, choose, encode, lay_out, preferred
 from tumato_symbolic.symbolic.present import FEW_MOVES
 
 BACKENDS: list[Backend] = sorted({"autoref", available_backend()})
@@ -67,9 +67,10 @@ def test_the_first_set_is_preferred(backend: Backend) -> None:
 
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_next_values_are_those_of_the_moves(backend: Backend) -> None:
-    """`before`, `next_state` and `states_executing` of groups with many moves agree with `δ`."""
+    """`before`, `successors`, `next_state` and `states_executing` of groups with many moves agree with `δ`."""
     spec = arms(3)
-    encoding, random = encode(spec, backend), Random(4)
+    steps, random = build_steps(lay_out(spec, backend), spec, "any"), Random(4)
+    encoding = steps.encoding
     manager, states = encoding.manager, random.sample(list(all_states(spec)), 12)
     assert all(len(moves) > FEW_MOVES for moves in encoding.nominal_moves)
     decided = {state: random.choice(some_sets(spec, random)) for state in states}
@@ -81,5 +82,8 @@ def test_next_values_are_those_of_the_moves(backend: Backend) -> None:
         assert (pair & encoding.before(~encoding.state_cube(end))) == manager.false
         after = encoding.assignment_bits(tuple(enumerate(end)))
         assert {bit: encoding.contains(where, state) for bit, where in following.items()} == after
+        assert steps.successors(pair) == encoding.state_cube(end)
+    ends = {successor(spec, state, each) for state, each in decided.items()}
+    assert set(encoding.states_in(steps.successors(policy))) == ends
     for action, where in enumerate(encoding.states_executing(policy)):
         assert set(encoding.states_in(where)) == {state for state, each in decided.items() if action in each}

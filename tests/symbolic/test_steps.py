@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import chain, combinations
+from random import Random
 
 import pytest
 
@@ -98,6 +99,26 @@ def test_predecessors_and_successors_follow_all_nominal_effects_at_once(seed: in
                 end = successor(spec, state, chosen)
                 assert ((pair & before) != false) == (end == goal)
                 assert steps.successors(pair) == encoding.state_cube(end)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_successors_of_a_relation_are_those_of_its_pairs(seed: int, backend: Backend) -> None:
+    """Also where a group is idle in all pairs, in some, or in none."""
+    spec = random_spec(seed, ALL_PROFILES["mixed"])
+    steps, random = build_steps(lay_out(spec, backend), spec, "any"), Random(seed)
+    encoding, union = steps.encoding, steps.encoding.manager.union
+    pairs = [
+        (state, chosen)
+        for state in all_states(spec)
+        for chosen in every_set(spec)
+        if encodes(encoding, chosen) and nominal_agrees(spec, chosen)
+    ]
+    for number in (0, 1, 3, 20):
+        some = random.sample(pairs, min(number, len(pairs)))
+        taken = union(encoding.state_cube(state) & encoding.choices_cube(chosen) for state, chosen in some)
+        ends = union(encoding.state_cube(successor(spec, state, chosen)) for state, chosen in some)
+        assert steps.successors(taken) == ends
 
 
 @pytest.mark.parametrize("seed", SEEDS)

@@ -12,7 +12,7 @@ from tumato_symbolic.spec import Assignment, Spec
 from tumato_symbolic.symbolic.effect_tree import EffectTree, after_every, effect_tree
 from tumato_symbolic.symbolic.layout import Group, Layout, lay_out, number_bits
 from tumato_symbolic.symbolic.manager import Backend, Bdd
-from tumato_symbolic.symbolic.present import FEW_MOVES, Leading, Written, by_values, next_values, present, written_by
+from tumato_symbolic.symbolic.present import FEW_MOVES, Leading, Written, by_values, next_values, written_by
 
 
 @dataclass(frozen=True)
@@ -61,9 +61,16 @@ class Encoding(Layout):
         Of a group with many moves the next value of every bit is put in its place; otherwise the predecessor under each
         is a cofactor.
         """
-        for moves, following in zip(self._leading, self._following, strict=True):
+        for group in self._lowest_first:
+            moves, following = self._leading[group], self._following[group]
             target = moves.into(target) if following is None else self.manager.compose(target, following)
         return target
+
+    @cached_property
+    def _lowest_first(self) -> list[int]:
+        """The groups by where their bits stand in the order: those below first, which keeps sets small for longest."""
+        places = [self.manager.level(group.bits[0]) for group in self.groups]
+        return sorted(range(len(places)), key=places.__getitem__, reverse=True)
 
     @cached_property
     def _leading(self) -> list[Leading]:
@@ -99,15 +106,14 @@ class Encoding(Layout):
         """The states of a relation with the choices of one group alone."""
         return self.manager.exists([bit for bit in self.all_choice_bits if bit not in group.bits], relation)
 
-    def writes_in(self, group: int, relation: Bdd) -> Sequence[tuple[Mapping[str, bool], Bdd]]:
-        """Those of `nominal_writes` of a group that choices in a relation make; perhaps some others."""
-        moves = self.nominal_writes[group]
-        if len(moves) <= FEW_MOVES:
-            return moves
-        codes = present(self.manager, relation, self.groups[group].bits, len(moves) // 2)
-        if codes is None:
-            return moves
-        return [moves[number] for number in sorted({self._move_of_code[group][code] for code in codes})]
+    def parts_by_writes(self, number: int, relation: Bdd) -> list[tuple[Mapping[str, bool], Bdd]]:
+        """What is left of a relation for all that a group's choices in it write, by number, without these choices."""
+        group, parts = self.groups[number], dict[int, Bdd]()
+        for code, part in by_values(self.manager, relation, group.bits):
+            move = self._move_of_code[number].get(code)
+            if move is not None:
+                parts[move] = parts.get(move, self.manager.false) | part
+        return [(self.nominal_writes[number][move][0], part) for move, part in parts.items()]
 
     @cached_property
     def _move_of_code(self) -> list[dict[tuple[bool, ...], int]]:

@@ -66,15 +66,15 @@ class Layout:
     goal_bits: GoalBits | None
     """None where there are few residual goals, which are looked at one by one."""
 
-    @property
-    def all_state_bits(self) -> list[str]:
+    @cached_property
+    def all_state_bits(self) -> tuple[str, ...]:
         """The bits of all state variables."""
-        return [bit for bits in self.state_bits for bit in bits]
+        return tuple(bit for bits in self.state_bits for bit in bits)
 
-    @property
-    def all_choice_bits(self) -> list[str]:
+    @cached_property
+    def all_choice_bits(self) -> tuple[str, ...]:
         """The bits of all groups."""
-        return [bit for group in self.groups for bit in group.bits]
+        return tuple(bit for group in self.groups for bit in group.bits)
 
     def assignment_bits(self, assignment: Assignment) -> Mapping[str, bool]:
         """An effect as constants for bits."""

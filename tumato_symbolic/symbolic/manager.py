@@ -107,6 +107,7 @@ class Manager:
         self._bdd.declare(*bits)
         self.bits = tuple(bits)
         self._level = {bit: level for level, bit in enumerate(bits)}
+        self._together: dict[tuple[str, ...], Bdd] = {}
         self.true: Bdd = self._bdd.true
         self.false: Bdd = self._bdd.false
 
@@ -143,7 +144,10 @@ class Manager:
     def exists(self, bits: Iterable[str], u: Bdd) -> Bdd:
         """`∃ bits. u`."""
         self.context.check()
-        result: Bdd = self._bdd.exist(list(bits), u)
+        names = tuple(bits)
+        if names not in self._together:
+            self._together[names] = self.cube(dict.fromkeys(names, True))
+        result: Bdd = self._bdd.apply("exists", self._together[names], u)
         return result
 
     def and_exists(self, bits: Iterable[str], u: Bdd, v: Bdd) -> Bdd:

@@ -59,12 +59,14 @@ class Steps:
     def successors(self, relation: Bdd) -> Bdd:
         """`{δ(s, A) : (s, A) ∈ relation}` for sets whose nominal effects agree."""
         encoding, manager = self.encoding, self.encoding.manager
-        for number, group in enumerate(encoding.groups):
-            moved = []
-            for written, choices in encoding.writes_in(number, relation):
-                moved.append(manager.and_exists([*group.bits, *written], relation, choices) & manager.cube(written))
-            relation = manager.union(moved)
-        return relation
+        for number, moves in enumerate(encoding.nominal_writes):
+            nothing = next(choices for written, choices in moves if not written)
+            if relation & ~nothing != manager.false:
+                parts = encoding.parts_by_writes(number, relation)
+                relation = manager.union(
+                    manager.exists(written, part) & manager.cube(written) for written, part in parts
+                )
+        return self.states_of(relation)
 
     def moves(self, relation: Bdd, most: int, *, keep_sets: bool = False) -> dict[Assignment, Bdd] | None:
         """The states of a relation by what its sets nominally write, all effects together; None if that is too much.
