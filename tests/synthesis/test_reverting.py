@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable
+from random import Random
 
 import pytest
 
 from benchmarks.families import FAMILIES
+from tests.game.test_fixpoints import policies, problems, some_states
+from tests.generate import ALL_PROFILES
 from tumato_symbolic import Realizable, parse, synthesize
 from tumato_symbolic.game import Evaluator, build_problem, distances, own_region_policy, route, shortest_decisions
 from tumato_symbolic.symbolic import available_backend
-from tumato_symbolic.synthesis.overriding import override, revert_unneeded
+from tumato_symbolic.synthesis.overriding import _visited_for_ever, override, revert_unneeded
 
 
 @pytest.mark.parametrize(("family", "size"), [("loads", 5), ("plant", 1)])
@@ -50,3 +53,19 @@ def test_the_tries_grow_with_what_has_to_stay_changed(monkeypatch: pytest.Monkey
     assert isinstance(found, Realizable)
     assert found.statistics.changed == 7
     assert sum(counted.values()) <= 5 * 7
+
+
+@pytest.mark.parametrize("profile", sorted(ALL_PROFILES))
+def test_runs_are_followed_to_what_they_come_back_to(profile: str) -> None:
+    """Where runs are for ever is where they are after more steps than there are states, from unsafe states as well."""
+    for problem in problems(profile):
+        random, steps = Random(6), problem.steps
+        count = problem.encoding.count_states(steps.valid)
+        for policy in policies(problem, random):
+            starts = some_states(problem, random) & some_states(problem, random)
+            here = (starts & steps.safe) | steps.successors(steps.allowed & steps.unsafe & starts)
+            expected = problem.false
+            for step in range(2 * count):
+                expected = expected | here if step >= count else expected
+                here = steps.successors(policy & here)
+            assert _visited_for_ever(problem, policy, starts) == expected

@@ -13,6 +13,7 @@ from tumato_symbolic.game.fixpoints import (
     preimage,
 )
 from tumato_symbolic.game.problem import Problem, build_problem, with_goals
+from tumato_symbolic.game.reevaluation import Reevaluator
 from tumato_symbolic.game.restoration import Restoration, Restorer
 from tumato_symbolic.game.routing import own_region_policy, route, shortest_decisions
 
@@ -23,6 +24,7 @@ __all__ = [
     "Evaluator",
     "Layers",
     "Problem",
+    "Reevaluator",
     "Restoration",
     "Restorer",
     "alone",

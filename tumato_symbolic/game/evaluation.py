@@ -66,7 +66,10 @@ class Evaluator:
     def where(self, forced: Bdd, required: Bdd | None = None) -> Evaluator:
         """The same evaluator with other pairs that are forced, and other states that are required."""
         other = Evaluator(self.problem, forced, required)
-        other.restorer = self.restorer
+        if self.problem.spec.restores_stepwise:
+            other.restorer = self.restorer
+        else:
+            other._restoring = self._restoring
         return other
 
     @cached_property
@@ -93,6 +96,16 @@ class Evaluator:
             restoration = self.restorer.restore(ranks, self._forced, self._required)
             return Evaluation(found, ranks, (steps.safe & ~safe) | restoration.failing, restoration)
         return Evaluation(found, ranks, steps.valid & ~(safe | union(map(self._restored, range(len(near)), near))))
+
+    def served(self, found: ClosedLoop, number: int) -> Bdd:
+        """The states that have a target, by number, and reach it under a policy, where safety is restored in one step.
+
+        Of unsafe states those where some allowed set does.
+        """
+        problem, target = self.problem, self.problem.targets[number]
+        layers = attractor(problem, target.states, found.predecessor, problem.steps.safe, problem.last_layer)
+        near = problem.encoding.manager.union(layers)
+        return found.first_steps(number, near) | self._restored(number, near)
 
     def serves_all(self, found: ClosedLoop, suspects: list[int]) -> bool:
         """Whether no state fails under a policy.

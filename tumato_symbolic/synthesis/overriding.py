@@ -10,6 +10,7 @@ from tumato_symbolic.game import (
     Evaluator,
     Layers,
     Problem,
+    Reevaluator,
     closed_loop,
     mixed,
     shortest_decisions,
@@ -84,10 +85,10 @@ def revert_unneeded(evaluator: Evaluator, before: Bdd, after: Bdd) -> Bdd:
     without which runs close loops; what is left of them is tried by halves.
     """
     problem = evaluator.problem
-    after = _breaking_loops(evaluator, before, after)
-    pending = [problem.steps.states_of(after & ~before)]
+    earlier, later = _smaller(problem, before, after)
+    now = _breaking_loops(evaluator, earlier, later)
+    pending = [problem.steps.states_of(now.policy & ~before)]
     suspects = list(range(len(problem.targets)))
-    earlier, now = _smaller(problem, before, after)
     tries = 0
     while pending and tries < TRIES_TO_REVERT:
         states = pending.pop()
@@ -100,38 +101,40 @@ def revert_unneeded(evaluator: Evaluator, before: Bdd, after: Bdd) -> Bdd:
     return now.policy
 
 
-def _breaking_loops(evaluator: Evaluator, before: Bdd, after: Bdd) -> Bdd:
+def _breaking_loops(evaluator: Evaluator, before: ClosedLoop, after: ClosedLoop) -> ClosedLoop:
     """`before` with those decisions of `after` that keep its runs from looping; `after`, where these do not suffice.
 
     In every round failing runs are followed to the states that they come back to for ever. Those of them that were
     changed get their change, where the run next leaves the states that were.
     """
-    problem, steps = evaluator.problem, evaluator.problem.steps
-    changed, kept = steps.states_of(after & ~before), problem.false
+    problem, judge = evaluator.problem, Reevaluator(evaluator)
+    changed, kept = problem.steps.states_of(after.policy & ~before.policy), problem.false
     for _ in range(MOST_LOOPS):
-        policy = (before & ~kept) | (after & kept)
-        found = evaluator.evaluate(policy)
-        if found.failing == problem.false:
-            return policy
+        found = mixed(before, after, kept)
+        failing = judge.failing(found)
+        if failing == problem.false:
+            return found
         open_ = changed & ~kept
-        looping = _visited_for_ever(problem, policy, found.failing) & open_
+        looping = _visited_for_ever(problem, found.policy, failing) & open_
         if looping == problem.false:
             return after
-        last = looping & ~found.closed_loop.predecessor(looping, open_)
+        last = looping & ~found.predecessor(looping, open_)
         kept = kept | (looping if last == problem.false else last)
     return after
 
 
 def _visited_for_ever(problem: Problem, policy: Bdd, starts: Bdd) -> Bdd:
     """The states that runs from some states come back to again and again."""
-    steps = problem.steps
-    met = (starts & steps.safe) | steps.successors(steps.allowed & steps.unsafe & starts)
-    front = met
+    steps, count = problem.steps, problem.encoding.count_states
+    here = (starts & steps.safe) | steps.successors(steps.allowed & steps.unsafe & starts)
+    left, after = count(here), steps.successors(policy & here)
+    while (following := count(after)) < left:
+        left, here, after = following, after, steps.successors(policy & after)
+    met, lasting, front = here, after, after & ~here
     while front != problem.false:
         problem.context.check()
-        front = steps.successors(policy & front) & ~met
-        met = met | front
-    lasting = steps.successors(policy & met)
+        met, after = met | front, steps.successors(policy & front)
+        front, lasting = after & ~met, lasting | after
     while lasting != met:
         problem.context.check()
         lasting, met = steps.successors(policy & lasting), lasting
