@@ -21,7 +21,7 @@ from typing import Any
 from tests.sweep.here import AMR
 from tumato_symbolic.limits.processes import descendants
 from tumato_symbolic.sweep import Plan, Task, defined, definition, kept, processes, sweep
-from tumato_symbolic.sweep.sweeping import Hired
+from tumato_symbolic.sweep.portions import Hired
 
 
 def main() -> int:

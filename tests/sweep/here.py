@@ -2,60 +2,65 @@
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
-from dataclasses import asdict
-from itertools import count
+from itertools import count, islice
 from pathlib import Path
 from random import Random
 
 from tests.repo.documents import ROOT
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.sweep import Plan, Task, dropped, kept, sweep
+from tumato_symbolic.sweep.portions import Hired, LostError, Workers
 from tumato_symbolic.sweep.solving import solved
-from tumato_symbolic.sweep.sweeping import Hired, Workers
+from tumato_symbolic.sweep.tasks import Answer, Batch, Reply
 
 AMR = Source("amr.tum", (ROOT / "examples" / "amr.tum").read_text())
 COIN = Source("coin.tum", (ROOT / "examples" / "coin.tum").read_text())
 PLAN = Plan("drop", COIN, dropped(COIN), {"some": "option"})
 
 
-def answer(task: str) -> str:
-    """What a child would answer."""
-    return json.dumps(asdict(solved(Task(**json.loads(task)))))
-
-
 class GoneError(Exception):
     """Nobody works any more."""
 
 
-def shuffling(seed: int, known: dict[str, str], most: int = 10**9) -> Callable[[], Hired]:
-    """Workers that answer the tasks they have in any order, and are gone after so many answers.
+def shuffling(
+    seed: int,
+    known: dict[Task, Answer],
+    most: int = 10**9,
+    deadly: Callable[[Task], bool] = lambda _: False,
+) -> Callable[[], Hired]:
+    """Workers that reply to the batches they have in any order, some in part, and are gone after so many answers.
 
-    `known` are answers to tasks that were given before.
+    `known` are answers to tasks that were given before. A `deadly` task takes whoever solves it along.
     """
 
     @contextmanager
     def hired() -> Iterator[Workers]:
         random, given = Random(seed), count()
 
-        def later(task: str, delay: float) -> str:
-            if next(given) >= most:
-                raise GoneError
+        def later(batch: Batch, delay: float, part: int) -> str:
             time.sleep(delay)
-            if task not in known:
-                known[task] = answer(task)
-            return known[task]
+            answers: list[Answer] = []
+            for task in islice(batch.tasks, part):
+                if next(given) >= most:
+                    raise GoneError
+                if deadly(task):
+                    raise LostError("it was killed")
+                if task not in known:
+                    known[task] = solved(task)
+                answers.append(known[task])
+            return Reply(tuple(answers), len(answers) / random.randint(1, 10)).written()
 
         with ThreadPoolExecutor(3) as executor:
 
-            def submit(task: str) -> Future[str]:
-                return executor.submit(later, task, random.random() / 500)
+            def submit(text: str) -> Future[str]:
+                batch = Batch.read(text)
+                return executor.submit(later, batch, random.random() / 500, random.randint(1, len(batch.texts)))
 
-            yield Workers(submit, 4)
+            yield Workers(submit, 2, 1.0)
 
     return hired
 

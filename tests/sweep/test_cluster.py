@@ -1,5 +1,6 @@
 """The same work by the workers of a Dask cluster."""
 
+import json
 import os
 import signal
 from collections.abc import Callable, Iterator
@@ -9,19 +10,25 @@ import pytest
 
 from tests.sweep.here import AMR, run, shuffling
 from tumato_symbolic.diagnostics import UserError
-from tumato_symbolic.sweep import Plan, Task, cluster, kept, mutated, sweep
+from tumato_symbolic.sweep import Plan, Task, asking, cluster, kept, mutated, sweep
+from tumato_symbolic.sweep.tasks import Batch
 
 distributed = pytest.importorskip("distributed", reason="distributed is not installed (make tools)")
+dask = pytest.importorskip("dask")
 
 PLAN = Plan("mutate", AMR, mutated(AMR, 12, 0)[0])
 
 
+def made() -> Any:
+    """A scheduler and two workers, which are processes of their own."""
+    options = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": None, "silence_logs": 50}
+    return distributed.LocalCluster(processes=True, **options)
+
+
 @pytest.fixture(scope="module")
 def workers() -> Iterator[Any]:
-    """A scheduler and two workers, which are processes of their own."""
-    with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=50
-    ) as found:
+    """They are made once."""
+    with made() as found:
         yield found
 
 
@@ -43,6 +50,39 @@ def test_a_worker_that_is_killed_loses_nothing(workers: Any) -> None:
 
     assert swept(lambda: cluster.cluster(workers.scheduler_address), heard=heard) == alone
     assert not victims
+
+
+def test_a_text_that_kills_workers_is_lost_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """All that was handed over with it, and to the same worker, is solved by others."""
+    guilty = PLAN.variants[2]
+    text, asked = guilty.text(AMR), asking.ask
+    together: list[int] = []
+
+    def deadly(batch: str) -> str:
+        if text in Batch.read(batch).texts:
+            os.kill(os.getpid(), signal.SIGKILL)
+        return asked(batch)
+
+    def submitted(client: Any, address: str, batch: str) -> Any:
+        texts = Batch.read(batch).texts
+        together.extend([len(texts)] if text in texts else [])
+        return submit(client, address, batch)
+
+    submit = cluster._submitted
+    monkeypatch.setattr(cluster, "ask", deadly)
+    monkeypatch.setattr(cluster, "_submitted", submitted)
+    monkeypatch.setattr(cluster, "_SECONDS", 10.0)
+    alone = run(None, shuffling(0, {}), PLAN).splitlines()
+    with dask.config.set({"distributed.scheduler.allowed-failures": 0}), made() as workers:
+        found = swept(lambda: cluster.cluster(workers.scheduler_address)).splitlines()
+    line = json.loads(found.pop(guilty.number + 1))
+    assert (line["verdict"], line["limit"]) == (
+        "undecided",
+        "the workers that solved it were killed one after the other",
+    )
+    assert found == [*alone[: guilty.number + 1], *alone[guilty.number + 2 :]]
+    assert together[0] > 1
+    assert together[-1] == 1
 
 
 def test_other_versions_are_refused(workers: Any, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -7,9 +7,10 @@ import pytest
 
 from tests.sweep.here import COIN, PLAN, GoneError, run, shuffling
 from tumato_symbolic.diagnostics import UserError
-from tumato_symbolic.sweep import Plan, dropped, kept
+from tumato_symbolic.sweep import Plan, Task, dropped, kept
+from tumato_symbolic.sweep.tasks import Answer
 
-KNOWN: dict[str, str] = {}
+KNOWN: dict[Task, Answer] = {}
 WHOLE = run(None, shuffling(0, KNOWN))
 
 
@@ -39,7 +40,7 @@ def test_a_sweep_that_stops_goes_on(most: int, tmp_path: Path) -> None:
         run(path, shuffling(most, KNOWN, most))
     there = [json.loads(line)["variant"] for line in path.read_text().splitlines()[1:]]
     assert len(there) <= most
-    asked: dict[str, str] = {}
+    asked: dict[Task, Answer] = {}
     assert run(path, shuffling(7, asked)) == WHOLE
     assert len(asked) == len(PLAN.variants) - len(there) + (
         len(there) > 0

@@ -17,15 +17,13 @@ from tumato_symbolic.cli.console import wants_colour, write
 from tumato_symbolic.cli.exits import UNDECIDED, worst
 from tumato_symbolic.cli.matching import Specifications, inside
 from tumato_symbolic.cli.options import CommandOptions, is_folder
+from tumato_symbolic.cli.progress import Progress
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.limits import Context, LimitReachedError
 from tumato_symbolic.limits.processes import can_fork
 from tumato_symbolic.policy import load_claim
 from tumato_symbolic.report.many import Many, Report, Row, as_line, as_text, failed, undecided, without_report
 from tumato_symbolic.verify.workers import Lost, in_workers
-
-_BETWEEN = 0.5
-"""Seconds between two records of what is known."""
 
 Run = Callable[[Any, Context], int]
 """A command."""
@@ -94,18 +92,19 @@ def run_many(work: Iterable[Work], doing: Doing, options: CommandOptions, contex
     """Do it all and report it; the exit code is that of the worst file."""
     todo, started = list(work), time.perf_counter()
     found: dict[int, Row] = {}
-    shown = _Shown(options, found)
+    wants_lines = options.output_format == "json"
+
+    def line(number: int) -> str | None:
+        return as_line(found[number]) if wants_lines and number in found else None
 
     def known() -> Many:
         return Many(tuple(found[each] for each in sorted(found)), len(todo), time.perf_counter() - started)
 
+    progress = Progress(context, line, known)
+
     def heard(number: int, answer: Row | Lost) -> None:
         found[number] = undecided(todo[number].name, answer.reason) if isinstance(answer, Lost) else answer
-        context.enter(f"{len(todo):,} files, {len(found):,} done")
-        shown.more()
-        if time.perf_counter() - shown.recorded >= _BETWEEN:
-            shown.recorded = time.perf_counter()
-            context.learn(known())
+        progress.more(f"{len(todo):,} files, {len(found):,} done")
 
     _load_once()
     context.tell(f"{len(todo):,} files, none done")
@@ -128,20 +127,6 @@ def report(done: Many, doing: Doing, options: CommandOptions) -> int:
 def ended(known: Many, why: str, doing: Doing, options: CommandOptions) -> int:
     """Report the files that were done by then."""
     return report(replace(known, limit=why), doing, options)
-
-
-class _Shown:
-    """Lines for a program, in the order of the files, each as soon as it is known."""
-
-    def __init__(self, options: CommandOptions, found: dict[int, Row]) -> None:
-        self._wanted, self._found, self._next = options.output_format == "json", found, 0
-        self.recorded = 0.0
-
-    def more(self) -> None:
-        """Another one is known."""
-        while self._wanted and self._next in self._found:
-            write(as_line(self._found[self._next]))
-            self._next += 1
 
 
 def _load_once() -> None:

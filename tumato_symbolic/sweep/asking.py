@@ -1,7 +1,7 @@
-"""Texts solved by child processes, one for each thread that asks, within the limits of every task.
+"""Texts solved by child processes, each text within its limits.
 
 A solver may take longer than any limit in one call, or all memory; so a child is ended that meets one, and the next
-task gets another child. Nothing but texts is exchanged, and a child inherits nothing, so that this is the same on all
+text gets another child. Nothing but texts is exchanged, and a child inherits nothing, so that this is the same on all
 platforms and in a worker of a cluster.
 """
 
@@ -15,15 +15,16 @@ import subprocess
 import sys
 import threading
 import time
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any, Final
 
-from tumato_symbolic.limits import Context
+from tumato_symbolic.limits import Context, Limits
 from tumato_symbolic.limits.processes import megabytes_of
-from tumato_symbolic.sweep.child import IDLE
-from tumato_symbolic.sweep.tasks import NOTHING, Answer, Task
+from tumato_symbolic.sweep.child import IDLE, Then
+from tumato_symbolic.sweep.tasks import NOTHING, Answer, Batch, Reply
 
 _GRACE = 1.0
 """Seconds after the time limit in which a child may still answer by itself."""
@@ -31,14 +32,13 @@ _GRACE = 1.0
 _TICK = 0.05
 """Seconds between two looks at a child."""
 
+_TRIMMING: Final = "MALLOC_TRIM_THRESHOLD_"
+"""Dask sets it for its workers, which then give memory back to the system at once; solvers take half as long again."""
+
 _ROOT: Final = str(Path(__file__).resolve().parents[2])
 _PROGRAM: Final = (
     "import sys; sys.path.append(sys.argv[1]); from tumato_symbolic.sweep.child import main; main(int(sys.argv[2]))"
 )
-
-
-class SolverError(Exception):
-    """An exception in a child: a bug, with its traceback."""
 
 
 class EndedError(Exception):
@@ -46,20 +46,29 @@ class EndedError(Exception):
 
 
 class Children:
-    """Child processes, one for each thread that asks."""
+    """Child processes: as many as batches are asked at a time."""
 
     def __init__(self) -> None:
-        self._of_thread = threading.local()
+        self._idle: list[_Child] = []
         self._all: set[_Child] = set()
         self._lock = threading.Lock()
         self._over = False
 
-    def ask(self, task: str) -> str:
-        """The answer to a task, both as JSON. Raises `SolverError` where the child has a bug.
+    def start(self, number: int) -> None:
+        """Have so many that are ready, or will soon be."""
+        for child in [self._taken() for _ in range(number)]:
+            self._give_back(child)
 
-        A child that is ended, by a limit or by the system, has not decided.
+    def ask(self, batch: str) -> str:
+        """The reply to a batch, both as JSON.
+
+        A child that is ended, by a limit or by the system, has not decided: that is its last answer.
         """
-        return json.dumps(asdict(self._asked(Task(**json.loads(task)))))
+        child = self._taken()
+        try:
+            return _asked(child, Batch.read(batch)).written()
+        finally:
+            self._give_back(child)
 
     def end(self) -> None:
         """End them all at once, those that are at work too, and make no more."""
@@ -68,46 +77,80 @@ class Children:
             for child in self._all:
                 child.end()
 
-    def _asked(self, task: Task) -> Answer:
-        child = self._mine()
-        context = Context(task.limits)
-        context.enter("solving it")
-        child.send(json.dumps(asdict(task)))
-        while True:
-            with suppress(queue.Empty):
-                line = child.lines.get(timeout=_TICK)
-                if not line:
-                    return Answer({**NOTHING, "limit": child.why_ended()})
-                if _has_grown(child, task):
-                    child.end()
-                return _read(line)
-            why = _limit(context, child)
-            if why is not None:
-                child.end()
-                return Answer({**NOTHING, "limit": why})
-
-    def _mine(self) -> _Child:
-        """The child of this thread: one that is there, or another."""
-        child: _Child | None = getattr(self._of_thread, "child", None)
-        if child is not None and child.is_ready:
-            return child
+    def _taken(self) -> _Child:
+        """A child that is idle, or another."""
         with self._lock:
-            if child is not None:
-                child.end()
-                self._all.discard(child)
             if self._over:
                 raise EndedError
-            child = self._of_thread.child = _Child()
+            while self._idle:
+                child = self._idle.pop()
+                if child.is_ready:
+                    return child
+                self._forget(child)
+            child = _Child()
             self._all.add(child)
-        return child
+            return child
+
+    def _give_back(self, child: _Child) -> None:
+        with self._lock:
+            if child.is_ready:
+                self._idle.append(child)
+            else:
+                self._forget(child)
+
+    def _forget(self, child: _Child) -> None:
+        child.end()
+        self._all.discard(child)
 
 
 _HERE: Final = Children()
 
 
-def ask(task: str) -> str:
-    """The answer of a child of this process, which is a worker of a cluster."""
-    return _HERE.ask(task)
+def ask(batch: str) -> str:
+    """The reply of a child of this process, which is a worker of a cluster."""
+    return _HERE.ask(batch)
+
+
+def start(number: int) -> None:
+    """Have children of this process start, since there will be batches."""
+    _HERE.start(number)
+
+
+def _asked(child: _Child, batch: Batch) -> Reply:
+    started = time.monotonic()
+    child.send(batch.written())
+    found = list(_lines(child, batch.common.limits))
+    bug = found.pop()["bug"] if "bug" in found[-1] else None
+    return Reply(tuple(Answer(**each) for each in found), time.monotonic() - started, bug)
+
+
+def _lines(child: _Child, limits: Limits) -> Iterator[dict[str, Any]]:
+    """What a child says of a batch. It is ended where it meets a limit, or has grown."""
+    then: Then = "more"
+    while then == "more":
+        found = _next(child, limits)
+        then = found.pop("then")
+        if then == "end":
+            child.end()
+        yield found
+
+
+def _next(child: _Child, limits: Limits) -> dict[str, Any]:
+    """What a child says of the next text, or why it says nothing."""
+    context = Context(limits)
+    context.enter("solving it")
+    while True:
+        with suppress(queue.Empty):
+            line = child.lines.get(timeout=_TICK)
+            return dict(json.loads(line)) if line else _nothing(child.why_ended())
+        why = _limit(context, child)
+        if why is not None:
+            return _nothing(why)
+
+
+def _nothing(why: str) -> dict[str, Any]:
+    then: Then = "end"
+    return {**asdict(Answer({**NOTHING, "limit": why})), "then": then}
 
 
 def _limit(context: Context, child: _Child) -> str | None:
@@ -119,18 +162,6 @@ def _limit(context: Context, child: _Child) -> str | None:
     return None
 
 
-def _has_grown(child: _Child, task: Task) -> bool:
-    """Whether a child keeps so much memory that the next task would be blamed for it."""
-    return task.megabytes is not None and megabytes_of(child.number) > task.megabytes / 2
-
-
-def _read(line: str) -> Answer:
-    found: dict[str, Any] = json.loads(line)
-    if "bug" in found:
-        raise SolverError(f"in a process that solves variants\n\n{found['bug']}")
-    return Answer(**found)
-
-
 class _Child:
     """A process that solves texts."""
 
@@ -140,6 +171,7 @@ class _Child:
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             start_new_session=True,  # Ctrl-C is for its owner, which ends it
+            env={name: value for name, value in os.environ.items() if name != _TRIMMING},
             encoding="utf-8",
         )
         self.lines: queue.SimpleQueue[str] = queue.SimpleQueue()
@@ -153,14 +185,14 @@ class _Child:
 
     @property
     def is_ready(self) -> bool:
-        """Whether it takes a task, and will not end before."""
+        """Whether it takes a batch, and will not end before."""
         return self._process.poll() is None and time.monotonic() - self._since < IDLE / 2
 
-    def send(self, task: str) -> None:
-        """Give it a task."""
+    def send(self, batch: str) -> None:
+        """Give it a batch."""
         with suppress(OSError, ValueError):  # it has ended: so there will be no answer
             assert self._process.stdin is not None, "it is a pipe"
-            self._process.stdin.write(f"{task}\n")
+            self._process.stdin.write(f"{batch}\n")
             self._process.stdin.flush()
 
     def why_ended(self) -> str:

@@ -1,6 +1,6 @@
 """Workers of a Dask cluster. The only module that knows `distributed`.
 
-What is sent there are tasks as texts; what comes back are texts. A worker solves them in child processes, as this
+What is sent there are batches as texts; what comes back are texts. A worker solves them in child processes, as this
 machine would, so that one that takes all memory does not take the worker with it.
 """
 
@@ -18,14 +18,14 @@ from typing import Any, NoReturn
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.diagnostics.wording import quoted
 from tumato_symbolic.limits.packages import need_distributed
-from tumato_symbolic.sweep.asking import ask
-from tumato_symbolic.sweep.sweeping import LostError, Workers
+from tumato_symbolic.sweep.asking import ask, start
+from tumato_symbolic.sweep.portions import LostError, Workers
 
 _PATIENCE = 5.0
 """Seconds in which the scheduler has to answer, and to have workers."""
 
-_AHEAD = 4
-"""So many tasks for each thread are handed over at a time."""
+_SECONDS = 1.0
+"""How long a batch should take: handing it over costs some hundredths of a second."""
 
 
 @contextmanager
@@ -46,7 +46,8 @@ def cluster(address: str) -> Iterator[Workers]:
         try:
             threads = _threads(client, address)
             _compare(client.run(_versions(), on_error="return"), address)
-            yield Workers(partial(_submitted, client, address), _AHEAD * threads)
+            client.run(_start)
+            yield Workers(partial(_submitted, client, address), threads, _SECONDS)
         finally:
             with suppress(Exception):  # the scheduler may have gone
                 client.close(timeout=1)
@@ -112,26 +113,31 @@ def _versions() -> Callable[[], dict[str, str | None]]:
     return versions
 
 
-def _submitted(client: Any, address: str, task: str) -> Future[str]:  # noqa: ANN401
-    """A task handed over."""
-    answer: Future[str] = Future()
-    answer.set_running_or_notify_cancel()
-    client.submit(ask, task, pure=False).add_done_callback(partial(_done, answer, address))
-    return answer
+def _start(dask_worker: Any) -> None:  # noqa: ANN401
+    """Have children start on a worker, one for each of its threads."""
+    start(dask_worker.state.nthreads)
 
 
-def _done(answer: Future[str], address: str, there: Any) -> None:  # noqa: ANN401 - a future of Dask
-    """Take what a worker answered."""
+def _submitted(client: Any, address: str, batch: str) -> Future[str]:  # noqa: ANN401
+    """A batch handed over."""
+    reply: Future[str] = Future()
+    reply.set_running_or_notify_cancel()
+    client.submit(ask, batch, pure=False).add_done_callback(partial(_done, reply, address))
+    return reply
+
+
+def _done(reply: Future[str], address: str, there: Any) -> None:  # noqa: ANN401 - a future of Dask
+    """Take what a worker replied."""
     from distributed import KilledWorker
 
     try:
-        answer.set_result(there.result(timeout=_PATIENCE))
+        reply.set_result(there.result(timeout=_PATIENCE))
     except KilledWorker:
-        answer.set_exception(LostError("the workers that solved it were killed one after the other"))
+        reply.set_exception(LostError("the workers that solved it were killed one after the other"))
     except (CancelledError, OSError, TimeoutError):
-        answer.set_exception(_failure(f"the connection to the scheduler at {quoted(address)} was lost", _GO_ON))
+        reply.set_exception(_failure(f"the connection to the scheduler at {quoted(address)} was lost", _GO_ON))
     except Exception as error:  # noqa: BLE001 - whatever a worker raises
-        answer.set_exception(error)
+        reply.set_exception(error)
 
 
 _GO_ON = "with -o FILE, the same command goes on where this one stopped"

@@ -1,11 +1,11 @@
-"""The results of a sweep as lines of JSON, and the file to which they are added one by one."""
+"""The results of a sweep as lines of JSON, and the file to which they are added."""
 
 from __future__ import annotations
 
 import json
 import os
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -41,13 +41,13 @@ class Results:
         """How many lines there will be."""
         return int(str(self.header["variants"]))
 
-    def add(self, line: Line) -> None:
-        """A variant is done: its line is on the disk when this returns. Raises `UserError` where it cannot be."""
-        self.lines[line["variant"]] = line
+    def add(self, lines: Sequence[Line]) -> None:
+        """Variants are done: their lines are on the disk when this returns. Raises `UserError` where they cannot be."""
+        self.lines |= {each["variant"]: each for each in lines}
         if self._file is None:
             return
         try:
-            self._file.write(f"{written(line)}\n")
+            self._file.write("".join(f"{written(each)}\n" for each in lines))
             self._file.flush()
             os.fsync(self._file.fileno())
         except OSError as error:

@@ -2,32 +2,26 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
-from contextlib import AbstractContextManager, contextmanager
-from dataclasses import asdict, dataclass, replace
-from typing import TypeAlias
+from contextlib import contextmanager
+from dataclasses import replace
+from functools import partial
+from math import inf
+from typing import Final
 
 from tumato_symbolic.sweep.asking import Children
+from tumato_symbolic.sweep.portions import Hired, LostError, Portion, Portions, Workers
 from tumato_symbolic.sweep.results import Line, Results
-from tumato_symbolic.sweep.tasks import NOTHING, Answer, Task
-from tumato_symbolic.sweep.variants import Plan, Variant
+from tumato_symbolic.sweep.tasks import NOTHING, Answer, Batch, Reply, Task
+from tumato_symbolic.sweep.variants import Plan
+
+_SECONDS: Final = 0.2
+"""How long a batch should take on this machine: what is found is recorded that often."""
 
 
-class LostError(Exception):
-    """A task without an answer, because those who worked on it were killed again and again."""
-
-
-@dataclass(frozen=True, slots=True)
-class Workers:
-    """Who works: `submit` takes a task, of which `ahead` may wait or be worked on at a time."""
-
-    submit: Callable[[str], Future[str]]
-    ahead: int
-
-
-Hired: TypeAlias = AbstractContextManager[Workers]
+class SolverError(Exception):
+    """An exception in a process that solves variants: a bug, with its traceback."""
 
 
 @contextmanager
@@ -36,11 +30,12 @@ def processes(jobs: int) -> Iterator[Workers]:
     children = Children()
     with ThreadPoolExecutor(jobs) as executor:
 
-        def submit(task: str) -> Future[str]:
-            return executor.submit(children.ask, task)
+        def submit(batch: str) -> Future[str]:
+            return executor.submit(children.ask, batch)
 
         try:
-            yield Workers(submit, 2 * jobs)
+            children.start(jobs)
+            yield Workers(submit, jobs, _SECONDS)
         finally:
             executor.shutdown(wait=False, cancel_futures=True)
             children.end()
@@ -55,44 +50,72 @@ def sweep(plan: Plan, common: Task, hired: Callable[[], Hired], results: Results
     todo = [each for each in plan.variants if each.number not in results.lines]
     if not todo:
         return
+    common = replace(common, name=plan.source.name)
     with hired() as workers:
-        base = _answered(workers.submit(_task(plan.variants[0], plan, replace(common, policy=True))))
-        if 0 not in results.lines:
-            _add(results, plan.variants[0], base)
-            heard()
-        common = replace(common, against=base.policy)
-        waiting = iter([each for each in todo if each.number])
-        running: dict[Future[str], Variant] = {}
-        while True:
-            while len(running) < workers.ahead and (variant := next(waiting, None)) is not None:
-                running[workers.submit(_task(variant, plan, common))] = variant
-            if not running:
-                return
-            done = wait(running, return_when=FIRST_COMPLETED).done
-            for future in sorted(done, key=_fails):  # what is found is kept first
-                _add(results, running.pop(future), _answered(future))
+        submit = partial(_submit, workers, plan)
+        base = Portion(plan.variants[:1], alone=True)
+        reply = _reply(submit(base, replace(common, policy=True)), base)
+        _add(results, base, reply)
+        heard()
+        portions = Portions([each for each in todo if each.number], workers)
+        portions.replied(base, reply)
+        common = replace(common, against=reply.answers[0].policy)
+        _solve(portions, lambda portion: submit(portion, common), results, heard)
+
+
+def _solve(
+    portions: Portions, submit: Callable[[Portion], Future[str]], results: Results, heard: Callable[[], None]
+) -> None:
+    """Add what is found of all portions."""
+    running: dict[Future[str], Portion] = {}
+    while True:
+        while (portion := portions.next(len(running))) is not None:
+            running[submit(portion)] = portion
+        if not running:
+            return
+        for future in sorted(wait(running, return_when=FIRST_COMPLETED).done, key=_fails):
+            portion = running.pop(future)
+            try:
+                reply = _reply(future, portion)
+            except LostError:
+                portions.lost(portion)
+            else:
+                portions.replied(portion, reply)
+                _add(results, portion, reply)
                 heard()
 
 
 def _fails(future: Future[str]) -> bool:
+    """Whether there is no reply; those that there are are kept first."""
     return future.exception() is not None
 
 
-def _task(variant: Variant, plan: Plan, common: Task) -> str:
-    return json.dumps(asdict(replace(common, name=plan.source.name, text=variant.text(plan.source))))
+def _submit(workers: Workers, plan: Plan, portion: Portion, common: Task) -> Future[str]:
+    texts = tuple(each.text(plan.source) for each in portion.variants)
+    return workers.submit(Batch(common, texts, workers.enough).written())
 
 
-def _answered(future: Future[str]) -> Answer:
+def _reply(future: Future[str], portion: Portion) -> Reply:
+    """What is found of a portion: nothing, where that was lost alone; where it was not, `LostError` is raised."""
     try:
-        return Answer(**json.loads(future.result()))
+        return Reply.read(future.result())
     except LostError as lost:
-        return Answer({**NOTHING, "limit": str(lost)})
+        if not portion.alone:
+            raise
+        return Reply((Answer({**NOTHING, "limit": str(lost)}),), inf)
 
 
-def _add(results: Results, variant: Variant, answer: Answer) -> None:
-    changes = [each.as_json() for each in variant.changes]
-    line: Line = {"variant": variant.number, "changes": changes, **answer.result}
-    results.add({**line, "differs": differs(line, results.lines.get(0))})
+def _add(results: Results, portion: Portion, reply: Reply) -> None:
+    """Add what was not there. Raises `SolverError` where the reply ends in a bug."""
+    lines: list[Line] = []
+    for variant, answer in zip(portion.variants, reply.answers, strict=False):
+        if variant.number not in results.lines:
+            changes = [each.as_json() for each in variant.changes]
+            line: Line = {"variant": variant.number, "changes": changes, **answer.result}
+            lines.append({**line, "differs": differs(line, results.lines.get(0))})
+    results.add(lines)
+    if reply.bug is not None:
+        raise SolverError(f"in a process that solves variants\n\n{reply.bug}")
 
 
 def differs(line: Line, base: Line | None) -> bool | None:

@@ -1,16 +1,19 @@
-"""What those who solve are asked, and what they answer: records that go over a wire as JSON.
+"""What those who solve are asked, and what they answer: records that go over a wire as lines of JSON.
 
 Who asks needs no solver, and so nothing here imports one.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import json
+from dataclasses import asdict, dataclass, replace
 from typing import TYPE_CHECKING
 
 from tumato_symbolic.limits import Limits
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from tumato_symbolic.spec import Ordering, Restoration
     from tumato_symbolic.verify import ProverName
 
@@ -46,6 +49,55 @@ class Answer:
 
     result: dict[str, object]
     policy: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Batch:
+    """Texts that one process solves one after the other; `common` is what all their tasks share.
+
+    Once it is at work for `enough` seconds, no other text is begun.
+    """
+
+    common: Task
+    texts: tuple[str, ...]
+    enough: float
+
+    @property
+    def tasks(self) -> Iterator[Task]:
+        """Each text as a task of its own."""
+        return (replace(self.common, text=each) for each in self.texts)
+
+    def written(self) -> str:
+        """As a line of JSON."""
+        return json.dumps(asdict(self))
+
+    @classmethod
+    def read(cls, line: str) -> Batch:
+        """From a line of JSON."""
+        found = json.loads(line)
+        return cls(Task(**found["common"]), tuple(found["texts"]), found["enough"])
+
+
+@dataclass(frozen=True, slots=True)
+class Reply:
+    """The answers to the first texts of a batch, and how many seconds they took together.
+
+    `bug` is the traceback of an exception that came instead of the next answer.
+    """
+
+    answers: tuple[Answer, ...]
+    seconds: float
+    bug: str | None = None
+
+    def written(self) -> str:
+        """As a line of JSON."""
+        return json.dumps(asdict(self))
+
+    @classmethod
+    def read(cls, line: str) -> Reply:
+        """From a line of JSON."""
+        found = json.loads(line)
+        return cls(tuple(Answer(**each) for each in found["answers"]), found["seconds"], found["bug"])
 
 
 NOTHING: dict[str, object] = {

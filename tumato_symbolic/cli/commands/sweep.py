@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, ClassVar, Literal
@@ -17,11 +16,12 @@ from tumato_symbolic.limits import Context
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from tumato_symbolic.cli.progress import Progress
     from tumato_symbolic.diagnostics import Source
     from tumato_symbolic.report.swept import Swept
     from tumato_symbolic.spec import Ordering, Restoration
     from tumato_symbolic.sweep import Plan, Results, Task
-    from tumato_symbolic.sweep.sweeping import Hired
+    from tumato_symbolic.sweep.portions import Hired
     from tumato_symbolic.verify import ProverName
 
 ABOUT = """\
@@ -40,10 +40,6 @@ examples:
   tumato-sym sweep amr.tum --mutate 100 -o results.jsonl     # goes on where it stopped
   tumato-sym sweep amr.tum --mutate all --scheduler 10.0.0.7:8786
 """
-
-
-_BETWEEN = 1.0
-"""Seconds between two records of what is known."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,12 +116,16 @@ def run(options: Options, context: Context) -> int:
         return _show(plan, options.show)
     show_warnings(warnings, source, options)
     with kept(options.results, plan.header(_version())) as results:
-        told = _Told(plan, results, options, context)
-        told.heard()
+        progress = _progress(plan, results, options, context)
+
+        def heard() -> None:
+            progress.more(f"solving variants, {len(results.lines):,} of {len(plan.variants):,} done")
+
+        heard()
         try:
-            sweep(plan, _common(options), _hired(plan, options), results, heard=told.heard)
+            sweep(plan, _common(options), _hired(plan, options), results, heard=heard)
         except KeyboardInterrupt:
-            told.record()
+            progress.record()
             raise
     return _report(Swept(plan, results.in_order()), options)
 
@@ -204,43 +204,20 @@ def _hired(plan: Plan, options: Options) -> Callable[[], Hired]:
     return partial(processes, min(wanted_jobs(options.jobs), max(1, len(plan.variants) - 1)))
 
 
-@dataclass
-class _Told:
-    """What the user is told while the work goes on: progress, or the results as lines of JSON, in order."""
+def _progress(plan: Plan, results: Results, options: Options, context: Context) -> Progress:
+    """What the user is told while the work goes on; the first line for a program is the header."""
+    from tumato_symbolic.cli.progress import Progress
+    from tumato_symbolic.report.swept import Swept
+    from tumato_symbolic.sweep import written
 
-    plan: Plan
-    results: Results
-    options: Options
-    context: Context
-    shown: int = -1
-    recorded: float = 0.0
+    def line(number: int) -> str | None:
+        found = results.header if number == 0 else results.lines.get(number - 1)
+        return None if found is None or options.output_format != "json" else written(found)
 
-    def heard(self) -> None:
-        """There is more, or the work begins."""
-        done, total = len(self.results.lines), len(self.plan.variants)
-        self.context.enter(f"solving variants, {done:,} of {total:,} done")
-        if self.options.output_format == "json":
-            self._show_lines()
-        elif self.results.lines and time.monotonic() - self.recorded >= _BETWEEN:
-            self.recorded = time.monotonic()
-            self.record()
+    def known() -> Swept | None:
+        return Swept(plan, results.in_order()) if results.lines else None
 
-    def record(self) -> None:
-        """Have what is known reported where the work ends here."""
-        from tumato_symbolic.report.swept import Swept
-
-        if self.results.lines:
-            self.context.learn(Swept(self.plan, self.results.in_order()))
-
-    def _show_lines(self) -> None:
-        from tumato_symbolic.sweep import written
-
-        if self.shown < 0:
-            write(written(self.results.header))
-            self.shown = 0
-        while (line := self.results.lines.get(self.shown)) is not None:
-            write(written(line))
-            self.shown += 1
+    return Progress(context, line, known)
 
 
 def _report(done: Swept, options: Options) -> int:
