@@ -39,16 +39,19 @@ def policies(problem: Problem, random: Random) -> tuple[Bdd, Bdd]:
     return first, second | (first & ~problem.steps.states_of(second))
 
 
-@pytest.mark.parametrize("taken", ["moves", "functions", "pairs"])
+@pytest.mark.parametrize("taken", ["moves", "functions", "turns", "pairs"])
 @pytest.mark.parametrize("profile", sorted(ALL_PROFILES))
 def test_a_closed_loop_has_the_predecessor_of_its_policy(
     profile: str, taken: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Move by move, as functions or as a relation, it leads where the pairs of the policy nominally lead."""
+    """Move by move, as functions, in turns or as a relation, it leads where the pairs of the policy nominally lead."""
     most = fixpoints.MOST_MOVES if taken == "moves" else 0
-    if taken == "pairs":
+    if taken in ("turns", "pairs"):
+        monkeypatch.setattr(fixpoints, "MANY_COMPOSED", 0)
         monkeypatch.setattr(fixpoints, "MOST_COMPOSED", 0)
         monkeypatch.setattr(Manager, "compose", None)
+    if taken == "pairs":
+        monkeypatch.setattr(fixpoints, "in_turns", lambda *_: None)
     for problem in problems(profile):
         random = Random(1)
         steps, states, target = problem.steps, some_states(problem, random), some_states(problem, random)

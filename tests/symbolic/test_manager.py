@@ -23,6 +23,17 @@ def test_counts_are_exact_beyond_machine_words(backend: Backend) -> None:
     assert manager.count(manager.false, bits) == 0
 
 
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_a_union_is_that_of_all_its_parts(backend: Backend) -> None:
+    """Two by two it has what it has one after the other, however many there are, none included."""
+    manager = Manager([f"b{number}" for number in range(4)], backend)
+    one_by_one = manager.false
+    for size in range(10):
+        values = ({f"b{place}": bool(number >> place & 1) for place in range(4)} for number in range(size))
+        assert manager.balanced_union(map(manager.cube, values)) == one_by_one
+        one_by_one = one_by_one | manager.cube({f"b{place}": bool(size >> place & 1) for place in range(4)})
+
+
 def test_networkx_is_loaded_only_when_dd_draws() -> None:
     """Importing the engine leaves networkx alone, and dd's drawings still find it."""
     program = """

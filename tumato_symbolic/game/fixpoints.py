@@ -9,7 +9,7 @@ from typing import TypeAlias
 
 from tumato_symbolic.game.problem import Problem
 from tumato_symbolic.spec import Assignment
-from tumato_symbolic.symbolic import Bdd, Leading, Target
+from tumato_symbolic.symbolic import Bdd, Leading, Target, Turn, in_turns
 
 Layers: TypeAlias = list[Bdd]
 """Disjoint sets of safe states: in layer `j` are those that reach the target in `j` steps and not earlier."""
@@ -20,8 +20,11 @@ Predecessor: TypeAlias = Callable[[Bdd, Bdd], Bdd]
 MOST_MOVES = 100
 """A relation whose sets do more different things is taken as a whole."""
 
+MANY_COMPOSED = 200_000
+"""Nodes of a set times nodes of the largest function of its bits: above, what leads into it is found in turns."""
+
 MOST_COMPOSED = 1_000_000
-"""Nodes of a set times nodes of the largest function of its bits: above, the relational product is tried instead."""
+"""The same where there are no turns: above, the relational product is tried instead of a composition."""
 
 
 def attractor(problem: Problem, target: Bdd, predecessor: Predecessor, within: Bdd, limit: int | None) -> Layers:
@@ -72,6 +75,13 @@ def preimage(problem: Problem, relation: Bdd) -> Callable[[Bdd], Bdd]:
     return _leading(problem, moves).into
 
 
+def turns_of(problem: Problem, relation: Bdd) -> Turn | None:
+    """A relation that is not taken move by move, taken in turns; None where it is, or cannot be."""
+    if problem.steps.moves(relation, most_moves(problem)) is not None:
+        return None
+    return in_turns(problem.encoding, relation)
+
+
 def distances(problem: Problem, pairs: Bdd | None = None) -> tuple[Layers, ...]:
     """How far every state is from each target by some pairs; safe states by any allowed ones, where none are given."""
     step = by_any_step(problem, problem.steps.allowed if pairs is None else pairs)
@@ -85,7 +95,8 @@ class ClosedLoop:
 
     A policy that does few different things is taken move by move: `moves` has the states by what is written there, and
     the predecessor is a union of cofactors. Otherwise `moves` is None, and `following` has the next value of every bit
-    that some action writes: the predecessor is a composition, or the relational product where that would be large.
+    that some action writes: the predecessor is a composition. Where that would be large it is found in turns, group by
+    group, or by the relational product.
     `pending` has, for every target, the states whose decision leaves it to be reached; `meaning` what its goal bits are
     in these states.
     """
@@ -107,12 +118,19 @@ class ClosedLoop:
         """Nodes of the largest function in `following`."""
         return max(map(self.problem.encoding.manager.nodes, self.following.values()), default=0)
 
+    @cached_property
+    def _turn(self) -> Turn | None:
+        return in_turns(self.problem.encoding, self.policy)
+
     def predecessor(self, states: Bdd, target: Bdd) -> Bdd:
         """Those of some states that the policy leads into a set in one step."""
         manager = self.problem.encoding.manager
         if self.moves is not None:
             return states & self._acting.into(target)
-        if self._size * manager.nodes(target) > MOST_COMPOSED:
+        work = self._size * manager.nodes(target)
+        if work > MANY_COMPOSED and self._turn is not None:
+            return states & self._turn.into(target)
+        if work > MOST_COMPOSED:
             return self.problem.steps.predecessor(self.policy & states, target)
         return states & self.decided & manager.compose(target, self.following)
 

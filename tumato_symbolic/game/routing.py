@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from tumato_symbolic.game.fixpoints import Layers, attractor, closed_loop, preimage
+from tumato_symbolic.game.fixpoints import Layers, attractor, closed_loop, preimage, turns_of
 from tumato_symbolic.game.problem import Problem
 from tumato_symbolic.semantics import ActiveGoals
-from tumato_symbolic.symbolic import Bdd, Target, preferred, with_own_bits
+from tumato_symbolic.symbolic import Bdd, Rounds, Target, Turn, preferred, with_own_bits
+
+MANY_NODES = 10_000
+"""With larger sets of pairs a search goes on in turns, if it can."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,14 +64,36 @@ def _nearest_first(problem: Problem, target: Target, here: Bdd, own: Bdd) -> tup
     layers are those states that runs of others may pass, by how many steps are left; the last one is empty.
     """
     policy, undecided, layers = problem.false, here, [target.states]
-    bound, into = problem.spec.max_plan_length, preimage(problem, target.pending & here)
-    while problem.false not in {undecided, layers[-1]} and (bound is None or len(layers) <= bound):
+    relation = target.pending & here
+    into, asked = preimage(problem, relation), bool(target.meaning)
+    while _goes_on(problem, undecided, layers):
         pairs = undecided & problem.own(target, into(layers[-1]))
         decided = problem.steps.states_of(pairs)
         policy = policy | preferred(problem.encoding, pairs)
         undecided = undecided & ~decided
         layers.append(decided & own & ~target.states)
+        if not asked and problem.encoding.manager.nodes(pairs) > MANY_NODES:
+            turn, asked = turns_of(problem, relation), True
+            if turn is not None:
+                policy = policy | _in_turns(problem, turn, relation, undecided, layers)
+                break
     return policy, layers if layers[-1] == problem.false else [*layers, problem.false]
+
+
+def _goes_on(problem: Problem, undecided: Bdd, layers: Layers) -> bool:
+    """Whether there may be another layer."""
+    bound = problem.spec.max_plan_length
+    return problem.false not in {undecided, layers[-1]} and (bound is None or len(layers) <= bound)
+
+
+def _in_turns(problem: Problem, turn: Turn, relation: Bdd, undecided: Bdd, layers: Layers) -> Bdd:
+    """Goes on with `_nearest_first`: adds to the layers, and then chooses for the states of all of them at once."""
+    rounds, left, target = Rounds(turn), undecided, layers[0]
+    while _goes_on(problem, left, layers):
+        decided = left & rounds.into(layers[-1])
+        left = left & ~decided
+        layers.append(decided & ~target)
+    return preferred(problem.encoding, relation & undecided & rounds.pairs())
 
 
 def route(problem: Problem, policy: Bdd, undecided: Bdd, within: Bdd, wanted: Sequence[Target]) -> Bdd:

@@ -26,6 +26,7 @@ from tumato_symbolic.symbolic.steps import (
     tiers_within,
     without_effect,
 )
+from tumato_symbolic.symbolic.turns import Rounds, Turn, in_turns
 
 __all__ = [
     "Backend",
@@ -36,13 +37,16 @@ __all__ = [
     "Leading",
     "Manager",
     "Regions",
+    "Rounds",
     "Steps",
     "Target",
+    "Turn",
     "available_backend",
     "build_steps",
     "by_duration",
     "compatible_sets",
     "encode",
+    "in_turns",
     "lasting",
     "lay_out",
     "least_duration",

@@ -166,6 +166,14 @@ class Manager:
             result = result | part
         return result
 
+    def balanced_union(self, parts: Iterable[Bdd]) -> Bdd:
+        """`union`, two by two: for sets that grow when they are united, and that have about the same size."""
+        left = list(parts) or [self.false]
+        while len(left) > 1:
+            self.context.check()
+            left = [self.union(left[number : number + 2]) for number in range(0, len(left), 2)]
+        return left[0]
+
     def intersection(self, parts: Iterable[Bdd]) -> Bdd:
         """The intersection of any number of sets."""
         return conjoin(parts, self._levels_of, self._both, self.true)
