@@ -6,13 +6,6 @@ from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.spec.specification import Spec
 
 
-def require_no_starts(spec: Spec, who: str) -> None:
-    """Raise `UserError` where there are start states, and `who` does not know them yet."""
-    if spec.starts:
-        message = f"{who} does not support START yet"
-        raise UserError((Diagnostic(Code.TUM313, message, spec.starts[0].span, "leave the block out for now"),))
-
-
 def require_one_step(spec: Spec, who: str) -> None:
     """Raise `UserError` where safety may take several steps to restore, and `who` does not know that yet."""
     if spec.restores_stepwise:

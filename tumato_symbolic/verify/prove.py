@@ -28,9 +28,7 @@ from tumato_symbolic.verify.result import (
     properties_of,
     stopped,
 )
-
-OBLIGATION_BUDGET = 30.0
-"""How many seconds Z3 may think about one obligation, and the walk about one property."""
+from tumato_symbolic.verify.undecided import OBLIGATION_BUDGET
 
 
 def verify(

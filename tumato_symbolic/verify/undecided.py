@@ -1,6 +1,11 @@
-"""What provers raise where they come to no verdict."""
+"""When provers give up, and what they raise then."""
 
 from __future__ import annotations
+
+from typing import Final
+
+OBLIGATION_BUDGET: Final = 30.0
+"""How many seconds Z3 may think about one obligation, and the walk about one property."""
 
 
 class UndecidedError(Exception):

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TypeAlias
 
 from tumato_symbolic.semantics import ActionSet, Quality
 from tumato_symbolic.spec import Spec
@@ -26,9 +25,6 @@ class Rival:
     chosen: ActionSet
     quality: Quality
     misses: Code | None
-
-
-Pair: TypeAlias = tuple[Code, ActionSet]
 
 
 class SeveralSteps:

@@ -19,14 +19,11 @@ from tumato_symbolic.semantics import is_safe, is_start, is_valid, state_text
 from tumato_symbolic.spec import Ordering, Spec, digest
 from tumato_symbolic.spec.support import require_one_step
 from tumato_symbolic.verify.result import UnrealizabilityKind, UnrealizabilityVerdict
-from tumato_symbolic.verify.undecided import UndecidedError
+from tumato_symbolic.verify.undecided import OBLIGATION_BUDGET, UndecidedError
 from tumato_symbolic.verify.unrealizability.false_claim import FalseClaimError
 from tumato_symbolic.verify.unrealizability.no_part import check_no_part, conflicts_of
 from tumato_symbolic.verify.unrealizability.no_restoration import check_no_restoration
 from tumato_symbolic.verify.unrealizability.obligations import Obligations
-
-OBLIGATION_BUDGET = 30.0
-"""How many seconds Z3 may think about one obligation."""
 
 _WRITES_FIRST = (
     "it is for the effect ordering any, but the specification writes first, under which more sets are allowed"
