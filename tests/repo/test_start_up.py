@@ -80,6 +80,27 @@ def test_decide_loads_neither_solver_nor_parser() -> None:
     assert _loaded("decide", str(policy), *state) == (0, set())
 
 
+_FOR_OTHERS = {
+    "cli.many", "synthesis.conflict", "synthesis.diagnosis", "report.guaranteed", "policy.lookup",
+    "policy.decisions.rules", "semantics.traces", "semantics.shortcomings", "verify.guarantees.result",
+    "verify.by_diagrams.prover", "verify.by_states.prover", "verify.by_z3.best_property", "verify.by_z3.effort_source",
+}  # fmt: skip
+"""What serves several files, other provers, and answers that are not the plain one."""
+
+
+@pytest.mark.parametrize("command", ["synth", "verify"])
+def test_the_plain_answer_loads_nothing_for_others(command: str, tmp_path: Path) -> None:
+    """A policy that Z3 proves needs no other prover, no diagnosis and no execution."""
+    spec, policy = str(ROOT / "examples" / "amr.tum"), str(tmp_path / "policy.json")
+    words = {
+        "synth": ("synth", spec, "-o", policy),
+        "verify": ("verify", str(ROOT / "proofs" / "amr.policy.json"), spec),
+    }
+    probe = f"{_ROOMS}    print(*(name.removeprefix('tumato_symbolic.') for name in sys.modules))"
+    done = subprocess.run([sys.executable, "-c", probe, *words[command]], capture_output=True, text=True, check=True)
+    assert _FOR_OTHERS & set(done.stdout.split("\n")[-2].split()) == set()
+
+
 def test_verify_does_not_load_the_engine() -> None:
     """`verify` imports no dd, for it shares nothing with the engine, and no lark, and nothing for unrealizability."""
     files = (str(ROOT / "proofs" / "amr.policy.json"), str(ROOT / "examples" / "amr.tum"))

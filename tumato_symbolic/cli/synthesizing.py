@@ -67,8 +67,8 @@ def _without_policy(done: Synthesized) -> Synthesized:
 def _prove_policy(
     so_far: Synthesized, outcome: Realizable, prover: ProverName, jobs: int | None, context: Context
 ) -> Synthesized:
-    from tumato_symbolic.cli.verifying import wanted_jobs
     from tumato_symbolic.verify import verify
+    from tumato_symbolic.verify.workers import cores
 
     started = time.perf_counter()
 
@@ -80,7 +80,7 @@ def _prove_policy(
         so_far.spec,
         ordering=outcome.statistics.ordering,
         prover=prover,
-        jobs=wanted_jobs(jobs),
+        jobs=jobs or cores(),
         context=context.within(learned=lambda found: context.learn(_without_policy(having(found)))),
     )
     if proof.verdict == "refuted":

@@ -15,7 +15,6 @@ from tumato_symbolic.limits import Context
 from tumato_symbolic.policy import Policy
 from tumato_symbolic.report.verified import Verified
 from tumato_symbolic.verify import verify
-from tumato_symbolic.verify.guarantees.result import Guarantees
 from tumato_symbolic.verify.result import stopped
 from tumato_symbolic.verify.workers import cores
 
@@ -26,6 +25,7 @@ if TYPE_CHECKING:
     from tumato_symbolic.report.unrealizable import VerifiedUnrealizable
     from tumato_symbolic.spec import Ordering, Restoration, Spec
     from tumato_symbolic.verify import ProverName, UnrealizabilityVerdict, Verification
+    from tumato_symbolic.verify.guarantees.result import Guarantees
 
     Verdict: TypeAlias = Verified | VerifiedUnrealizable
 
@@ -137,6 +137,8 @@ def write_certificate(certificate: GuaranteesCertificate, target: str) -> None:
 
 def _not_yet(verification: Verification) -> Guarantees:
     """What is said of guarantees before they are looked at."""
+    from tumato_symbolic.verify.guarantees.result import Guarantees
+
     if verification.verdict == "proved":
         return Guarantees("undecided")
     return Guarantees("unproved", reason=f"the policy is {verification.verdict}")
@@ -146,8 +148,8 @@ def ended(known: Verdict, why: str) -> Verdict:
     """What was known of a claim when a limit was met."""
     if isinstance(known, Verified):
         known = replace(known, verification=stopped(known.verification, why))
-        if known.guarantees == Guarantees("undecided"):
-            known = replace(known, guarantees=Guarantees("undecided", reason=why))
+        if known.guarantees is not None and known.guarantees.status == "undecided" and known.guarantees.reason is None:
+            known = replace(known, guarantees=replace(known.guarantees, reason=why))
         return known
     return replace(known, found=replace(known.found, reason=why))
 

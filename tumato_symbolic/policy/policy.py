@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 from tumato_symbolic.diagnostics.wording import count
 from tumato_symbolic.policy.formats import policy_fields
-from tumato_symbolic.policy.lookup import Decider, make_decider
 from tumato_symbolic.policy.records import Certificate, DecisionDiagram, PolicyFields, Table, Vocabulary
 from tumato_symbolic.policy.text import read_text
 from tumato_symbolic.spec import Ordering, Restoration, Spec, Value
@@ -17,6 +16,8 @@ from tumato_symbolic.spec import Ordering, Restoration, Spec, Value
 if TYPE_CHECKING:
     from networkx import DiGraph
     from pandas import DataFrame
+
+    from tumato_symbolic.policy.lookup import Decider
 
 MOST_ROWS = 100_000
 """A table of a policy has so many rows at most, unless more are asked for."""
@@ -64,6 +65,8 @@ class Policy:
         """
         decider = self._decider
         if decider is None:
+            from tumato_symbolic.policy.lookup import make_decider
+
             decider = make_decider(self.vocabulary, self.decisions)
             object.__setattr__(self, "_decider", decider)
         return decider.decide(state)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from textwrap import indent
 from typing import Final
 
 from tumato_symbolic.diagnostics import Code
@@ -65,6 +64,8 @@ _LEFT_OUT = "A step is left out here if it may lead to a state from where there 
 
 
 def _no_allowed_set(place: Place, failure: Failure, ordering: Ordering) -> list[str]:
+    from textwrap import indent
+
     return [
         *_head(place, failure, "no allowed set of actions"),
         "The sets that come nearest, and what rules them out:",

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from tumato_symbolic.policy import Policy, count_defined, never_executed
 from tumato_symbolic.report.layout import enumeration
-from tumato_symbolic.report.trees import tree_lines
 from tumato_symbolic.spec import Spec
-from tumato_symbolic.views import Folded, Questions, Tree, rows, select
+
+if TYPE_CHECKING:
+    from tumato_symbolic.views import Tree
 
 _PICTURED_STATES = 10_000
 _PICTURED_LINES = 30
@@ -21,6 +24,8 @@ def drawn(spec: Spec, policy: Policy, show: str, *, restores: bool) -> str:
     tree = _tree(spec, policy)
     if tree is None:
         return f"What it does takes more than {_PICTURED_LINES} lines, which are left out here. To see them:\n  {show}"
+    from tumato_symbolic.report.trees import tree_lines
+
     legend = " (! restores safety)" if restores else ""
     return "\n".join((f"What it does{legend}:", *(f"  {line}" for line in tree_lines(policy.vocabulary, tree))))
 
@@ -29,6 +34,8 @@ def _tree(spec: Spec, policy: Policy) -> Tree | None:
     """The whole policy, where that takes a few lines."""
     if count_defined(policy) > _PICTURED_STATES:
         return None
+    from tumato_symbolic.views import Folded, Questions, rows, select
+
     tree = Questions(select(policy, spec=spec).joint()).tree(_PICTURED_LINES)
     whole = tree is not None and not any(isinstance(row.leaf, Folded) for row in rows(tree))
     return tree if whole else None

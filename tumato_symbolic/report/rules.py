@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from tumato_symbolic.diagnostics.cubes import actions_text, named_cube_text
-from tumato_symbolic.policy import Rule, RuleList
 from tumato_symbolic.report.cubes import named_json
 from tumato_symbolic.report.layout import count
 from tumato_symbolic.views import OTHER
+
+if TYPE_CHECKING:
+    from tumato_symbolic.policy import Rule, RuleList
 
 OTHERWISE = "otherwise"
 

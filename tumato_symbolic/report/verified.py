@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import shlex
 from dataclasses import dataclass, replace
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source
 from tumato_symbolic.report.findings import Finding, finding_json, findings_of
-from tumato_symbolic.report.guaranteed import guarantees_json, guarantees_lines, guarantees_summary
 from tumato_symbolic.report.layout import Paint, enumeration, seconds
 from tumato_symbolic.report.objections import Place
 from tumato_symbolic.report.proof import (
@@ -20,7 +19,6 @@ from tumato_symbolic.report.proof import (
     states_covered,
 )
 from tumato_symbolic.spec import Restoration, Spec
-from tumato_symbolic.verify.guarantees.result import Guarantees
 from tumato_symbolic.verify.result import (
     CertificateUse,
     OrderingSource,
@@ -29,6 +27,9 @@ from tumato_symbolic.verify.result import (
     Verification,
     properties_of,
 )
+
+if TYPE_CHECKING:
+    from tumato_symbolic.verify.guarantees.result import Guarantees
 
 _CERTIFICATES = {
     "used": "used in the proof",
@@ -107,6 +108,8 @@ def as_text(done: Verified, colour: bool) -> str:
     if left:
         lines.append(f"Not checked: {enumeration(left)}.")
     if done.guarantees is not None:
+        from tumato_symbolic.report.guaranteed import guarantees_lines
+
         lines += ["", *(f"  {line}" for line in guarantees_lines(done.place, done.guarantees, paint))]
     if done.not_accepted:
         lines += ["", f"{paint.bad('Not accepted')} (--strict): the certificate is {found.certificate.status}."]
@@ -148,7 +151,7 @@ def as_json(done: Verified) -> dict[str, object]:
         "effect_ordering_from": done.verification.ordering_source,
         "policy": done.policy,
         "specification": done.source.name,
-        **({"guarantees": guarantees_json(done.spec, done.guarantees)} if done.guarantees is not None else {}),
+        **_guarantees_json(done),
         "strict": done.strict,
         "accepted": done.verification.verdict == "proved" and not done.not_accepted,
         "seconds": round(done.took, 3),
@@ -157,6 +160,14 @@ def as_json(done: Verified) -> dict[str, object]:
             *(finding_json(warning, done.policy) for warning in _misfits(done)),
         ],
     }
+
+
+def _guarantees_json(done: Verified) -> dict[str, object]:
+    if done.guarantees is None:
+        return {}
+    from tumato_symbolic.report.guaranteed import guarantees_json
+
+    return {"guarantees": guarantees_json(done.spec, done.guarantees)}
 
 
 def findings(done: Verified) -> list[Finding]:
@@ -177,6 +188,8 @@ def findings(done: Verified) -> list[Finding]:
 
 
 def _guarantees(guarantees: Guarantees, policy: str) -> Finding:
+    from tumato_symbolic.report.guaranteed import guarantees_summary
+
     summary = guarantees_summary(guarantees)
     if guarantees.status == "undecided":
         return Finding("error", summary, policy, title="guarantees undecided")

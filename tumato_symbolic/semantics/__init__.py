@@ -1,5 +1,10 @@
 """The meaning of specifications: explicit, one state at a time, slow and plain. See `docs/semantics.md`."""
 
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
 from tumato_symbolic.semantics.cases import actions_of, case_in, cases_in, without_cases
 from tumato_symbolic.semantics.exclusion import (
     Contest,
@@ -19,10 +24,8 @@ from tumato_symbolic.semantics.goals import (
 )
 from tumato_symbolic.semantics.guarantees import Guarantee, Prospects, guarantees, steps_from
 from tumato_symbolic.semantics.judge import Judgement, better_sets, judge
-from tumato_symbolic.semantics.partial import settled_truth
 from tumato_symbolic.semantics.restoration import AT_ONCE, Effort, Quality, Restorations, longer, restored
 from tumato_symbolic.semantics.runs import End, Run, follow
-from tumato_symbolic.semantics.shortcomings import Shortcoming, Shortcomings, shows
 from tumato_symbolic.semantics.states import (
     NOTHING,
     ActionSet,
@@ -61,7 +64,11 @@ from tumato_symbolic.semantics.step import (
     successor,
     takes_effect,
 )
-from tumato_symbolic.semantics.traces import Disturbance, Event, Move, Trace, moves_from
+
+if TYPE_CHECKING:
+    from tumato_symbolic.semantics.partial import settled_truth
+    from tumato_symbolic.semantics.shortcomings import Shortcoming, Shortcomings, shows
+    from tumato_symbolic.semantics.traces import Disturbance, Event, Move, Trace, moves_from
 
 __all__ = [
     "AT_ONCE",
@@ -140,3 +147,16 @@ __all__ = [
     "takes_effect",
     "without_cases",
 ]
+
+_LATER = {
+    "settled_truth": "partial",
+    **dict.fromkeys(("Shortcoming", "Shortcomings", "shows"), "shortcomings"),
+    **dict.fromkeys(("Disturbance", "Event", "Move", "Trace", "moves_from"), "traces"),
+}
+
+
+def __getattr__(name: str) -> Any:  # noqa: ANN401 - the kinds differ, and type checkers read the imports above
+    """Executions, and what they show, are imported on first use: a synthesis and a proof need none."""
+    if name not in _LATER:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_LATER[name]}"), name)

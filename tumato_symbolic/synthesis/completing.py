@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from tumato_symbolic.diagnostics import Diagnostic
 from tumato_symbolic.game import (
@@ -16,7 +17,6 @@ from tumato_symbolic.game import (
 )
 from tumato_symbolic.spec.many_goals import many_told
 from tumato_symbolic.symbolic import Bdd
-from tumato_symbolic.synthesis.conflict import RepairConflict
 from tumato_symbolic.synthesis.overriding import override, revert_unneeded
 from tumato_symbolic.synthesis.result import (
     Failure,
@@ -24,6 +24,9 @@ from tumato_symbolic.synthesis.result import (
     Undecided,
     Unrealizable,
 )
+
+if TYPE_CHECKING:
+    from tumato_symbolic.synthesis.conflict import RepairConflict
 
 
 def unrealizable(
@@ -102,6 +105,7 @@ def _repaired(
 
     Or what a tour achieves, where repair takes long; or why there is none: the goals are in conflict.
     """
+    from tumato_symbolic.synthesis.conflict import RepairConflict
     from tumato_symbolic.synthesis.repair import ROUNDS, RoundsExhaustedError
 
     problem = evaluator.problem
@@ -118,6 +122,7 @@ def _repaired_or_toured(
     evaluator: Evaluator, so_far: Evaluation, apart: tuple[Layers, ...], way: Alone | None
 ) -> tuple[Bdd, Bdd] | Evaluation | RepairConflict:
     """Some rounds of repair, a look for a tour, and the other rounds. Raises `RoundsExhaustedError` after these."""
+    from tumato_symbolic.synthesis.conflict import RepairConflict
     from tumato_symbolic.synthesis.repair import Repair, RoundsExhaustedError
     from tumato_symbolic.synthesis.stepwise_repair import StepwiseRepair
     from tumato_symbolic.synthesis.touring import ROUNDS_BEFORE_TOUR, tour

@@ -28,7 +28,6 @@ from tumato_symbolic.symbolic import Backend, Bdd, available_backend
 from tumato_symbolic.synthesis.certificate import policy_diagram
 from tumato_symbolic.synthesis.completing import completed, count_decided, unrealizable
 from tumato_symbolic.synthesis.counting import restored_in
-from tumato_symbolic.synthesis.diagnosis import restorability
 from tumato_symbolic.synthesis.failing import failing_states, failures_of, has_stuck_states, reason_of
 from tumato_symbolic.synthesis.leaving import leaving
 from tumato_symbolic.synthesis.lint import lint
@@ -81,6 +80,8 @@ def synthesize(
 
 
 def _diagnosed(problem: Problem, answer: Unrealizable) -> Unrealizable:
+    from tumato_symbolic.synthesis.diagnosis import restorability
+
     problem.context.learn(answer)
     return replace(answer, restorability=restorability(problem))
 

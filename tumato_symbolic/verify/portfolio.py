@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import cached_property, partial
+from functools import cached_property
 from math import inf
 from typing import TYPE_CHECKING, Protocol
 
 from tumato_symbolic.limits import Budget, has_z3, need_z3
 from tumato_symbolic.policy import Policy, Table, count_defined
 from tumato_symbolic.spec import Ordering, Spec, goal_parameters
-from tumato_symbolic.verify.by_diagrams.prover import WalkProver
-from tumato_symbolic.verify.by_states.prover import StateProver
 from tumato_symbolic.verify.decisions import LARGEST_TABLE
 from tumato_symbolic.verify.result import CertificateUse, PropertyName, PropertyResult, ProverName
 
 if TYPE_CHECKING:
+    from tumato_symbolic.verify.by_diagrams.prover import WalkProver
+    from tumato_symbolic.verify.by_states.prover import StateProver
     from tumato_symbolic.verify.by_z3.prover import Z3Prover
 
 SOON = 2.0
@@ -76,9 +76,9 @@ def make_prover(name: ProverName, spec: Spec, policy: Policy, ordering: Ordering
         case "z3":
             return _z3(spec, policy, ordering, budget)
         case "walk":
-            return WalkProver(spec, policy, ordering, budget)
+            return _walk(spec, policy, ordering, budget)
         case "explicit":
-            return StateProver(spec, policy, ordering, budget.context)
+            return _explicit(spec, policy, ordering, budget)
         case "both":
             return _Both(spec, policy, ordering, budget)
         case _:
@@ -92,42 +92,55 @@ def _z3(spec: Spec, policy: Policy, ordering: Ordering, budget: Budget) -> Z3Pro
     return Z3Prover(spec, policy, ordering, budget)
 
 
+def _walk(spec: Spec, policy: Policy, ordering: Ordering, budget: Budget) -> WalkProver:
+    from tumato_symbolic.verify.by_diagrams.prover import WalkProver
+
+    return WalkProver(spec, policy, ordering, budget)
+
+
+def _explicit(spec: Spec, policy: Policy, ordering: Ordering, budget: Budget) -> StateProver:
+    from tumato_symbolic.verify.by_states.prover import StateProver
+
+    return StateProver(spec, policy, ordering, budget.context)
+
+
 class _Pair:
-    """Z3 and the walk for one policy; Z3 is loaded when it is asked."""
+    """Z3 and the walk for one policy; each prover is loaded when it is asked."""
 
     def __init__(self, spec: Spec, policy: Policy, ordering: Ordering, budget: Budget) -> None:
         self._policy = policy
         self._cases = len(spec.actions) if spec.has_cases else 0
         self._goals_are_many = goal_parameters(spec) is not None
-        self._walk = WalkProver(spec, policy, ordering, budget)
-        self._make_z3 = partial(_z3, spec, policy, ordering, budget)
-        self._make_explicit = partial(StateProver, spec, policy, ordering, budget.context)
+        self._judged = spec, policy, ordering, budget
+        self._policy_is_safe = False
+
+    @cached_property
+    def _walk(self) -> WalkProver:
+        prover = _walk(*self._judged)
+        prover.policy_is_safe = self._policy_is_safe
+        return prover
 
     @cached_property
     def _z3(self) -> Z3Prover:
-        prover = self._make_z3()
-        prover.policy_is_safe = self._walk.policy_is_safe
+        prover = _z3(*self._judged)
+        prover.policy_is_safe = self._policy_is_safe
         return prover
 
     @cached_property
     def _explicit(self) -> StateProver:
-        prover = self._make_explicit()
-        prover.policy_is_safe = self._walk.policy_is_safe
+        prover = _explicit(*self._judged)
+        prover.policy_is_safe = self._policy_is_safe
         return prover
 
     @property
     def _asked(self) -> list[Z3Prover | WalkProver | StateProver]:
-        asked: list[Z3Prover | WalkProver | StateProver] = [self._walk]
-        if "_z3" in self.__dict__:
-            asked.append(self._z3)
-        if "_explicit" in self.__dict__:
-            asked.append(self._explicit)
-        return asked
+        return [self.__dict__[name] for name in ("_walk", "_z3", "_explicit") if name in self.__dict__]
 
     @property
     def use(self) -> CertificateUse:
         """The worse of what became of the certificate."""
-        return min((prover.use for prover in self._asked), key=lambda use: _WORST_FIRST.index(use.status))
+        used = (prover.use for prover in self._asked)
+        return min(used, key=lambda use: _WORST_FIRST.index(use.status), default=CertificateUse("unneeded"))
 
     def has_valid_state(self) -> bool:
         """Whether some state is valid, as far as the first who is asked can tell."""
@@ -181,6 +194,7 @@ class _Auto(_Pair):
         """The verdict of the first prover that reaches one."""
         result = self._prove(name)
         if name == "safe" and result.verdict == "proved":
+            self._policy_is_safe = True
             for prover in self._asked:
                 prover.policy_is_safe = True
         return result

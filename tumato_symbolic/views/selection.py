@@ -9,7 +9,7 @@ from typing import NoReturn
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.diagnostics.wording import listed, nearest, quoted
-from tumato_symbolic.policy import Vocabulary, parse_assignments
+from tumato_symbolic.policy import Vocabulary
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +66,8 @@ def _allowed(vocabulary: Vocabulary, word: str) -> tuple[str, set[str]]:
     values = dict(vocabulary.variables).get(name, ())
     named = [text] if text in values else [each.strip() for each in text.split(",")]
     problems: list[Diagnostic] = []
+    from tumato_symbolic.policy import parse_assignments
+
     for each in named:
         try:
             parse_assignments(vocabulary, [f"{name}={each}"], whole=False)

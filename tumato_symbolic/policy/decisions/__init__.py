@@ -13,26 +13,21 @@ from tumato_symbolic.policy.decisions.convert import (
     some_decided,
 )
 from tumato_symbolic.policy.decisions.part import formula_of, judged_within
-from tumato_symbolic.policy.decisions.rules import Rule, RuleList, find_rules, minimal_rules
 from tumato_symbolic.policy.decisions.state_sets import StateSets
 
 __all__ = [
     "Renumbering",
     "Roots",
-    "Rule",
-    "RuleList",
     "StateSets",
     "as_diagram",
     "as_table",
     "bind",
     "count_defined",
     "decided_at",
-    "find_rules",
     "fitted",
     "formula_of",
     "judged_within",
     "made_for_less",
-    "minimal_rules",
     "minimized",
     "minimized_decisions",
     "never_executed",

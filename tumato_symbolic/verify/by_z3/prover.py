@@ -6,24 +6,25 @@ import math
 import time
 from collections.abc import Callable, Sequence
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 from tumato_symbolic.diagrams import count_true
 from tumato_symbolic.limits import Budget
 from tumato_symbolic.policy import Policy, Table, as_diagram
 from tumato_symbolic.semantics import is_valid
 from tumato_symbolic.spec import Ordering, Spec
-from tumato_symbolic.verify.by_z3.best_property import prove_best
-from tumato_symbolic.verify.by_z3.effort_source import EffortSource
 from tumato_symbolic.verify.by_z3.encoding import formula_term
 from tumato_symbolic.verify.by_z3.goals_property import prove_goals
 from tumato_symbolic.verify.by_z3.minimal_property import prove_minimal
 from tumato_symbolic.verify.by_z3.policy_problem import PolicyProblem
 from tumato_symbolic.verify.by_z3.rank_source import RankSource
-from tumato_symbolic.verify.by_z3.restoring_property import prove_restoring
 from tumato_symbolic.verify.by_z3.solver import UndecidedError
 from tumato_symbolic.verify.by_z3.step_property import prove_safe, prove_total
 from tumato_symbolic.verify.by_z3.terms import conjunction, negation
 from tumato_symbolic.verify.result import CertificateUse, PropertyName, PropertyResult
+
+if TYPE_CHECKING:
+    from tumato_symbolic.verify.by_z3.effort_source import EffortSource
 
 
 class Z3Prover:
@@ -51,6 +52,8 @@ class Z3Prover:
 
     @cached_property
     def _efforts(self) -> EffortSource:
+        from tumato_symbolic.verify.by_z3.effort_source import EffortSource
+
         return EffortSource(self._problem, self._ranks, self._ordering, self.policy_is_safe)
 
     def has_valid_state(self) -> bool:
@@ -69,10 +72,14 @@ class Z3Prover:
                 case "safe":
                     result = prove_safe(self._problem, self._ordering)
                 case "restoring":
+                    from tumato_symbolic.verify.by_z3.restoring_property import prove_restoring
+
                     result = prove_restoring(self._problem, self._efforts, self._ordering)
                 case "goals":
                     result = prove_goals(self._problem, self._ranks)
                 case _ if self._spec.restores_stepwise:
+                    from tumato_symbolic.verify.by_z3.best_property import prove_best
+
                     result = prove_best(self._problem, self._efforts, self._ordering)
                 case _:
                     result = prove_minimal(self._problem, self._ranks, self._ordering)
