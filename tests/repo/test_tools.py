@@ -5,6 +5,9 @@ from __future__ import annotations
 import re
 import shlex
 import tomllib
+from contextlib import suppress
+from importlib.metadata import PackageNotFoundError, requires
+from itertools import chain
 from typing import Any
 
 import yaml
@@ -25,17 +28,41 @@ def checks() -> set[str]:
     return {line.removeprefix("\t$(BIN)/") for line in recipe.splitlines()}
 
 
-def test_what_is_installed_is_pinned() -> None:
-    """`constraints.txt` pins every direct dependency and development tool, to a version that pyproject.toml allows."""
+def pins() -> dict[str, str]:
+    """The version of each package in `constraints.txt`."""
     lines = [line for line in (ROOT / "constraints.txt").read_text().splitlines() if not line.startswith("#")]
-    pins = {canonicalize_name(name): version for name, _, version in (line.partition("==") for line in lines)}
-    assert all(pins.values())
-    assert len(pins) == len(lines), "each once"
-    assert "pip" not in pins, "it is what installs"
+    found = {str(canonicalize_name(name)): version for name, _, version in (line.partition("==") for line in lines)}
+    assert all(found.values())
+    assert len(found) == len(lines), "each once"
+    assert "pip" not in found, "it is what installs"
+    return found
+
+
+def named() -> list[Requirement]:
+    """What pyproject.toml names: dependencies, those of extras, development tools, and what `make tools` installs."""
+    project, groups = PROJECT["project"], PROJECT["dependency-groups"]
+    extras = chain.from_iterable(project["optional-dependencies"].values())
+    return [Requirement(text) for text in (*project["dependencies"], *extras, *groups["dev"], *groups["tools"])]
+
+
+def test_what_is_installed_is_pinned() -> None:
+    """`constraints.txt` pins all that pyproject.toml names, to a version that it allows; that of a tool is given."""
     assert all("==" in text for text in PROJECT["dependency-groups"]["tools"])
-    for text in (*PROJECT["project"]["dependencies"], *PROJECT["dependency-groups"]["dev"]):
-        wanted = Requirement(text)
-        assert wanted.specifier.contains(pins[canonicalize_name(wanted.name)]), text
+    for each in named():
+        assert each.specifier.contains(pins()[canonicalize_name(each.name)]), each
+
+
+def test_what_that_needs_is_pinned() -> None:
+    """What is named needs other packages, and these others: as far as they are installed here, all have a version."""
+    waiting, known = named(), set[str]()
+    for each in waiting:
+        name = canonicalize_name(each.name)
+        assert name in pins(), each
+        if name not in known:
+            known.add(name)
+            with suppress(PackageNotFoundError):
+                needed = [Requirement(text) for text in requires(name) or ()]
+                waiting += [other for other in needed if other.marker is None or other.marker.evaluate({"extra": ""})]
 
 
 def test_the_makefile_installs_pinned_versions() -> None:
