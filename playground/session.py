@@ -22,7 +22,7 @@ from tumato_symbolic.limits import Context, LimitReachedError, has_z3
 from tumato_symbolic.policy import dumps
 from tumato_symbolic.policy.unrealizability import dumps as certificate_text
 from tumato_symbolic.report.html.page import page
-from tumato_symbolic.report.layout import count, seconds
+from tumato_symbolic.report.layout import seconds
 from tumato_symbolic.report.proof import provers, states_covered
 from tumato_symbolic.report.synthesized import Synthesized
 from tumato_symbolic.report.unrealizable import proof_line
@@ -132,7 +132,7 @@ def _said(done: Synthesized) -> dict[str, object]:
     """The verdict in a word, a heading, and lines below it."""
     match done.outcome:
         case Realizable(statistics=statistics) if done.written and done.proof is not None:
-            longest = count(statistics.longest_run or 0, "step")
+            longest = statistics.longest_told
             lines = [
                 f"Found in {seconds(done.solved_in)}, proved by {provers(done.proof)} in {seconds(done.proved_in)}.",
                 f"The longest run to a goal takes {longest}.",

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from itertools import pairwise
 
 import pytest
 
-from tumato_symbolic.symbolic import Backend, Manager, available_backend
+from tumato_symbolic.symbolic import Backend, Manager, TooManyNodesError, available_backend
+
+NODES_OF_A_CHAIN = 15
+"""Of `bᵢ₊₁ → bᵢ` for eight bits."""
 
 BACKENDS: list[Backend] = sorted({"autoref", available_backend()})
 
@@ -38,6 +42,7 @@ def test_networkx_is_loaded_only_when_dd_draws() -> None:
     """Importing the engine leaves networkx alone, and dd's drawings still find it."""
     program = """
 import sys
+from itertools import pairwise
 from tumato_symbolic.symbolic import available_backend
 available_backend()
 assert "networkx" not in sys.modules
@@ -47,3 +52,24 @@ engine.add_var("x")
 assert len(dd.bdd.to_nx(engine, {engine.var("x")})) == 2
 """
     subprocess.run([sys.executable, "-c", program], check=True)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_large_diagrams_are_refused_where_that_is_asked(backend: Backend) -> None:
+    """A diagram with more nodes than allowed is refused, alike on both backends, and only where there is a limit."""
+    bits = [f"b{number}" for number in range(8)]
+    manager = Manager(bits, backend)
+    pairs = [manager.cube({one: True}) | ~manager.cube({other: True}) for one, other in pairwise(bits)]
+    found = manager.intersection(pairs)
+    nodes = manager.nodes(found)
+    assert manager.bounded(found) == found
+    with manager.at_most(nodes):
+        assert manager.bounded(found) == found
+    refused = False
+    with manager.at_most(nodes - 1):
+        try:  # `pytest.raises` would keep what the frames hold
+            manager.intersection(pairs)
+        except TooManyNodesError:
+            refused = True
+    assert refused
+    assert nodes == NODES_OF_A_CHAIN

@@ -91,6 +91,7 @@ class Code(Enum):
     TUM355 = ("warning", "a goal that holds already wherever it is active")
     TUM356 = ("remark", "a policy that leaves the region of a goal on the way to it")
     TUM357 = ("warning", "an environment that may lead out of what a policy from the starts decides")
+    TUM358 = ("remark", "sets of several actions that are too many to be compared")
 
     TUM401 = ("error", "states without an allowed set of actions")
     TUM402 = ("error", "states without a plan")

@@ -62,7 +62,7 @@ def answer(source: Source, context: Context) -> Answer:
     hints = tuple(_hints(source, spec, outcome))
     match outcome:
         case Realizable():
-            longest = count(outcome.statistics.longest_run or 0, "step")
+            longest = outcome.statistics.longest_told
             return Answer("realizable", f"realizable; the longest run to a goal takes {longest}", hints)
         case Unrealizable():
             failures = tuple(_failures(source, spec, outcome))

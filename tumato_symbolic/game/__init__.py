@@ -12,7 +12,7 @@ from tumato_symbolic.game.fixpoints import (
     mixed,
     preimage,
 )
-from tumato_symbolic.game.problem import Problem, build_problem, with_goals
+from tumato_symbolic.game.problem import Problem, build_problem, with_all_sets, with_goals
 from tumato_symbolic.game.reevaluation import Reevaluator
 from tumato_symbolic.game.restoration import Restoration, Restorer
 from tumato_symbolic.game.routing import own_region_policy, route, shortest_decisions
@@ -43,5 +43,6 @@ __all__ = [
     "way_of",
     "winning",
     "winning_alone",
+    "with_all_sets",
     "with_goals",
 ]

@@ -13,8 +13,10 @@ from tumato_symbolic.symbolic import (
     Regions,
     Steps,
     Target,
+    TooManyNodesError,
     build_steps,
     encode,
+    few_steps,
     regions_apart,
     targets,
     together,
@@ -64,15 +66,37 @@ class Problem:
         return None if self.spec.max_plan_length is None else self.spec.max_plan_length - 1
 
 
-def build_problem(spec: Spec, ordering: Ordering, backend: Backend, context: Context | None = None) -> Problem:
-    """Encode a specification and compute its steps, regions and targets."""
+def build_problem(
+    spec: Spec, ordering: Ordering, backend: Backend, context: Context | None = None, *, most: int | None = None
+) -> Problem:
+    """Encode a specification and compute its steps, regions and targets.
+
+    Where the allowed sets make a diagram of more nodes than `most`, it is the problem with one action at a time.
+    """
     context = context or Context()
     context.tell("encoding states and actions")
     encoding = encode(spec, backend, context)
     with encoding.manager.within_memory():
         context.tell("finding the allowed steps")
-        steps = build_steps(encoding, spec, ordering)
-        return with_goals(steps)
+        return with_goals(_steps(encoding, ordering, most))
+
+
+def _steps(encoding: Encoding, ordering: Ordering, most: int | None) -> Steps:
+    if most is None or encoding.spec.restores_stepwise:
+        return build_steps(encoding, encoding.spec, ordering)
+    for build in (build_steps, few_steps):
+        try:
+            with encoding.manager.at_most(most):
+                return build(encoding, encoding.spec, ordering)
+        except TooManyNodesError:
+            continue
+    return build_steps(encoding, encoding.spec, ordering)
+
+
+def with_all_sets(problem: Problem) -> Problem:
+    """The problem with all allowed sets of actions, however many nodes they take."""
+    problem.context.tell("finding the allowed steps of several actions")
+    return with_goals(build_steps(problem.encoding, problem.spec, problem.steps.ordering))
 
 
 def with_goals(steps: Steps) -> Problem:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from tumato_symbolic.game.fixpoints import Layers, attractor, closed_loop, preimage, turns_of
 from tumato_symbolic.game.problem import Problem
+from tumato_symbolic.game.subgoals import one_after_the_other, subgoals_of
 from tumato_symbolic.semantics import ActiveGoals
 from tumato_symbolic.symbolic import Bdd, Rounds, Target, Turn, preferred, with_own_bits
 
@@ -19,6 +20,7 @@ class OwnRegions:
     """Decisions whose runs stay where the same goals are active until these are reached, with the fewest steps.
 
     `ranks` are those of the policy, as `attractor` gives them, where they are known: a single target, and one region.
+    Where one subgoal is reached after the other, runs are not the shortest, and may be shorter than their ranks.
     """
 
     policy: Bdd
@@ -38,13 +40,26 @@ def own_region_policy(problem: Problem) -> OwnRegions:
         here = region & problem.steps.safe
         wanted = [target for target in targets_in.get(active, ()) if (target.pending & here) != problem.false]
         if len(wanted) == 1:
-            decided, layers = _nearest_first(problem, wanted[0], here, here)
-            if len(problem.targets) == 1 and here == problem.steps.safe:
+            decided, layers, ranked = _in_region(problem, wanted[0], here, active)
+            if ranked and len(problem.targets) == 1 and here == problem.steps.safe:
                 return OwnRegions(decided, (layers,))
             policy = policy | decided
         elif wanted:
             policy = policy | route(problem, problem.false, here, here, wanted)
     return OwnRegions(policy)
+
+
+def _in_region(problem: Problem, target: Target, here: Bdd, active: ActiveGoals) -> tuple[Bdd, Layers, bool]:
+    """Decisions for the region of some goals, the layers of the target, and whether these are good enough as ranks.
+
+    With one action at a time runs are not the shortest anyway: then subgoals are reached one after the other, which
+    takes much smaller diagrams. Exact ranks are needed where runs are bounded, or unsafe states ask how long they are.
+    """
+    subgoals = subgoals_of(problem, active) if problem.steps.one_at_a_time else []
+    found = one_after_the_other(problem, target, here, subgoals) if len(subgoals) > 1 else None
+    if found is None:
+        return (*_nearest_first(problem, target, here, here), True)
+    return (*found, problem.spec.max_plan_length is None and problem.steps.unsafe == problem.false)
 
 
 def _all_regions(problem: Problem, target: Target) -> Bdd:

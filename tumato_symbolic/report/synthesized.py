@@ -102,7 +102,7 @@ def _engine(statistics: Statistics) -> list[str]:
 def _realizable(done: Synthesized, outcome: Realizable, paint: Paint) -> list[str]:
     statistics = outcome.statistics
     bound = done.spec.max_plan_length
-    longest = f"  longest run to a goal: {count(statistics.longest_run or 0, 'step')}"
+    longest = f"  longest run to a goal: {statistics.longest_told}"
     longest += "" if bound is None else f" (max_plan_length: {bound})"
     verdict = (
         f"is {paint.good('realizable')}: the policy decides" if done.written else "may be realizable: a policy decides"
@@ -236,6 +236,7 @@ def as_json(done: Synthesized) -> dict[str, object]:
         if statistics
         else None,
         "longest_run": statistics.longest_run if statistics else None,
+        **({"one_at_a_time": True} if statistics and statistics.one_at_a_time else {}),
         **({"never_executed": never_executed(outcome.policy)} if isinstance(outcome, Realizable) else {}),
         **restored_json(statistics),
         **_starts_json(done.spec, statistics),

@@ -3,6 +3,7 @@
 from tumato_symbolic.symbolic.choose import by_duration, lasting, least_duration, preferred
 from tumato_symbolic.symbolic.encoding import Encoding, encode
 from tumato_symbolic.symbolic.extract import Extractor
+from tumato_symbolic.symbolic.few import few_sets, few_steps
 from tumato_symbolic.symbolic.goals import (
     Regions,
     Target,
@@ -15,10 +16,11 @@ from tumato_symbolic.symbolic.goals import (
     with_own_bits,
 )
 from tumato_symbolic.symbolic.layout import Layout, lay_out
-from tumato_symbolic.symbolic.manager import Backend, Bdd, Manager, available_backend
+from tumato_symbolic.symbolic.manager import Backend, Bdd, Manager, TooManyNodesError, available_backend
 from tumato_symbolic.symbolic.present import Leading
 from tumato_symbolic.symbolic.steps import (
     Steps,
+    applicable_parts,
     build_steps,
     compatible_sets,
     meant_sets,
@@ -40,12 +42,16 @@ __all__ = [
     "Rounds",
     "Steps",
     "Target",
+    "TooManyNodesError",
     "Turn",
+    "applicable_parts",
     "available_backend",
     "build_steps",
     "by_duration",
     "compatible_sets",
     "encode",
+    "few_sets",
+    "few_steps",
     "in_turns",
     "lasting",
     "lay_out",

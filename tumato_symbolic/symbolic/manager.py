@@ -35,6 +35,10 @@ class Bdd(Protocol):
         """Complement."""
 
 
+class TooManyNodesError(Exception):
+    """A diagram has more nodes than `Manager.at_most` allows."""
+
+
 class _Later(ModuleType):
     """Stands for a module until one of its functions or classes is called."""
 
@@ -98,6 +102,7 @@ class Manager:
     def __init__(self, bits: Sequence[str], backend: Backend, context: Context | None = None) -> None:
         self.backend = backend
         self.context = context or Context()
+        self._most: int | None = None
         self._module: Any = _import_dd(backend)
         self._bdd: Any = self._module.BDD(**_settings(backend, len(bits)))
         self._bdd.configure(reordering=False)
@@ -120,6 +125,21 @@ class Manager:
             if self.context.limits.megabytes is not None and _raised_by_cudd(error):
                 raise LimitReachedError(self.context.described("memory")) from error
             raise
+
+    @contextmanager
+    def at_most(self, nodes: int) -> Iterator[None]:
+        """Have `bounded` raise `TooManyNodesError` for larger diagrams; the same ones on every backend."""
+        self._most = nodes
+        try:
+            yield
+        finally:
+            self._most = None
+
+    def bounded(self, u: Bdd) -> Bdd:
+        """`u`, if it has no more nodes than are allowed."""
+        if self._most is not None and self.nodes(u) > self._most:
+            raise TooManyNodesError
+        return u
 
     def cube(self, values: Mapping[str, bool]) -> Bdd:
         """The vectors in which the given bits have the given values."""
@@ -180,7 +200,7 @@ class Manager:
 
     def _both(self, u: Bdd, v: Bdd) -> Bdd:
         self.context.check()
-        return u & v
+        return self.bounded(u & v)
 
     def _levels_of(self, u: Any) -> list[int]:  # noqa: ANN401 - dd has no types
         return sorted(map(self._level.__getitem__, self._bdd.support(u)))

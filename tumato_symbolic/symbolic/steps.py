@@ -6,6 +6,7 @@ is composed group by group (`docs/semantics.md`, section 3).
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
 from operator import and_
@@ -16,6 +17,9 @@ from tumato_symbolic.symbolic.encoding import Encoding
 from tumato_symbolic.symbolic.layout import Group, Layout
 from tumato_symbolic.symbolic.manager import Bdd
 
+LARGE = 20_000
+"""Nodes of a relation that is not multiplied by many more at once."""
+
 
 @dataclass(frozen=True)
 class Steps:
@@ -23,7 +27,8 @@ class Steps:
 
     `valid` and `safe` are sets of states; `candidates` relates valid states to sets of actions that satisfy conditions
     1 to 3 of section 3, and `allowed` is `Ok(s, A)`, or `Keep(s, A)` where safety may take several steps to restore.
-    `tiers` has `S_0` to `S_m`, from the valid states to the safe ones (section 10).
+    `tiers` has `S_0` to `S_m`, from the valid states to the safe ones (section 10). With `one_at_a_time`, the only
+    sets in safe states are some of `few_sets`; `candidates` are then no more than `allowed`.
     """
 
     encoding: Encoding
@@ -33,6 +38,7 @@ class Steps:
     candidates: Bdd
     allowed: Bdd
     tiers: tuple[Bdd, ...]
+    one_at_a_time: bool = False
 
     @property
     def unsafe(self) -> Bdd:
@@ -79,7 +85,8 @@ class Steps:
         for group, options in zip(self.encoding.groups, self.encoding.nominal_moves, strict=True):
             split: dict[Assignment, Bdd] = {}
             for written, pairs in found.items():
-                for effect, choices in options:
+                acting = (pairs & ~options[0][1]) != manager.false
+                for effect, choices in options if acting else options[:1]:
                     part = pairs & choices if keep_sets else manager.and_exists(group.bits, pairs, choices)
                     if part != manager.false:
                         both = tuple(sorted({*written, *effect}))
@@ -101,7 +108,8 @@ def build_steps(layout: Layout, spec: Spec, ordering: Ordering, within: Bdd | No
     tiers = tiers_within(encoding, valid)
     safe = tiers[-1]
     compatible, applicable = compatible_sets(encoding), applicable_sets(encoding)
-    candidates = valid & compatible & applicable & meant_sets(encoding)
+    bounded = encoding.manager.bounded
+    candidates = bounded(bounded(valid & compatible & applicable) & meant_sets(encoding))
     allowed = candidates & encoding.all_of(rule.formula for rule in spec.reaction_rules)
     pending = compatible & applicable if spec.preconditions == "throughout" else compatible
     if spec.restores_stepwise:
@@ -154,12 +162,34 @@ def staying_in(encoding: Encoding, ordering: Ordering, safe: Bdd, pending: Bdd, 
 
 
 def applicable_sets(encoding: Encoding) -> Bdd:
-    """The pairs in which every precondition of the chosen actions holds (condition 1)."""
+    """The pairs in which every precondition of the chosen actions holds (condition 1).
+
+    One group after the other, the lowest first, and action by action once that is large: so what is found grows by
+    degrees, and is seen to be too large before it is far too large.
+    """
+    manager, found = encoding.manager, encoding.manager.true
+    of_group: dict[int, list[Bdd]] = {}
+    for cases, part in zip(encoding.spec.cases, applicable_parts(encoding), strict=True):
+        of_group.setdefault(encoding.choice_of[cases[0]][0], []).append(part)
+    for group in lowest_first(encoding):
+        parts = of_group.get(group, [])
+        for part in parts if manager.nodes(found) > LARGE else [manager.intersection(parts)]:
+            found = manager.bounded(found & part)
+    return found
+
+
+def lowest_first(encoding: Encoding) -> list[int]:
+    """The groups, by number, the lowest in the order first."""
+    places = [encoding.manager.level(group.bits[0]) for group in encoding.groups]
+    return sorted(range(len(places)), key=places.__getitem__, reverse=True)
+
+
+def applicable_parts(encoding: Encoding) -> Iterator[Bdd]:
+    """For every action, the pairs without it or in which its preconditions hold."""
     spec = encoding.spec
-    return encoding.manager.intersection(
-        ~encoding.executing_any(cases) | encoding.all_of(rule.formula for rule in spec.actions[cases[0]].preconditions)
-        for cases in spec.cases
-    )
+    for cases in spec.cases:
+        holds = encoding.all_of(rule.formula for rule in spec.actions[cases[0]].preconditions)
+        yield ~encoding.executing_any(cases) | holds
 
 
 def meant_sets(encoding: Encoding) -> Bdd:
@@ -196,12 +226,11 @@ def _always_safe(encoding: Encoding, safe: Bdd) -> Bdd:
     of what it writes: their effects commute.
     """
     written = [_written_by(encoding, group) for group in encoding.groups]
-    places = [encoding.manager.level(group.bits[0]) for group in encoding.groups]
-    result, waiting = safe, dict.fromkeys(sorted(range(len(places)), key=places.__getitem__, reverse=True))
+    result, waiting = safe, dict.fromkeys(lowest_first(encoding))
     while waiting:
         taken = next(iter(waiting))
         del waiting[taken]
-        stronger = result & _after_effect_of(encoding, encoding.groups[taken], result)
+        stronger = encoding.manager.bounded(result & _after_effect_of(encoding, encoding.groups[taken], result))
         if stronger != result:
             others = (other for other in range(len(written)) if other != taken)
             waiting |= dict.fromkeys(other for other in others if written[other] & written[taken])
@@ -220,7 +249,7 @@ def _after_any_first_effect(encoding: Encoding, stays_safe: Bdd, asked: Bdd) -> 
     for group in encoding.groups:
         if asked == encoding.manager.false:
             break
-        asked = asked & _after_effect_of(encoding, group, stays_safe)
+        asked = encoding.manager.bounded(asked & _after_effect_of(encoding, group, stays_safe))
     return asked
 
 

@@ -32,9 +32,12 @@ if TYPE_CHECKING:
 def unrealizable(
     problem: Problem, failures: tuple[Failure, ...], statistics: Statistics, warnings: tuple[Diagnostic, ...]
 ) -> Unrealizable:
-    """*Unrealizable*, before there is a certificate for it."""
+    """*Unrealizable*, before there is a certificate for it.
+
+    It is not known to be the answer yet where a smaller part may do, or sets of more actions.
+    """
     answer = Unrealizable(failures, statistics, None, warnings, spec=problem.spec)
-    if problem.spec.starts:  # a smaller part may do
+    if problem.spec.starts or problem.steps.one_at_a_time:
         return answer
     problem.context.learn(answer)
     problem.context.tell("certifying that there is no policy")

@@ -24,7 +24,8 @@ from tumato_symbolic.symbolic import compatible_sets, never_entered
 def lint(problem: Problem) -> tuple[Diagnostic, ...]:
     """Goals that are never entered, rules that nothing breaks, actions that are allowed nowhere; in source order.
 
-    What a predicate's own variables decide is left out: that is said when the specification is read.
+    What a predicate's own variables decide is left out: that is said when the specification is read. With one action at
+    a time, it is not known what larger sets break, and where they are allowed.
     """
     return in_order(
         [
@@ -55,9 +56,10 @@ def _reached_goals(problem: Problem) -> Iterator[Diagnostic]:
 def _idle_rules(problem: Problem) -> Iterator[Diagnostic]:
     encoding, steps = problem.encoding, problem.steps
     everything = encoding.domain() & compatible_sets(encoding)
+    reaction_rules = () if steps.one_at_a_time else problem.spec.reaction_rules
     for rules, tried, where in (
         (problem.spec.state_rules, steps.valid, STATES),
-        (problem.spec.reaction_rules, steps.candidates, SETS),
+        (reaction_rules, steps.candidates, SETS),
     ):
         for rule in rules:
             if keeps_guard(problem.spec, rule):
@@ -69,6 +71,8 @@ def _idle_rules(problem: Problem) -> Iterator[Diagnostic]:
 
 def _idle_actions(problem: Problem) -> Iterator[Diagnostic]:
     encoding = problem.encoding
+    if problem.steps.one_at_a_time:
+        return
     somewhere = encoding.manager.exists(encoding.all_state_bits, problem.steps.allowed)
     for cases in problem.spec.cases:
         if (somewhere & encoding.executing_any(cases)) == problem.false:

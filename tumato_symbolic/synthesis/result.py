@@ -41,6 +41,12 @@ class Statistics:
     restoring_durations: int = 0
     restored: RestoredIn | None = None
     part: DecidedPart | None = None
+    one_at_a_time: bool = False
+
+    @property
+    def longest_told(self) -> str:
+        """How many steps the longest run takes, in words."""
+        return ("at most " if self.one_at_a_time else "") + count(self.longest_run or 0, "step")
 
 
 @dataclass(frozen=True, slots=True)

@@ -34,9 +34,7 @@ def solve_from_starts(problem: Problem, so_far: Undecided, solve: Solve, *, cert
 
     With `certify`, that is with a certificate.
     """
-    starts = problem.steps.valid & problem.encoding.formula(problem.spec.start)
-    if starts == problem.false:
-        raise UserError((no_start(problem.spec),))
+    starts = _starts(problem)
     problem.context.tell("finding what can be decided")
     whole = greatest(problem, problem, ())
     assert so_far.statistics is not None, "states are counted first"
@@ -57,6 +55,22 @@ def solve_from_starts(problem: Problem, so_far: Undecided, solve: Solve, *, cert
     warnings = (*outcome.warnings, *_led_out(problem, part.states))
     counted = counted if part is whole else _counted(part, starts)
     return replace(outcome, warnings=warnings, statistics=replace(outcome.statistics, part=counted))
+
+
+def solve_everywhere(problem: Problem, so_far: Undecided, solve: Solve) -> SynthesisResult:
+    """A policy for all valid states, which no larger part can have, or why these have none."""
+    starts = _starts(problem)
+    assert so_far.statistics is not None, "states are counted first"
+    part = _counted(Part(problem, ()), starts)
+    return solve(problem, replace(so_far, statistics=replace(so_far.statistics, part=part)))
+
+
+def _starts(problem: Problem) -> Bdd:
+    """The start states. Raises `UserError` where there are none."""
+    starts = problem.steps.valid & problem.encoding.formula(problem.spec.start)
+    if starts == problem.false:
+        raise UserError((no_start(problem.spec),))
+    return starts
 
 
 def _led_out(problem: Problem, decided: Bdd) -> tuple[Diagnostic, ...]:

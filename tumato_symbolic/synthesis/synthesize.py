@@ -17,6 +17,7 @@ from tumato_symbolic.game import (
     closed_loop,
     in_time,
     own_region_policy,
+    with_all_sets,
 )
 from tumato_symbolic.limits import Context, LimitReachedError
 from tumato_symbolic.policy import Policy, as_table
@@ -31,6 +32,7 @@ from tumato_symbolic.synthesis.counting import restored_in
 from tumato_symbolic.synthesis.failing import failing_states, failures_of, has_stuck_states, reason_of
 from tumato_symbolic.synthesis.leaving import leaving
 from tumato_symbolic.synthesis.lint import lint
+from tumato_symbolic.synthesis.one_at_a_time import not_enough, one_at_a_time
 from tumato_symbolic.synthesis.races import races
 from tumato_symbolic.synthesis.restoring import restoring_policy
 from tumato_symbolic.synthesis.result import (
@@ -46,6 +48,9 @@ TABLE_LIMIT = 10_000
 
 TABLE_MAXIMUM = 1_000_000
 """More states are never written as a table."""
+
+MOST_NODES = 1_000_000
+"""Where the allowed sets of actions make a larger diagram, a policy of one action at a time is looked for first."""
 
 PolicyFormat = Literal["auto", "table", "diagram"]
 
@@ -69,9 +74,13 @@ def synthesize(
     """
     context = context or Context()
     try:
-        problem = build_problem(spec, ordering or spec.ordering, backend or available_backend(), context)
+        engine = backend or available_backend()
+        problem = build_problem(spec, ordering or spec.ordering, engine, context, most=MOST_NODES)
         with problem.encoding.manager.within_memory():
             outcome = _solve(problem, policy_format, certify)
+            if problem.steps.one_at_a_time and not isinstance(outcome, Realizable):
+                problem = with_all_sets(problem)
+                outcome = _solve(problem, policy_format, certify, (not_enough(),))
             if diagnose and isinstance(outcome, Unrealizable) and not spec.starts:
                 return _diagnosed(problem, outcome)
             return outcome
@@ -93,8 +102,10 @@ def stopped(known: object, limit: str) -> Unrealizable | Undecided:
     return Undecided(limit, None)
 
 
-def _solve(problem: Problem, policy_format: PolicyFormat, certify: bool) -> SynthesisResult:
-    """The pipeline behind the encoding."""
+def _solve(
+    problem: Problem, policy_format: PolicyFormat, certify: bool, remarks: tuple[Diagnostic, ...] = ()
+) -> SynthesisResult:
+    """The pipeline behind the encoding; `remarks` are worth knowing whatever the answer."""
     context, statistics = problem.context, _statistics(problem)
     if not statistics.valid:
         raise UserError((no_valid_state(problem.spec),))
@@ -103,13 +114,17 @@ def _solve(problem: Problem, policy_format: PolicyFormat, certify: bool) -> Synt
         raise UserError((Diagnostic(Code.TUM508, message, None, "use `--policy-format diagram`"),))
     context.learn(Undecided("", statistics))
     context.tell("looking for likely mistakes")
-    warnings = lint(problem)
+    warnings = (*lint(problem), *remarks)
     so_far = Undecided("", statistics, warnings)
     context.learn(so_far)
+    if problem.steps.one_at_a_time and has_stuck_states(problem):
+        return so_far
     if problem.spec.starts:
-        from tumato_symbolic.synthesis.starts import solve_from_starts
+        from tumato_symbolic.synthesis.starts import solve_everywhere, solve_from_starts
 
         solve = partial(_decide, policy_format=policy_format, certify=certify)
+        if problem.steps.one_at_a_time:
+            return solve_everywhere(problem, so_far, solve)
         return solve_from_starts(problem, so_far, solve, certify=certify)
     return _decide(problem, so_far, policy_format=policy_format, certify=certify)
 
@@ -144,9 +159,9 @@ def _decide(problem: Problem, so_far: Undecided, *, policy_format: PolicyFormat,
             return done
         evaluation, statistics = done.evaluation, done.statistics
     complete, statistics, raced = _finish(problem, evaluation, statistics)
-    left = leaving(problem, complete, undecided)
+    remarks = (*raced, *leaving(problem, complete, undecided), *one_at_a_time(problem, statistics))
     decided = problem.encoding.count_states(problem.steps.valid)
-    return Realizable(_as(complete, policy_format, decided), statistics, (*warnings, *raced, *left))
+    return Realizable(_as(complete, policy_format, decided), statistics, (*warnings, *remarks))
 
 
 def _finish(
@@ -196,4 +211,5 @@ def _statistics(problem: Problem) -> Statistics:
     steps, count = problem.steps, problem.encoding.count_states
     valid, safe = count(steps.valid), count(steps.safe)
     backend = problem.encoding.manager.backend
-    return Statistics(count_states(problem.spec), valid, safe, valid - safe, None, backend, steps.ordering)
+    found = Statistics(count_states(problem.spec), valid, safe, valid - safe, None, backend, steps.ordering)
+    return replace(found, one_at_a_time=steps.one_at_a_time)
