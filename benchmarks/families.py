@@ -50,7 +50,7 @@ FAMILIES = {
         Family("strewn", "the plant, declared in a random order", strewn, (4, 10), ()),
         Family("rooms", "n rooms that clean themselves, a goal each", rooms, (12, 20), (12,)),
         Family("errands", "n rooms that one robot cleans, a goal each", errands, (12, 20), (12,)),
-        Family("responders", "n engines and n - 1 ambulances", responders, (2, 4), (2,), limit=True),
+        Family("responders", "n engines and n - 1 ambulances", responders, (2, 4), (2,)),
         Family("shelves", "n boxes with names on n shelves", shelves, (4, 6, 8, 10), (4,), limit=True),
         Family("shelf_counts", "n boxes, all alike, on n shelves", shelf_counts, (4, 6, 8, 10), (), limit=True),
         Family("puzzle", "a sliding puzzle of n rows of three", puzzle, (2, 3), (2,), limit=True),

@@ -15,11 +15,12 @@ from tumato_symbolic import Realizable, Unrealizable, parse, synthesize
 from tumato_symbolic.diagnostics import Code, UserError
 from tumato_symbolic.limits import Context
 from tumato_symbolic.policy import as_table, dumps
+from tumato_symbolic.policy.unrealizability import dumps as certificate_text
 from tumato_symbolic.semantics import judge
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.symbolic import Encoding, Steps, available_backend, build_steps, few_steps
 from tumato_symbolic.synthesis import SynthesisResult
-from tumato_symbolic.verify import ProverName, verify
+from tumato_symbolic.verify import ProverName, verify, verify_unrealizable
 
 pipeline = import_module("tumato_symbolic.synthesis.synthesize")
 problems = import_module("tumato_symbolic.game.problem")
@@ -128,6 +129,8 @@ def test_no_verdict_is_wrong(profile: str, ordering: Ordering, monkeypatch: pyte
             patched.setattr(problems, "_steps", lambda encoding, order, _: few_steps(encoding, encoding.spec, order))
             few = synthesize(spec, ordering, certify=False, diagnose=False)
         assert type(few) is type(full)
+        if isinstance(few, Unrealizable) and isinstance(full, Unrealizable):
+            assert few.failures == full.failures
         if isinstance(few, Realizable) and few.statistics.one_at_a_time:
             assert is_right(spec, few, ordering)
             assert few.statistics.longest_run is not None
@@ -184,6 +187,24 @@ def test_what_reaction_rules_ask_for_goes_along(ordering: Ordering) -> None:
     state = {"S_Place": "store", "S_Lamp": "off", "S_Stock": "empty", "S_Door": "open"}
     assert set(outcome.policy.decide(state)) == {"fill", "lamp"}
     assert outcome.policy.decide({**state, "S_Place": "aisle"}) == ("shut",)
+
+
+@pytest.mark.usefixtures("few_only")
+def test_a_part_of_a_goal_that_cannot_be_reached_is_enough(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """That there is no policy is found without all sets, with exactly the states that fail, and it is proved."""
+    text = responders(2, False)
+    spec = parse(text)
+    with monkeypatch.context() as patched:
+        patched.setattr(pipeline, "with_all_sets", None)
+        outcome = synthesize(spec)
+    assert isinstance(outcome, Unrealizable)
+    assert outcome.certificate is not None
+    assert verify_unrealizable(outcome.certificate, spec).verdict == "proved"
+    assert ask(tmp_path, certificate_text(outcome.certificate), text).code == 0
+    monkeypatch.undo()
+    full = synthesize(spec)
+    assert isinstance(full, Unrealizable)
+    assert outcome.failures == full.failures
 
 
 @pytest.mark.usefixtures("few_only")

@@ -32,6 +32,21 @@ def _conjuncts(formula: Formula) -> Iterator[Formula]:
         yield formula
 
 
+def moves_of(problem: Problem, pairs: Bdd) -> Moves | None:
+    """Some pairs by what their sets nominally write; None where that is too many different things."""
+    return problem.steps.moves(pairs, MOST_MOVES, keep_sets=True)
+
+
+def attracted(problem: Problem, moves: Moves, target: Bdd) -> Bdd:
+    """The safe states from where moves lead to a set, in any number of steps."""
+    left, layer = problem.steps.safe & ~target, target
+    while layer != problem.false:
+        problem.context.check()
+        layer = problem.steps.states_of(_leading(problem, moves, left, layer))
+        left = left & ~layer
+    return (problem.steps.safe & ~left) | target
+
+
 def one_after_the_other(
     problem: Problem, target: Target, here: Bdd, subgoals: list[Formula]
 ) -> tuple[Bdd, Layers] | None:
@@ -41,7 +56,7 @@ def one_after_the_other(
     subgoal is one that is reached like that from everywhere, and so on. The layers are disjoint sets that every step
     leads out of into an earlier one, the last of them empty; a state may need fewer steps than the number of its layer.
     """
-    moves = problem.steps.moves(target.pending & here, MOST_MOVES, keep_sets=True)
+    moves = moves_of(problem, target.pending & here)
     if moves is None:
         return None
     policy, kept, open_ = problem.false, here, list(subgoals)
@@ -71,6 +86,7 @@ def _phase(problem: Problem, moves: Moves, undecided: Bdd, reached: Bdd) -> tupl
     """Decisions by which all undecided states reach a set, nearest first; None where some do not."""
     policy, layers = problem.false, list[Bdd]()
     while undecided != problem.false:
+        problem.context.check()
         pairs = _leading(problem, moves, undecided, layers[-1] if layers else reached)
         if pairs == problem.false:
             return None

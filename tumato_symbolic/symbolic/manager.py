@@ -210,6 +210,10 @@ class Manager:
         count: int = u.dag_size
         return count
 
+    def support(self, u: Any) -> frozenset[str]:  # noqa: ANN401 - dd has no types
+        """The bits on which `u` depends."""
+        return frozenset(self._bdd.support(u))
+
     def level(self, bit: str) -> int:
         """Where a bit stands in the order; 0 is the top."""
         return self._level[bit]

@@ -33,6 +33,7 @@ from tumato_symbolic.synthesis.failing import failing_states, failures_of, has_s
 from tumato_symbolic.synthesis.leaving import leaving
 from tumato_symbolic.synthesis.lint import lint
 from tumato_symbolic.synthesis.one_at_a_time import not_enough, one_at_a_time
+from tumato_symbolic.synthesis.parts import Solve
 from tumato_symbolic.synthesis.races import races
 from tumato_symbolic.synthesis.restoring import restoring_policy
 from tumato_symbolic.synthesis.result import (
@@ -78,7 +79,7 @@ def synthesize(
         problem = build_problem(spec, ordering or spec.ordering, engine, context, most=MOST_NODES)
         with problem.encoding.manager.within_memory():
             outcome = _solve(problem, policy_format, certify)
-            if problem.steps.one_at_a_time and not isinstance(outcome, Realizable):
+            if problem.steps.one_at_a_time and isinstance(outcome, Undecided):
                 problem = with_all_sets(problem)
                 outcome = _solve(problem, policy_format, certify, (not_enough(),))
             if diagnose and isinstance(outcome, Unrealizable) and not spec.starts:
@@ -117,16 +118,33 @@ def _solve(
     warnings = (*lint(problem), *remarks)
     so_far = Undecided("", statistics, warnings)
     context.learn(so_far)
-    if problem.steps.one_at_a_time and has_stuck_states(problem):
-        return so_far
+    solve = partial(_decide, policy_format=policy_format, certify=certify)
+    if problem.steps.one_at_a_time:
+        return _decide_one_at_a_time(problem, so_far, solve, certify=certify)
     if problem.spec.starts:
-        from tumato_symbolic.synthesis.starts import solve_everywhere, solve_from_starts
+        from tumato_symbolic.synthesis.starts import solve_from_starts
 
-        solve = partial(_decide, policy_format=policy_format, certify=certify)
-        if problem.steps.one_at_a_time:
-            return solve_everywhere(problem, so_far, solve)
         return solve_from_starts(problem, so_far, solve, certify=certify)
-    return _decide(problem, so_far, policy_format=policy_format, certify=certify)
+    return solve(problem, so_far)
+
+
+def _decide_one_at_a_time(problem: Problem, so_far: Undecided, solve: Solve, *, certify: bool) -> SynthesisResult:
+    """What one action at a time shows: a policy, or that there is none; `so_far` where it takes sets of several."""
+    from tumato_symbolic.synthesis.lost_subgoals import without_plan
+
+    if has_stuck_states(problem):
+        return so_far
+    problem.context.tell("looking for states that miss a part of their goal")
+    answer = without_plan(problem, so_far, certify=certify)
+    if answer is not None:
+        return answer
+    if problem.spec.starts:
+        from tumato_symbolic.synthesis.starts import solve_everywhere
+
+        found = solve_everywhere(problem, so_far, solve)
+    else:
+        found = solve(problem, so_far)
+    return found if isinstance(found, Realizable) else so_far
 
 
 def _decide(problem: Problem, so_far: Undecided, *, policy_format: PolicyFormat, certify: bool) -> SynthesisResult:
