@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from difflib import get_close_matches
 
 MAX_QUOTED = 60
 """The most characters of the user's text that a message repeats."""
@@ -42,4 +41,6 @@ def nearest(name: str, candidates: Iterable[str]) -> str | None:
     if len(name) > MAX_QUOTED or len(pool) > MAX_CANDIDATES:
         return None
     same = next((each for each in pool if each.lower() == name.lower()), None)
+    from difflib import get_close_matches
+
     return same or next(iter(get_close_matches(name, pool, n=1, cutoff=0.6)), None)

@@ -18,6 +18,8 @@ _ANY = "·"
 
 @dataclass(frozen=True, slots=True)
 class _Line:
+    """A question and an answer, so deep in the tree."""
+
     depth: int
     question: str
     answer: str | None

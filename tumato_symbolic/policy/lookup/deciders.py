@@ -40,6 +40,8 @@ def make_decider(vocabulary: Vocabulary, decisions: Table | DecisionDiagram) -> 
 
 @dataclass(frozen=True, slots=True)
 class _TableDecider:
+    """Decisions by the row of a state."""
+
     vocabulary: Vocabulary
     names: tuple[str, ...]
     answers: dict[tuple[Value, ...], tuple[str, ...]]
