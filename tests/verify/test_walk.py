@@ -56,6 +56,11 @@ def test_operations_do_what_they_say(order: tuple[int, ...]) -> None:
         assert _table(walk, walk.select(number, [case for case, _ in cases])) == {
             point: cases[numbers[point]][1][point] for point in POINTS
         }
+        for zero, other_case in (cases[:2], [cases[0], one], [other, cases[1]], [cases[2], cases[2]]):
+            assert _table(walk, walk.select(one[0], (zero[0], other_case[0]))) == {
+                point: (zero, other_case)[one[1][point]][1][point] for point in POINTS
+            }
+        assert walk.constant(-1) == walk.constant(-1) != walk.constant(2)
         added = walk.apply(operator.add, number, cases[0][0])
         assert _table(walk, added) == {point: numbers[point] + cases[0][1][point] for point in POINTS}
         assert walk.values_of(added) == sorted({numbers[point] + cases[0][1][point] for point in POINTS})

@@ -58,6 +58,7 @@ class Functions:
         self._levels: list[int] = []  # of every function, the level that it tests first; `_bottom` for a constant
         self._below: list[tuple[Function, ...]] = []  # what is left of it for every value of that variable
         self._values: dict[Function, int] = {}
+        self._constants: dict[int, Function] = {}
         self._known: dict[tuple[int, tuple[Function, ...]], Function] = {}
         self.constant(0)
         self.constant(1)
@@ -80,8 +81,12 @@ class Functions:
 
     def constant(self, value: int) -> Function:
         """The function that is `value` everywhere; 0 and 1 are `FALSE` and `TRUE`."""
-        found = self._make(self._bottom, (-1, value))
-        self._values[found] = value
+        found = self._constants.get(value)
+        if found is None:
+            found = self._constants[value] = len(self._levels)
+            self._levels.append(self._bottom)
+            self._below.append(())
+            self._values[found] = value
         return found
 
     def values_of(self, function: Function) -> list[int]:
@@ -161,11 +166,11 @@ class Functions:
         return self._below[function] if self._levels[function] == level else (function,) * self.sizes[level]
 
     def _node(self, level: int, below: tuple[Function, ...]) -> Function:
-        return below[0] if below.count(below[0]) == len(below) else self._make(level, below)
-
-    def _make(self, level: int, below: tuple[Function, ...]) -> Function:
-        found = self._known.setdefault((level, below), len(self._levels))
-        if found == len(self._levels):
+        if below.count(below[0]) == len(below):
+            return below[0]
+        fresh = len(self._levels)
+        found = self._known.setdefault((level, below), fresh)
+        if found == fresh:
             self._levels.append(level)
             self._below.append(below)
         return found
@@ -173,7 +178,7 @@ class Functions:
     def _remember(self, known: dict[Key, Found], key: Key, found: Found) -> None:
         known[key] = found
         self.remembered += 1
-        if self.is_full:
+        if self.remembered > self.most:
             raise FullError(TOO_LARGE)
-        if self.remembered % 1024 == 0:
+        if self.remembered & 1023 == 0:
             self.check_time()

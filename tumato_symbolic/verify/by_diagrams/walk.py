@@ -24,6 +24,7 @@ class Walk(Functions):
     def __init__(self, order: Sequence[int], sizes: Sequence[int], most_steps: int = MOST_STEPS) -> None:
         super().__init__(order, sizes, most_steps)
         self._selected: dict[tuple[Function, tuple[Function, ...]], Function] = {}
+        self._chosen: dict[tuple[Function, Function, Function], Function] = {}
         self._applied: dict[Callable[[int, int], int], dict[tuple[Function, Function], Function]] = {}
         self._composed: dict[Composition, dict[Function, Function]] = {}
 
@@ -31,6 +32,7 @@ class Walk(Functions):
         """Forget results, and no functions, where half as many are remembered as may be."""
         if self.most < 2 * self.remembered and 2 * len(self._levels) < self.most:
             self._selected.clear()
+            self._chosen.clear()
             self._applied.clear()
             self._composed.clear()
             self.remembered = 0
@@ -48,13 +50,13 @@ class Walk(Functions):
 
     def select(self, number: Function, cases: Sequence[Function]) -> Function:
         """`cases[n]` where `number` is `n`."""
+        if len(cases) == 2:
+            return self._either(number, cases[0], cases[1])
         cases = tuple(cases)
         if number in self._values:
             return cases[self._values[number]]
         if cases.count(cases[0]) == len(cases):
             return cases[0]
-        if cases == (FALSE, TRUE):
-            return number
         key = (number, cases)
         found = self._selected.get(key)
         if found is None:
@@ -65,17 +67,56 @@ class Walk(Functions):
             self._remember(self._selected, key, found)
         return found
 
+    def _either(self, which: Function, zero: Function, one: Function) -> Function:
+        """`select` of two cases, which most are."""
+        if which == FALSE or zero == one:
+            return zero
+        if which == TRUE:
+            return one
+        if zero == FALSE and one == TRUE:
+            return which
+        key = (which, zero, one)
+        found = self._chosen.get(key)
+        if found is None:
+            levels, below = self._levels, self._below
+            first, second, third = levels[which], levels[zero], levels[one]
+            level = min(first, second, third)
+            size = self.sizes[level]
+            parts = zip(
+                below[which] if first == level else (which,) * size,
+                below[zero] if second == level else (zero,) * size,
+                below[one] if third == level else (one,) * size,
+                strict=True,
+            )
+            found = self._node(level, tuple([self._either(*part) for part in parts]))
+            self._remember(self._chosen, key, found)
+        return found
+
     def apply(self, operation: Callable[[int, int], int], one: Function, other: Function) -> Function:
         """The function `operation(one, other)`."""
-        if one in self._values and other in self._values:
-            return self.constant(operation(self._values[one], self._values[other]))
-        known = self._applied.setdefault(operation, {})
-        found = known.get((one, other))
+        return self._apply(operation, self._applied.setdefault(operation, {}), one, other)
+
+    def _apply(
+        self,
+        operation: Callable[[int, int], int],
+        known: dict[tuple[Function, Function], Function],
+        one: Function,
+        other: Function,
+    ) -> Function:
+        key = (one, other)
+        found = known.get(key)
         if found is None:
-            level = min(self._levels[one], self._levels[other])
-            pairs = zip(self._split(one, level), self._split(other, level), strict=True)
-            found = self._node(level, tuple([self.apply(operation, *pair) for pair in pairs]))
-            self._remember(known, (one, other), found)
+            first, second = self._levels[one], self._levels[other]
+            level = min(first, second)
+            if level == self._bottom:
+                return self.constant(operation(self._values[one], self._values[other]))
+            pairs = zip(
+                self._below[one] if first == level else (one,) * self.sizes[level],
+                self._below[other] if second == level else (other,) * self.sizes[level],
+                strict=True,
+            )
+            found = self._node(level, tuple([self._apply(operation, known, *pair) for pair in pairs]))
+            self._remember(known, key, found)
         return found
 
     def compose(self, function: Function, replacements: Mapping[int, Function]) -> Function:
@@ -116,19 +157,27 @@ class Walk(Functions):
         fixed = {self.level_of[variable]: value for variable, value in values.items()}
         everywhere = self._composition({variable: self.constant(value) for variable, value in values.items()})
         known: dict[tuple[Function, Function, Function], Function] = {}
+        levels, below = self._levels, self._below
 
         def visit(where: Function, function: Function, otherwise: Function) -> Function:
             if where == FALSE:
                 return otherwise
             if where == TRUE:
                 return self._compose(function, *everywhere)
-            while self._levels[function] in fixed:
-                function = self._below[function][fixed[self._levels[function]]]
+            while levels[function] in fixed:
+                function = below[function][fixed[levels[function]]]
             key = (where, function, otherwise)
             found = known.get(key)
             if found is None:
-                level = min([self._levels[each] for each in key])
-                parts = zip(*[self._split(each, level) for each in key], strict=True)
+                first, second, third = levels[where], levels[function], levels[otherwise]
+                level = min(first, second, third)
+                size = self.sizes[level]
+                parts = zip(
+                    below[where] if first == level else (where,) * size,
+                    below[function] if second == level else (function,) * size,
+                    below[otherwise] if third == level else (otherwise,) * size,
+                    strict=True,
+                )
                 found = self._node(level, tuple([visit(*part) for part in parts]))
                 self._remember(known, key, found)
             return found
