@@ -23,18 +23,19 @@ def smallest(
 
     Of two where the diagram is large: merging would take longer than all that the diagram is for.
     """
-    found = [rebuild(diagram, (*fixed, *roots))]
     with room_for(len(diagram.order)):
         sets = Sets(diagram.order, sizes, 2 + len(diagram.leaves))
         (needed,) = sets.take(states[0], states[1:], LEAVES)
         if needed in (NOTHING, EVERYTHING):
-            return found[0]
+            return rebuild(diagram, (*fixed, *roots))
         leaves = {leaf: number for number, leaf in enumerate(diagram.leaves, 2)}
         exact, functions = sets.take(diagram, fixed, leaves), sets.take(diagram, roots, leaves)
+        found = [functions]
         for merging in (False, True) if len(diagram.nodes) <= MOST_MERGED else (False,):
             ours = _Minimizer(sets, merging)
-            found.append(sets.give([*exact, *(ours.simplest(each, needed) for each in functions)], diagram.leaves))
-    return min(found, key=lambda each: len(each[0].nodes))
+            found.append([ours.simplest(each, needed) for each in functions])
+        fewest = min(found, key=lambda each: sets.nodes([*exact, *each]))
+        return sets.give([*exact, *fewest], diagram.leaves)
 
 
 class _Minimizer:

@@ -49,6 +49,17 @@ class Sets(UniqueTable):
         diagram = Diagram(self.order, tuple(leaves), tuple(moved))
         return rebuild(diagram, [root - 2 for root in roots])
 
+    def nodes(self, roots: Iterable[Reference]) -> int:
+        """How many nodes the functions of these references have together."""
+        seen, pending, count = set[Reference](), list(roots), 0
+        while pending:
+            here = pending.pop()
+            if here not in seen:
+                seen.add(here)
+                count += not self.is_leaf(here)
+                pending += self._below[here]
+        return count
+
     def as_diagram(self, sets: Sequence[Reference]) -> tuple[Diagram[bool], tuple[Reference, ...]]:
         """A canonical diagram of sets, which has the leaf True in their states."""
         return rebuild(Diagram(self.order, (False, True), tuple(self.nodes_from(2))), sets)
