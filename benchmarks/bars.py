@@ -38,6 +38,7 @@ BARS = {
     "rooms 20": Bar(60, 60),
     "errands 12": Bar(10, 10),
     "errands 20": Bar(60, 60),
+    "responders 4": Bar(60, 30, memory=1000),
     "puzzle 3": Bar(100, 100, memory=2000),
 }
 HELP = 0.35
