@@ -97,7 +97,7 @@ def test_generated_texts(seed: int) -> None:
     assert complaint_of(seed) is None
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=12)
 @given(specifications, st.integers(0, 10**6))
 def test_whatever_words_are_names(tree: ast.Specification, seed: int) -> None:
     """Keywords as names, negative numbers, odd goal lists."""

@@ -24,7 +24,7 @@ from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.spec import Action, Spec, Variable
 
 NAMES = st.text('ab_Z9é "\\\n\x00\u2028🤖', max_size=4)
-QUICK = settings(max_examples=30, deadline=None)
+QUICK = settings(max_examples=30)
 HERE = Span(1, 1, 1, 1)
 EFFORTS = ((0, 1), (1, 1), (10, 3))
 

@@ -52,7 +52,7 @@ def _read(lines: list[str], state: State) -> str:
     raise AssertionError(f"no answer for {values}")
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(_policies)
 def test_a_picture_says_what_the_policy_says(rows: dict[State, ActionSet]) -> None:
     """Following the questions from any state leads to its actions, if it is decided, and to `!` where it is unsafe."""

@@ -12,7 +12,7 @@ from tumato_symbolic.syntax import ast, parse, print_specification, read_source
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.tum"))
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 @given(specifications)
 def test_what_is_printed_parses_to_the_same_tree(tree: ast.Specification) -> None:
     """`parse(print(tree)) == tree` for every tree, whatever words serve as names."""
