@@ -13,6 +13,9 @@ EVERYTHING: Reference = 1
 
 LEAVES = {False: NOTHING, True: EVERYTHING}
 
+MOST_ENDS = 10_000
+"""So many values that the last variables may have together are listed once for every set that they end."""
+
 Cube: TypeAlias = tuple[tuple[int, tuple[int, ...]], ...]
 """The states in which the variables at some levels have one of some values: `(level, values)`, all ascending."""
 
@@ -129,13 +132,26 @@ class Sets(UniqueTable):
 
     def states(self, states: Reference) -> Iterator[tuple[int, ...]]:
         """Every state of a set, with a value for every level; in no order that means anything."""
+        middle = self._depth
+        while middle and prod(self.sizes[middle - 1 :]) <= MOST_ENDS:
+            middle -= 1
+        ends: dict[Reference, list[tuple[int, ...]]] = {}
+        for begun, rest in self._from(0, states, middle):
+            if rest not in ends:
+                ends[rest] = [end for end, _ in self._from(middle, rest, self._depth)]
+            for end in ends[rest]:
+                yield begun + end
+
+    def _from(self, level: int, states: Reference, end: int) -> Iterator[tuple[tuple[int, ...], Reference]]:
+        """The values from one level to another that lead on to states of a set, and what is left of it after them."""
         pending: list[tuple[Reference, tuple[int, ...]]] = [] if states == NOTHING else [(states, ())]
         while pending:
             rest, values = pending.pop()
-            if len(values) == self._depth:
-                yield values
+            here = level + len(values)
+            if here == end:
+                yield values, rest
             else:
-                parts = enumerate(self.below(len(values), rest))
+                parts = enumerate(self.below(here, rest))
                 pending += [(part, (*values, value)) for value, part in parts if part != NOTHING]
 
     def tested(self, states: Reference) -> dict[int, set[int]]:

@@ -187,14 +187,18 @@ class _Auto(_Pair):
     """Z3 where it answers soon, if there is one, the walk first where ranks are large; explicit-state checking last.
 
     Where there is little to look at, explicit-state checking comes before the others have used up their time; it is
-    the first where actions have many cases, of which only one is met in a state.
+    the first where actions have many cases, of which only one is met in a state. Once it has proved `safe`, it has
+    listed all that it needs, and is the first.
     """
+
+    _is_listed = False
 
     def prove(self, name: PropertyName) -> PropertyResult:
         """The verdict of the first prover that reaches one."""
         result = self._prove(name)
         if name == "safe" and result.verdict == "proved":
             self._policy_is_safe = True
+            self._is_listed = result.proved_by == "explicit"
             for prover in self._asked:
                 prover.policy_is_safe = True
         return result
@@ -213,7 +217,9 @@ class _Auto(_Pair):
         if self._cases > MANY_CASES and self._is_little:
             yield lambda: self._explicit.prove(name, LITTLE)
         if self._is_large:
-            if self._may_be_little:
+            if self._is_listed and self._is_little:
+                yield lambda: self._explicit.prove(name, LITTLE)
+            elif self._may_be_little:
                 remembered, outcomes = FIRST_TURN
                 yield lambda: self._walk.prove(name, remembered)
                 if self._work <= outcomes:

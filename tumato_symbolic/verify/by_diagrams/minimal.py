@@ -16,6 +16,8 @@ def minimal(model: ClosedLoop, goals: WalkGoals, ranks: WalkRanks, witnesses: Wi
     """The verdict on `minimal` where safety is restored in one step."""
     walk = model.walk
     unsafe = walk.without(model.decided, model.safe)
+    if unsafe == FALSE:
+        return PropertyResult("minimal", "proved", 1, "walk")
     takes = walk.select(unsafe, (FALSE, model.duration(model.policy)))  # nothing is shorter than 0
     cheaper = walk.apply(operator.lt, model.duration(model.chosen), takes)
     if cheaper != FALSE:

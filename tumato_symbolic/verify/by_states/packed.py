@@ -63,21 +63,36 @@ class Remembered:
 def all_hold(packing: Packing, rules: Sequence[Rule], executed: ActionSet = NOTHING) -> Callable[[Code], bool]:
     """Whether all of some rules hold; those that mention few variables together are asked of as one."""
     tests = [Remembered(packing, formula, executed) for formula in _together(packing, rules)]
-    return lambda code: all(test(code) for test in tests)
+
+    def hold(code: Code) -> bool:
+        for test in tests:  # noqa: SIM110 - asked of every state
+            if not test(code):
+                return False
+        return True
+
+    return hold
 
 
 def _together(packing: Packing, rules: Sequence[Rule]) -> Iterator[Formula]:
-    """Conjunctions of some rules, each with the first that mentions little enough beside it."""
+    """Conjunctions of some rules' conjuncts, each with the first that mentions little enough beside it."""
     groups: list[tuple[int, list[Formula]]] = []
-    for rule in rules:
-        mask = packing.mask(variables_of(rule.formula))
+    for formula in (each for rule in rules for each in _conjuncts(rule.formula)):
+        mask = packing.mask(variables_of(formula))
         fitting = (
             number for number, (bits, _) in enumerate(groups) if mask | bits in {mask, bits} or _are_few(mask | bits)
         )
         number = next(fitting, len(groups))
         groups[number:] = groups[number:] or [(0, [])]
-        groups[number] = groups[number][0] | mask, [*groups[number][1], rule.formula]
+        groups[number] = groups[number][0] | mask, [*groups[number][1], formula]
     return (formulas[0] if len(formulas) == 1 else And(tuple(formulas)) for _, formulas in groups)
+
+
+def _conjuncts(formula: Formula) -> Iterator[Formula]:
+    if isinstance(formula, And):
+        for part in formula.operands:
+            yield from _conjuncts(part)
+    else:
+        yield formula
 
 
 def _are_few(bits: int) -> bool:

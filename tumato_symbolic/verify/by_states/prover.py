@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property, partial
 from itertools import islice
+from operator import itemgetter
 
 from tumato_symbolic.limits import Context
 from tumato_symbolic.policy import Policy, Table, as_table
@@ -40,7 +41,8 @@ class StateProver:
     def __init__(self, spec: Spec, policy: Policy, ordering: Ordering, context: Context) -> None:
         self._spec, self._policy, self._ordering, self._context = spec, policy, ordering, context
         self._packing = Packing(spec)
-        self._steps = Steps(spec, self._packing, ordering, self._spend)
+        in_part = None if spec.part is None else lambda code: code in (self._stated or {})
+        self._steps = Steps(spec, self._packing, ordering, self._spend, in_part)
         self._spent = self._next_look = 0
         self._most: int | None = None
         self.policy_is_safe = False
@@ -120,14 +122,18 @@ class StateProver:
     @cached_property
     def _decided(self) -> dict[Code, ActionSet] | None:
         """The decisions in valid states, in the order of the states; None where there are too many."""
-        decisions = self._policy.decisions
+        stated, is_valid = self._stated, self._steps.is_valid
+        found = dict(islice((row for row in (stated or {}).items() if is_valid(row[0])), LARGEST_TABLE + 1))
+        return None if stated is None or len(found) > LARGEST_TABLE else found
+
+    @cached_property
+    def _stated(self) -> dict[Code, ActionSet] | None:
+        """What the policy says of states, valid or not, in their order; None where that is too much to list."""
+        decisions, pack = self._policy.decisions, self._packing.pack
         table = decisions if isinstance(decisions, Table) else as_table(self._policy, MOST_ROWS)
         if table is None:
             return None
-        pack, is_valid = self._packing.pack, self._steps.is_valid
-        coded = ((pack(state), chosen) for state, chosen in sorted(table.rows.items(), key=lambda row: row[0]))
-        found = dict(islice((row for row in coded if is_valid(row[0])), LARGEST_TABLE + 1))
-        return found if len(found) <= LARGEST_TABLE else None
+        return {pack(state): chosen for state, chosen in sorted(table.rows.items(), key=itemgetter(0))}
 
     @cached_property
     def _decisions(self) -> Decisions:
@@ -146,9 +152,7 @@ class StateProver:
     @cached_property
     def _claimed(self) -> ClaimedRanks:
         return ClaimedRanks(
-            self._spec,
-            self._policy,
-            lambda: self.policy_is_safe or len(self._allowed) == len(self._decided or ()),
+            self._spec, self._policy, lambda: self.policy_is_safe or len(self._allowed) == len(self._decided or ())
         )
 
     def _prove_total(self, decided: Mapping[Code, ActionSet]) -> PropertyResult:
@@ -167,9 +171,8 @@ class StateProver:
             count += 1
             if self._packing.pack(state) not in decided:
                 return PropertyResult("total", "refuted", refutation=Refutation("missing", state))
-        table = as_table(self._policy, MOST_ROWS)
-        assert table is not None, "the decisions were listed"
-        for state, chosen in sorted(table.rows.items(), key=lambda row: row[0]):
+        for code, chosen in (self._stated or {}).items():
+            state = self._packing.unpack(code)
             if not is_valid(self._spec.whole, state):
                 return PropertyResult("total", "refuted", refutation=Refutation("invalid", state, chosen))
         return PropertyResult("total", "proved", count, "explicit")

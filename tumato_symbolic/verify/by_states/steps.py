@@ -31,12 +31,21 @@ class Steps:
     """The step relation of a specification under an effect ordering.
 
     Effects are constants, so what a set of actions can write does not depend on the state: it is listed once for every
-    set, by the explicit meaning, in a state whose values are left open.
+    set, by the explicit meaning, in a state whose values are left open. Where only a part of the states is looked at,
+    `in_part` may tell which, sooner than its formula does.
     """
 
-    def __init__(self, spec: Spec, packing: Packing, ordering: Ordering, spend: Callable[[int], None]) -> None:
+    def __init__(
+        self,
+        spec: Spec,
+        packing: Packing,
+        ordering: Ordering,
+        spend: Callable[[int], None],
+        in_part: Callable[[Code], bool] | None = None,
+    ) -> None:
         self._spec, self._packing, self._ordering, self._spend = spec, packing, ordering, spend
-        self._valid_rules = all_hold(packing, spec.validity)
+        self._in_part = in_part
+        self._valid_rules = all_hold(packing, spec.validity if in_part is None else spec.assumptions)
         self._safe_rules = all_hold(packing, spec.state_rules)
         self._valid: dict[Code, bool] = {}
         self._safe: dict[Code, bool] = {}
@@ -56,7 +65,8 @@ class Steps:
         """`s ∈ V`."""
         found = self._valid.get(code)
         if found is None:
-            found = self._valid[code] = self._valid_rules(code)
+            in_part = self._in_part is None or self._in_part(code)
+            found = self._valid[code] = in_part and self._valid_rules(code)
         return found
 
     def is_safe(self, code: Code) -> bool:
