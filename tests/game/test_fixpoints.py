@@ -12,8 +12,9 @@ from tumato_symbolic.game import fixpoints
 from tumato_symbolic.game.evaluation import Evaluator
 from tumato_symbolic.game.fixpoints import attractor, closed_loop, mixed, preimage
 from tumato_symbolic.game.problem import Problem, build_problem
-from tumato_symbolic.game.routing import own_region_policy
+from tumato_symbolic.game.routing import only_region, own_region_policy
 from tumato_symbolic.symbolic import Bdd, Manager, available_backend, preferred
+from tumato_symbolic.synthesis.failing import failing_states
 
 SEEDS = range(12)
 
@@ -99,6 +100,16 @@ def test_ranks_that_come_with_the_decisions_are_those_of_the_policy() -> None:
                 assert own.ranks == found
                 seen += len(found[0]) > 2
     assert seen > 3
+
+
+@pytest.mark.parametrize("profile", sorted(ALL_PROFILES))
+def test_what_fails_is_told_by_the_only_region(profile: str) -> None:
+    """Where all have the same goals, their own policy tells which states fail, and how far the others are."""
+    for problem in problems(profile):
+        own = only_region(problem)
+        known, anew = failing_states(problem, own), failing_states(problem)
+        assert known.kinds == anew.kinds
+        assert known.apart == anew.apart
 
 
 @pytest.mark.parametrize("profile", sorted(ALL_PROFILES))

@@ -42,10 +42,27 @@ def test_moves_lead_where_each_of_them_leads(backend: Backend, seed: int) -> Non
         variables = [variable for variable in range(len(BITS)) if random.random() < 0.6]
         written = tuple((variable, random.randrange(1 << len(BITS[variable]))) for variable in variables)
         moves.append((written, some_set(manager, random, 20)))
-    together = Leading(manager, moves, constants)
+    together = Leading(manager, moves, constants, often=seed % 2 == 0)
     for target in (manager.false, manager.true, some_set(manager, random, 3), some_set(manager, random, 200)):
         each = (pairs & manager.cofactor(target, constants(written)) for written, pairs in moves)
         assert together.into(target) == manager.union(each)
+
+
+@pytest.mark.parametrize("backend", sorted({"autoref", available_backend()}))
+@pytest.mark.parametrize("seed", range(40))
+def test_moves_that_are_asked_often_lead_there_as_well(backend: Backend, seed: int) -> None:
+    """A relation stands for moves that write values in place of the same one, in place of any, and for both."""
+    random = Random(seed)
+    manager = Manager([bit for bits in BITS for bit in bits], backend)
+    moves: list[tuple[Assignment, Bdd]] = []
+    for _ in range(random.choice((3, 6, 20))):
+        first: Assignment = ((1, random.randrange(4)),) if random.random() < 0.5 else ()
+        before = manager.cube(constants(((0, random.choice((5, 5, 5, 9)) if seed % 2 else 5),)))
+        moves.append(((*first, (0, random.randrange(64))), before & some_set(manager, random, 200)))
+    often = Leading(manager, moves, constants, often=True)
+    for target in (manager.false, manager.true, some_set(manager, random, 3), some_set(manager, random, 200)):
+        each = (pairs & manager.cofactor(target, constants(written)) for written, pairs in moves)
+        assert often.into(target) == manager.union(each)
 
 
 def test_an_encoding_goes_with_the_last_that_holds_it() -> None:

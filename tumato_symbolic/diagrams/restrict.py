@@ -66,6 +66,9 @@ class _Minimizer:
                 every = sets.either(every, part)
             return self.simplest(function, every)
         rests = list(zip(sets.below(level, function), wanted, strict=True))
+        if not self._merging:
+            some = next(self.simplest(*rest) for rest in rests if rest[1] != NOTHING)
+            return sets.node(level, tuple([some if part[1] == NOTHING else self.simplest(*part) for part in rests]))
         groups: list[tuple[Reference, Reference]] = []
         member = [self._join(groups, rest) for rest in rests]
         done = [self.simplest(function, needed) for function, needed in groups]
@@ -81,7 +84,7 @@ class _Minimizer:
             if where == NOTHING:
                 groups[place] = rest
                 return place
-            if rest == groups[place] or (self._merging and self._agree(function, theirs, sets.both(needed, where))):
+            if rest == groups[place] or self._agree(function, theirs, sets.both(needed, where)):
                 groups[place] = sets.choose(needed, function, theirs), sets.either(needed, where)
                 return place
         groups.append(rest)

@@ -15,7 +15,7 @@ from tumato_symbolic.game.fixpoints import (
 from tumato_symbolic.game.problem import Problem, build_problem, with_all_sets, with_goals
 from tumato_symbolic.game.reevaluation import Reevaluator
 from tumato_symbolic.game.restoration import Restoration, Restorer
-from tumato_symbolic.game.routing import own_region_policy, route, shortest_decisions
+from tumato_symbolic.game.routing import OwnRegions, only_region, own_region_policy, route, shortest_decisions
 
 __all__ = [
     "Alone",
@@ -23,6 +23,7 @@ __all__ = [
     "Evaluation",
     "Evaluator",
     "Layers",
+    "OwnRegions",
     "Problem",
     "Reevaluator",
     "Restoration",
@@ -36,6 +37,7 @@ __all__ = [
     "distances",
     "in_time",
     "mixed",
+    "only_region",
     "own_region_policy",
     "preimage",
     "route",

@@ -48,12 +48,12 @@ def by_any_step(problem: Problem, relation: Bdd) -> Predecessor:
     moves = problem.steps.moves(relation, most_moves(problem))
     if moves is None:
         return lambda states, target: states & problem.steps.predecessor(relation & states, target)
-    leading = _leading(problem, moves)
+    leading = _leading(problem, moves, often=True)
     return lambda states, target: states & leading.into(target)
 
 
-def _leading(problem: Problem, moves: Mapping[Assignment, Bdd]) -> Leading:
-    return Leading(problem.encoding.manager, moves.items(), problem.encoding.assignment_bits)
+def _leading(problem: Problem, moves: Mapping[Assignment, Bdd], *, often: bool = False) -> Leading:
+    return Leading(problem.encoding.manager, moves.items(), problem.encoding.assignment_bits, often=often)
 
 
 def most_moves(problem: Problem) -> int:

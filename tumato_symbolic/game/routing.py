@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from tumato_symbolic.game.blocks import Block, blocks_of
 from tumato_symbolic.game.fixpoints import Layers, attractor, closed_loop, preimage, turns_of
 from tumato_symbolic.game.problem import Problem
 from tumato_symbolic.game.subgoals import one_after_the_other, subgoals_of
@@ -25,6 +26,22 @@ class OwnRegions:
 
     policy: Bdd
     ranks: tuple[Layers, ...] | None = None
+
+    def within(self, states: Bdd) -> OwnRegions:
+        """The same in a part of the states, which has all that are decided, and which no allowed step leaves."""
+        ranks = self.ranks and tuple([layers[0] & states, *layers[1:]] for layers in self.ranks)
+        return OwnRegions(self.policy, ranks)
+
+
+def only_region(problem: Problem) -> OwnRegions | None:
+    """`own_region_policy` where there is one region with one target, and runs are the shortest; None elsewhere.
+
+    What it does not decide fails in safe states, for it decides all that have a plan when each is taken alone.
+    """
+    single = len(problem.targets) == len(problem.regions) == 1
+    if problem.goals_are_many or problem.steps.one_at_a_time or not single:
+        return None
+    return own_region_policy(problem)
 
 
 def own_region_policy(problem: Problem) -> OwnRegions:
@@ -80,6 +97,9 @@ def _nearest_first(problem: Problem, target: Target, here: Bdd, own: Bdd) -> tup
     """
     policy, undecided, layers = problem.false, here, [target.states]
     relation = target.pending & here
+    blocks = None if target.meaning else blocks_of(problem, relation)
+    if blocks is not None:
+        return _block_by_block(problem, target, here, own, blocks)
     into, asked = preimage(problem, relation), bool(target.meaning)
     while _goes_on(problem, undecided, layers):
         pairs = undecided & problem.own(target, into(layers[-1]))
@@ -93,6 +113,32 @@ def _nearest_first(problem: Problem, target: Target, here: Bdd, own: Bdd) -> tup
                 policy = policy | _in_turns(problem, turn, relation, undecided, layers)
                 break
     return policy, layers if layers[-1] == problem.false else [*layers, problem.false]
+
+
+def _block_by_block(
+    problem: Problem, target: Target, here: Bdd, own: Bdd, blocks: Sequence[Block]
+) -> tuple[Bdd, Layers]:
+    """`_nearest_first` for single actions: each state is decided by the first block with one that leads there."""
+    union, undecided, layers = problem.encoding.manager.union, here, [target.states]
+    parts = [[problem.false] for _ in blocks]
+    while _goes_on(problem, undecided, layers):
+        leading = [block.leading.into(layers[-1]) for block in blocks]
+        decided = left = undecided & union(leading)
+        for part, states in zip(parts, leading, strict=True):
+            part.append(left & states)
+            left = left & ~part[-1]
+        undecided = undecided & ~decided
+        layers.append(decided & own & ~target.states)
+    policy = union(block.pairs & _together(part) for block, part in zip(blocks, parts, strict=True))
+    return policy, layers if layers[-1] == problem.false else [*layers, problem.false]
+
+
+def _together(parts: list[Bdd]) -> Bdd:
+    """The union of some sets, of neighbours first: none is looked at as often as there are sets."""
+    while len(parts) > 1:
+        pairs = zip(parts[::2], parts[1::2], strict=False)
+        parts = [*(one | other for one, other in pairs), *parts[len(parts) & ~1 :]]
+    return parts[0]
 
 
 def _goes_on(problem: Problem, undecided: Bdd, layers: Layers) -> bool:

@@ -228,6 +228,15 @@ class Manager:
         low, high = u.low, u.high
         return (u.level, ~low, ~high) if u.negated else (u.level, low, high)
 
+    def some(self, u: Bdd, bits: Sequence[str]) -> dict[str, bool]:
+        """The values of bits in a vector of a set that is not empty."""
+        found: dict[int, bool] = {}
+        while u != self.true:
+            level, low, high = self.branches(u)
+            found[level] = low == self.false
+            u = high if found[level] else low
+        return {bit: found.get(self._level[bit], False) for bit in bits}
+
     def halves(self, u: Bdd, level: int) -> tuple[Bdd, Bdd]:
         """`u` without and with the bit at a level, above which it depends on none."""
         if u in (self.true, self.false) or self.top(u) != level:

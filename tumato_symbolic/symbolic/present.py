@@ -17,21 +17,36 @@ FEW_MOVES = 32
 """So many moves are all tried."""
 
 
+LEAST_RELATED = 4
+"""So many values that are written at least are taken together by a relation."""
+
+
 @dataclass(frozen=True, slots=True)
 class _Moves:
     """Moves by what they write. `ends` has what stands for those that write nothing (more).
 
-    `branches` has, by bits and then by their values, these values and the moves that go on from there.
+    `branches` has, by bits and then by their values, these values and the moves that go on from there. `related` has
+    those that write nothing but some bits and have the same values there before.
     """
 
     ends: Bdd
     branches: dict[tuple[str, ...], dict[tuple[bool, ...], list[tuple[Mapping[str, bool], _Moves]]]]
+    related: dict[tuple[str, ...], _Related]
+
+
+@dataclass(frozen=True, slots=True)
+class _Related:
+    """Moves that write some bits: `before` is what these are before; `written` what stands for which values there."""
+
+    before: Bdd
+    written: Bdd
 
 
 class Leading:
     """Moves by what they write, each with what stands for it; `bits` turns what is written into constants for bits.
 
     Moves that write the same value are looked at together, what most of them write first: one cofactor serves all.
+    Where it will be asked `often`, those that write different values in place of the same one are a relation.
     """
 
     def __init__(
@@ -39,8 +54,10 @@ class Leading:
         manager: Manager,
         moves: Iterable[tuple[Assignment, Bdd]],
         bits: Callable[[Assignment], Mapping[str, bool]],
+        *,
+        often: bool = False,
     ) -> None:
-        self._manager = manager
+        self._manager, self._often = manager, often
         self._moves = self._together(list(moves), bits)  # kept itself, `bits` would hold the encoding
 
     def _together(
@@ -52,14 +69,36 @@ class Leading:
         for written, pairs in moves:
             if written:
                 by_most_often.setdefault(max(written, key=often.__getitem__), []).append((written, pairs))
-        found = _Moves(ends, {})
+        found = _Moves(ends, {}, {})
         for first, several in by_most_often.items():
             shared = several[0][0] if len(several) == 1 else (first,)
             rests = [(tuple([each for each in written if each not in shared]), pairs) for written, pairs in several]
             values = bits(shared)
             by_values = found.branches.setdefault(tuple(values), {})
             by_values.setdefault(tuple(values.values()), []).append((values, self._together(rests, bits)))
+        for places, by_values in [*found.branches.items()] if self._often else ():
+            related = self._related(places, by_values)
+            if related is not None:
+                found.related[places] = related
+                del found.branches[places]
         return found
+
+    def _related(
+        self, bits: tuple[str, ...], by_values: Mapping[tuple[bool, ...], list[tuple[Mapping[str, bool], _Moves]]]
+    ) -> _Related | None:
+        """Moves that write some bits as a relation, if they are many, write no more, and need the same values there."""
+        manager, every = self._manager, [each for several in by_values.values() for each in several]
+        if len(every) < LEAST_RELATED or any(below.branches or below.related for _, below in every):
+            return None
+        some = next((below.ends for _, below in every if below.ends != manager.false), None)
+        if some is None:
+            return None
+        values = manager.some(some, bits)
+        before = manager.cube(values)
+        if any((below.ends & ~before) != manager.false for _, below in every):
+            return None
+        written = (manager.cofactor(below.ends, values) & manager.cube(after) for after, below in every)
+        return _Related(before, manager.union(written))
 
     def into(self, target: Bdd) -> Bdd:
         """What stands for a move, where the move leads into a set of states, for all moves together."""
@@ -74,7 +113,10 @@ class Leading:
             for bits, by_values in moves.branches.items()
             for values, below in self._relevant(target, bits, by_values)
         )
-        return manager.union([moves.ends & target, *parts])
+        together = (
+            each.before & manager.and_exists(bits, each.written, target) for bits, each in moves.related.items()
+        )
+        return manager.union([moves.ends & target, *parts, *together])
 
     def _relevant(
         self,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from tumato_symbolic.game import Alone, Layers, Problem, chances, distances, way_of, winning
+from tumato_symbolic.game import Alone, Layers, OwnRegions, Problem, chances, distances, in_time, way_of, winning
 from tumato_symbolic.symbolic import Bdd
 from tumato_symbolic.synthesis.result import STATES_LISTED, Failure, FailureKind
 
@@ -35,14 +35,21 @@ def _stuck(problem: Problem) -> Bdd:
     return problem.steps.valid & ~problem.steps.states_of(problem.steps.allowed)
 
 
-def failing_states(problem: Problem) -> Failing:
-    """All valid states that fail alone."""
+def failing_states(problem: Problem, own: OwnRegions | None = None) -> Failing:
+    """All valid states that fail alone; `own` is `only_region`, if that is known."""
     way = way_of(problem)
-    apart, pairs = chances(problem, way)
+    if own is None or own.ranks is None or way is not None:
+        apart, pairs = chances(problem, way)
+        served = winning(problem, apart, pairs)
+    else:
+        apart = tuple(in_time(problem, own.ranks))
+        served = problem.steps.states_of(own.policy) | winning(
+            problem, apart, problem.steps.allowed & ~problem.steps.safe
+        )
     stuck, lost = _stuck(problem), problem.false
     if way is not None and problem.spec.restoration != "one_step":
         lost, stuck = problem.steps.unsafe & ~way.restorable, stuck & problem.steps.safe
-    without_plan = problem.steps.valid & ~stuck & ~lost & ~winning(problem, apart, pairs)
+    without_plan = problem.steps.valid & ~stuck & ~lost & ~served
     found: dict[FailureKind, Bdd] = {"no-allowed-set": stuck, "no-restoration": lost, "no-plan": without_plan}
     return Failing({kind: states for kind, states in found.items() if states != problem.false}, apart, way)
 

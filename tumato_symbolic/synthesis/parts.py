@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from tumato_symbolic.diagrams import DiagramBuilder
-from tumato_symbolic.game import Problem, with_goals
+from tumato_symbolic.game import OwnRegions, Problem, only_region, with_goals
 from tumato_symbolic.policy import formula_of
 from tumato_symbolic.semantics import State
 from tumato_symbolic.spec import Formula
@@ -18,8 +18,8 @@ from tumato_symbolic.synthesis.result import Failure, FailureKind, Realizable, S
 PARTS = 200
 """So many parts are tried at most where goals conflict."""
 
-Solve = Callable[[Problem, Undecided], SynthesisResult]
-"""A policy for all valid states of a problem, or why there is none."""
+Solve = Callable[[Problem, Undecided, OwnRegions | None], SynthesisResult]
+"""A policy for all valid states of a problem, or why there is none; the policy of the own regions may be known."""
 
 
 @dataclass(frozen=True)
@@ -36,10 +36,14 @@ class Stage:
 
 @dataclass(frozen=True)
 class Part:
-    """A closed part of the valid states in which none fails, as a problem, and what was left out before."""
+    """A closed part of the valid states in which none fails, as a problem, and what was left out before.
+
+    `own` is the policy of its own regions, where that was found on the way.
+    """
 
     problem: Problem
     stages: tuple[Stage, ...]
+    own: OwnRegions | None = None
 
     @property
     def states(self) -> Bdd:
@@ -74,13 +78,20 @@ def greatest(whole: Problem, problem: Problem, stages: tuple[Stage, ...]) -> Par
     Those that fail are left out, then those that fail without them, and so on. Where the others lose no step by that,
     what they can do alone is what they could before: none of them fails.
     """
-    while problem.steps.valid != problem.false and (failing := failing_states(problem)).kinds:
+    own: OwnRegions | None = None
+    while problem.steps.valid != problem.false:
+        own = only_region(problem)
+        failing = failing_states(problem, own)
+        if not failing.kinds:
+            break
         problem.context.check()
         stages, before = (*stages, Stage(problem, failing.kinds, failing)), problem
         problem = _within(whole, before.steps.valid & ~whole.encoding.manager.union(failing.kinds.values()))
         if problem.steps.allowed == before.steps.allowed & problem.steps.valid:
+            own = own and own.within(problem.steps.safe)
             break
-    return Part(problem, stages)
+        own = None
+    return Part(problem, stages, own)
 
 
 def _within(whole: Problem, states: Bdd) -> Problem:
@@ -137,7 +148,7 @@ class Search:
             if len(self._tried) == PARTS:
                 limit = f"{PARTS} parts of the states did not settle how the goals interact"
                 return replace(self._so_far, limit=limit)
-            self._tried[part.states] = self._solve(part.problem, self._so_far)
+            self._tried[part.states] = self._solve(part.problem, self._so_far, part.own)
         return self._tried[part.states]
 
     def minimal(self, whole: Part, blamed: list[State]) -> tuple[State, ...]:

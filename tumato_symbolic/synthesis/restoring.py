@@ -22,6 +22,8 @@ def restoring_policy(problem: Problem, ranks: Sequence[Layers]) -> tuple[Bdd, tu
     """
     manager, steps = problem.encoding.manager, problem.steps
     pairs = steps.allowed & steps.unsafe
+    if pairs == problem.false:
+        return problem.false, ()
     serving = manager.union(
         pairs & target.pending & problem.own(target, steps.before(manager.union(layers)))
         for target, layers in zip(problem.targets, ranks, strict=True)

@@ -62,7 +62,7 @@ def solve_everywhere(problem: Problem, so_far: Undecided, solve: Solve) -> Synth
     starts = _starts(problem)
     assert so_far.statistics is not None, "states are counted first"
     part = _counted(Part(problem, ()), starts)
-    return solve(problem, replace(so_far, statistics=replace(so_far.statistics, part=part)))
+    return solve(problem, replace(so_far, statistics=replace(so_far.statistics, part=part)), None)
 
 
 def _starts(problem: Problem) -> Bdd:

@@ -9,9 +9,11 @@ from typing import Literal
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.game import (
+    ClosedLoop,
     Evaluation,
     Evaluator,
     Layers,
+    OwnRegions,
     Problem,
     build_problem,
     closed_loop,
@@ -25,7 +27,7 @@ from tumato_symbolic.semantics import count_states
 from tumato_symbolic.semantics.lint_findings import no_valid_state
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.spec.many_goals import many_told
-from tumato_symbolic.symbolic import Backend, Bdd, available_backend
+from tumato_symbolic.symbolic import Backend, available_backend
 from tumato_symbolic.synthesis.certificate import policy_diagram
 from tumato_symbolic.synthesis.completing import completed, count_decided, unrealizable
 from tumato_symbolic.synthesis.counting import restored_in
@@ -125,7 +127,7 @@ def _solve(
         from tumato_symbolic.synthesis.starts import solve_from_starts
 
         return solve_from_starts(problem, so_far, solve, certify=certify)
-    return solve(problem, so_far)
+    return solve(problem, so_far, None)
 
 
 def _decide_one_at_a_time(problem: Problem, so_far: Undecided, solve: Solve, *, certify: bool) -> SynthesisResult:
@@ -143,17 +145,27 @@ def _decide_one_at_a_time(problem: Problem, so_far: Undecided, solve: Solve, *, 
 
         found = solve_everywhere(problem, so_far, solve)
     else:
-        found = solve(problem, so_far)
+        found = solve(problem, so_far, None)
     return found if isinstance(found, Realizable) else so_far
 
 
-def _decide(problem: Problem, so_far: Undecided, *, policy_format: PolicyFormat, certify: bool) -> SynthesisResult:
-    """A policy for all valid states of a problem, or why there is none; `so_far` has what was counted and warned of."""
+def _decide(
+    problem: Problem,
+    so_far: Undecided,
+    own: OwnRegions | None = None,
+    *,
+    policy_format: PolicyFormat,
+    certify: bool,
+) -> SynthesisResult:
+    """A policy for all valid states of a problem, or why there is none.
+
+    `so_far` has what was counted and warned of; `own` is the policy of the own regions, if it is known.
+    """
     context, statistics, warnings = problem.context, so_far.statistics, so_far.warnings
     assert statistics is not None, "states are counted first"
     many = many_told(problem.spec)
     context.tell("solving each goal in its own region" + (f" ({many})" if many else ""))
-    own = own_region_policy(problem)
+    own = own or own_region_policy(problem)
     policy = own.policy
     statistics = replace(statistics, own_region=count_decided(problem, policy))
     context.learn(replace(so_far, statistics=statistics))
@@ -200,14 +212,15 @@ def _finish(
         statistics = replace(statistics, restored=restored_in(problem, restoration))
     policy = found.closed_loop.policy | restoring
     assert steps.states_of(policy) == steps.valid, "a winning state was left without a decision"
-    statistics = replace(statistics, longest_run=_longest_run(problem, policy, in_time(problem, ranks)))
+    loop = found.closed_loop if restoring == problem.false else closed_loop(problem, policy)
+    statistics = replace(statistics, longest_run=_longest_run(problem, loop, in_time(problem, ranks)))
     tell("extracting the policy and its certificate")
     return policy_diagram(problem, policy, ranks, restoration), statistics, races(problem, policy)
 
 
-def _longest_run(problem: Problem, policy: Bdd, ranks: Sequence[Layers]) -> int:
+def _longest_run(problem: Problem, found: ClosedLoop, ranks: Sequence[Layers]) -> int:
     """The largest number of steps that a run of a policy takes to its goal."""
-    found, deepest = closed_loop(problem, policy), max(map(len, ranks))
+    deepest = max(map(len, ranks))
     return next(
         1 + rank
         for rank in reversed(range(deepest))
