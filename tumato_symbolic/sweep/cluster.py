@@ -42,7 +42,8 @@ def cluster(address: str) -> Iterator[Workers]:
     logger.handlers, logger.propagate = [logging.NullHandler()], False
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        client = _connected(partial(Client, timeout=_PATIENCE, set_as_default=False), address)
+        _reach(address)
+        client = Client(address, timeout=_PATIENCE, set_as_default=False)
         try:
             threads = _threads(client, address)
             _compare(client.run(_versions(), on_error="return"), address)
@@ -53,9 +54,22 @@ def cluster(address: str) -> Iterator[Workers]:
                 client.close(timeout=1)
 
 
-def _connected(connect: Callable[[str], Any], address: str) -> Any:  # noqa: ANN401 - a client
+def _reach(address: str) -> None:
+    """Raise `UserError` where no scheduler answers at an address.
+
+    A client that finds none is left half made, and may lock up what begins while it is taken away.
+    """
+    import asyncio
+
+    from distributed.comm import connect
+    from distributed.security import Security
+
+    async def answered() -> None:
+        comm = await connect(address, timeout=_PATIENCE, **Security().get_connection_args("client"))
+        await comm.close()
+
     try:
-        return connect(address)
+        asyncio.run(answered())
     except (OSError, ValueError, TypeError, ImportError) as error:
         reason = str(error).split("\n")[0]
         unreachable = isinstance(error, OSError)
