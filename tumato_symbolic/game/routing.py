@@ -119,26 +119,20 @@ def _block_by_block(
     problem: Problem, target: Target, here: Bdd, own: Bdd, blocks: Sequence[Block]
 ) -> tuple[Bdd, Layers]:
     """`_nearest_first` for single actions: each state is decided by the first block with one that leads there."""
-    union, undecided, layers = problem.encoding.manager.union, here, [target.states]
+    manager, undecided, layers = problem.encoding.manager, here, [target.states]
     parts = [[problem.false] for _ in blocks]
     while _goes_on(problem, undecided, layers):
         leading = [block.leading.into(layers[-1]) for block in blocks]
-        decided = left = undecided & union(leading)
+        decided = left = undecided & manager.union(leading)
         for part, states in zip(parts, leading, strict=True):
             part.append(left & states)
             left = left & ~part[-1]
         undecided = undecided & ~decided
         layers.append(decided & own & ~target.states)
-    policy = union(block.pairs & _together(part) for block, part in zip(blocks, parts, strict=True))
+    policy = manager.union(
+        block.pairs & manager.balanced_union(part) for block, part in zip(blocks, parts, strict=True)
+    )
     return policy, layers if layers[-1] == problem.false else [*layers, problem.false]
-
-
-def _together(parts: list[Bdd]) -> Bdd:
-    """The union of some sets, of neighbours first: none is looked at as often as there are sets."""
-    while len(parts) > 1:
-        pairs = zip(parts[::2], parts[1::2], strict=False)
-        parts = [*(one | other for one, other in pairs), *parts[len(parts) & ~1 :]]
-    return parts[0]
 
 
 def _goes_on(problem: Problem, undecided: Bdd, layers: Layers) -> bool:

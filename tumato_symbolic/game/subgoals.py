@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import TypeAlias
 
 from tumato_symbolic.game.fixpoints import Layers
 from tumato_symbolic.game.problem import Problem
 from tumato_symbolic.semantics import ActiveGoals
-from tumato_symbolic.spec import And, Assignment, Formula, executing_atoms
+from tumato_symbolic.spec import Assignment, Formula, conjuncts, executing_atoms
 from tumato_symbolic.symbolic import Bdd, Target, preferred
 
 Moves: TypeAlias = Mapping[Assignment, Bdd]
@@ -20,16 +20,8 @@ MOST_MOVES = 10_000
 
 def subgoals_of(problem: Problem, active: ActiveGoals) -> list[Formula]:
     """The predicates that some active goals are a conjunction of, in order; none where they speak of actions."""
-    found = [part for body in sorted(active) for part in _conjuncts(problem.spec.bodies[body].formula)]
+    found = [part for body in sorted(active) for part in conjuncts(problem.spec.bodies[body].formula)]
     return [] if any(map(executing_atoms, found)) else found
-
-
-def _conjuncts(formula: Formula) -> Iterator[Formula]:
-    if isinstance(formula, And):
-        for operand in formula.operands:
-            yield from _conjuncts(operand)
-    else:
-        yield formula
 
 
 def moves_of(problem: Problem, pairs: Bdd) -> Moves | None:

@@ -18,6 +18,7 @@ from tumato_symbolic.spec.formula import (
     Or,
     atoms,
     children,
+    conjuncts,
     executing_atoms,
     variables_of,
 )
@@ -76,6 +77,7 @@ __all__ = [
     "atoms",
     "canonical_text",
     "children",
+    "conjuncts",
     "digest",
     "executing_actions",
     "executing_atoms",

@@ -81,6 +81,15 @@ def children(formula: Formula) -> tuple[Formula, ...]:
             return ()
 
 
+def conjuncts(formula: Formula) -> Iterator[Formula]:
+    """The parts that a formula is the conjunction of, none of which is one itself."""
+    if isinstance(formula, And):
+        for operand in formula.operands:
+            yield from conjuncts(operand)
+    else:
+        yield formula
+
+
 def atoms(formula: Formula) -> Iterator[Is | Executing]:
     """Every atom of a formula, from left to right, repetitions included."""
     if isinstance(formula, Is | Executing):

@@ -61,13 +61,13 @@ class Encoding(Layout):
         Of a group with many moves the next value of every bit is put in its place; otherwise the predecessor under each
         is a cofactor.
         """
-        for group in self._lowest_first:
+        for group in self.lowest_first:
             moves, following = self._leading[group], self._following[group]
             target = moves.into(target) if following is None else self.manager.compose(target, following)
         return target
 
     @cached_property
-    def _lowest_first(self) -> list[int]:
+    def lowest_first(self) -> list[int]:
         """The groups by where their bits stand in the order: those below first, which keeps sets small for longest."""
         places = [self.manager.level(group.bits[0]) for group in self.groups]
         return sorted(range(len(places)), key=places.__getitem__, reverse=True)

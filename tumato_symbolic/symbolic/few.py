@@ -18,7 +18,6 @@ from tumato_symbolic.symbolic.steps import (
     Steps,
     applicable_parts,
     compatible_sets,
-    lowest_first,
     meant_sets,
     staying_in,
     tiers_within,
@@ -49,7 +48,7 @@ def few_sets(encoding: Encoding) -> Bdd:
     """The sets with at most one action that reaction rules never ask for."""
     manager, forced = encoding.manager, forced_actions(encoding.spec)
     none, one = manager.true, manager.false
-    for group in (encoding.groups[number] for number in lowest_first(encoding)):
+    for group in (encoding.groups[number] for number in encoding.lowest_first):
         asked_for = encoding.executing_any(action for action in group.actions if action in forced)
         without = encoding.idle(group) | asked_for
         none, one = none & without, (one & without) | (none & ~without)

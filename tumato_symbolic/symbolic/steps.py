@@ -171,17 +171,11 @@ def applicable_sets(encoding: Encoding) -> Bdd:
     of_group: dict[int, list[Bdd]] = {}
     for cases, part in zip(encoding.spec.cases, applicable_parts(encoding), strict=True):
         of_group.setdefault(encoding.choice_of[cases[0]][0], []).append(part)
-    for group in lowest_first(encoding):
+    for group in encoding.lowest_first:
         parts = of_group.get(group, [])
         for part in parts if manager.nodes(found) > LARGE else [manager.intersection(parts)]:
             found = manager.bounded(found & part)
     return found
-
-
-def lowest_first(encoding: Encoding) -> list[int]:
-    """The groups, by number, the lowest in the order first."""
-    places = [encoding.manager.level(group.bits[0]) for group in encoding.groups]
-    return sorted(range(len(places)), key=places.__getitem__, reverse=True)
 
 
 def applicable_parts(encoding: Encoding) -> Iterator[Bdd]:
@@ -226,7 +220,7 @@ def _always_safe(encoding: Encoding, safe: Bdd) -> Bdd:
     of what it writes: their effects commute.
     """
     written = [_written_by(encoding, group) for group in encoding.groups]
-    result, waiting = safe, dict.fromkeys(lowest_first(encoding))
+    result, waiting = safe, dict.fromkeys(encoding.lowest_first)
     while waiting:
         taken = next(iter(waiting))
         del waiting[taken]

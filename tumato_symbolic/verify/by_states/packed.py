@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from tumato_symbolic.semantics import NOTHING, ActionSet, State, holds
-from tumato_symbolic.spec import And, Assignment, Formula, Rule, Spec, variables_of
+from tumato_symbolic.spec import And, Assignment, Formula, Rule, Spec, conjuncts, variables_of
 
 Code = int
 """A state: the values of its variables side by side, in a few bits each."""
@@ -76,7 +76,7 @@ def all_hold(packing: Packing, rules: Sequence[Rule], executed: ActionSet = NOTH
 def _together(packing: Packing, rules: Sequence[Rule]) -> Iterator[Formula]:
     """Conjunctions of some rules' conjuncts, each with the first that mentions little enough beside it."""
     groups: list[tuple[int, list[Formula]]] = []
-    for formula in (each for rule in rules for each in _conjuncts(rule.formula)):
+    for formula in (each for rule in rules for each in conjuncts(rule.formula)):
         mask = packing.mask(variables_of(formula))
         fitting = (
             number for number, (bits, _) in enumerate(groups) if mask | bits in {mask, bits} or _are_few(mask | bits)
@@ -85,14 +85,6 @@ def _together(packing: Packing, rules: Sequence[Rule]) -> Iterator[Formula]:
         groups[number:] = groups[number:] or [(0, [])]
         groups[number] = groups[number][0] | mask, [*groups[number][1], formula]
     return (formulas[0] if len(formulas) == 1 else And(tuple(formulas)) for _, formulas in groups)
-
-
-def _conjuncts(formula: Formula) -> Iterator[Formula]:
-    if isinstance(formula, And):
-        for part in formula.operands:
-            yield from _conjuncts(part)
-    else:
-        yield formula
 
 
 def _are_few(bits: int) -> bool:
