@@ -11,9 +11,10 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+
+from msgspec import Struct
 
 from benchmarks.table import peak
 
@@ -22,8 +23,7 @@ RESULTS = Path(__file__).parent / "results"
 Case = Mapping[str, Any]
 
 
-@dataclass(frozen=True)
-class Figure:
+class Figure(Struct, frozen=True):
     """A number of a case. It is worse when it grows by more than a quarter and by more than `noise`."""
 
     name: str

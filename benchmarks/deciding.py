@@ -11,11 +11,13 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from itertools import islice, product
 from pathlib import Path
 from random import Random
 from types import ModuleType
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tumato_symbolic import parse
 from tumato_symbolic.export import python
@@ -35,8 +37,7 @@ ROUNDS = 150
 Named = Mapping[str, str]
 
 
-@dataclass(frozen=True)
-class Deciding:
+class Deciding(Struct, frozen=True):
     """What decisions of one policy cost: microseconds each, and tests of a variable (none where there is no tree).
 
     `table` is missing where a policy is a diagram in its file, because a table would be too large.

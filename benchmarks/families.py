@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from benchmarks.arbitrary import arbitrary
 from benchmarks.cells import counter, grid, obstacles
@@ -15,8 +16,7 @@ from benchmarks.robots import amr, loads, robots
 from benchmarks.sites import factory, uav
 
 
-@dataclass(frozen=True)
-class Family:
+class Family(Struct, frozen=True):
     """`text(size, realizable)` is a specification, or its twin. `sizes` are measured, `quick` in a short run."""
 
     name: str

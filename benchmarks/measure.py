@@ -10,9 +10,10 @@ import tempfile
 import threading
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
+
+from msgspec import Struct
 
 COMMAND = (sys.executable, "-c", "from tumato_symbolic.cli.main import entry; entry()")
 """What the console script `tumato-sym` runs."""
@@ -25,8 +26,7 @@ REPEATED_UP_TO = 2.0
 """Processes that take no more seconds than this are run `REPEATS` times, the others once; the best time counts."""
 
 
-@dataclass(frozen=True)
-class Ran:
+class Ran(Struct, frozen=True):
     """A finished process; `code` is None where it was ended at the time limit.
 
     `seconds` passed on the clock; `cpu` seconds were computed, which says more on a machine that others use too.
@@ -84,7 +84,7 @@ def machine() -> dict[str, object]:
         "memory_gb": round(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 1e9),
         "system": platform.system(),
         "python": platform.python_version(),
-        "versions": {name: version(name) for name in ("tumato-symbolic", "dd", "lark", "z3-solver")},
+        "versions": {name: version(name) for name in ("tumato-symbolic", "dd", "lark", "msgspec", "z3-solver")},
     }
 
 

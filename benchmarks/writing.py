@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+
+from msgspec import Struct, field
 
 
-@dataclass
-class Text:
+class Text(Struct):
     """The parts of a specification, in the order in which they were added."""
 
     states: list[str] = field(default_factory=list)

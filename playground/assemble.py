@@ -29,7 +29,10 @@ RUNTIME: Final = ("pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm", "python_
 """What Pyodide loads."""
 
 DISTRIBUTIONS: Final = ("dd", "astutils", "ply")
-"""Packages that synthesis needs, all of them in pure Python."""
+"""Packages that synthesis needs, in pure Python."""
+
+COMPILED: Final = ("msgspec",)
+"""Packages that have a wheel for Pyodide's platform."""
 
 PAGE_FILES: Final = ("playground.css", "app.mjs", "answer.mjs", "editor.mjs", "python.mjs", "sharing.mjs", "worker.mjs")
 
@@ -49,7 +52,7 @@ def assemble(pyodide: Path, target: Path) -> None:
     with tempfile.TemporaryDirectory() as folder:
         plain = Path(folder) / "packages.zip"
         with zipfile.ZipFile(plain, "w", zipfile.ZIP_DEFLATED) as archive:
-            for name, path in sorted(_packaged()):
+            for name, path in sorted((*_packaged(), *_compiled(pyodide, Path(folder) / "wheels"))):
                 archive.write(path, name)
         command = ["node", str(HERE / "compile.mjs"), str(pyodide.resolve()), str(plain), str(target / "packages.zip")]
         subprocess.run(command, check=True)
@@ -90,6 +93,23 @@ def _packaged() -> Iterator[tuple[str, Path]]:
         for file in distribution(name).files or ():
             if file.suffix == ".py" or "LICENSE" in file.name:
                 yield file.as_posix(), Path(str(file.locate()))
+
+
+def _compiled(pyodide: Path, folder: Path) -> Iterator[tuple[str, Path]]:
+    """The same of the packages that are compiled, in the versions that are installed here, from the package index."""
+    runtime = json.loads((pyodide / "pyodide-lock.json").read_text(encoding="utf-8"))["info"]
+    major, minor, *_ = runtime["python"].split(".")
+    platform = f"pyemscripten_{runtime['abi_version']}_{runtime['arch']}"
+    wanted = [f"{name}=={distribution(name).version}" for name in COMPILED]
+    about = ["--platform", platform, "--python-version", f"{major}.{minor}", "--abi", f"cp{major}{minor}"]
+    pip = [sys.executable, "-m", "pip", "download", "--quiet", "--disable-pip-version-check", "--no-deps"]
+    subprocess.run([*pip, "--only-binary=:all:", *about, "--dest", str(folder), *wanted], check=True)
+    for wheel in folder.glob("*.whl"):
+        with zipfile.ZipFile(wheel) as archive:
+            archive.extractall(folder / wheel.stem)
+        for path in (folder / wheel.stem).rglob("*"):
+            if path.suffix in {".py", ".so"} or "LICENSE" in path.name:
+                yield path.relative_to(folder / wheel.stem).as_posix(), path
 
 
 def main() -> None:

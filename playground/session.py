@@ -9,10 +9,11 @@ import json
 import tempfile
 from collections.abc import Callable, Iterable
 from contextlib import redirect_stdout
-from dataclasses import replace
 from io import StringIO
 from pathlib import Path
 from typing import TypeAlias
+
+from msgspec.structs import replace
 
 from tumato_symbolic.cli.synthesizing import answer_page, prove, solve
 from tumato_symbolic.diagnostics import Diagnostic, Source, UserError

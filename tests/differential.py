@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
 from random import Random
+
+from msgspec import Struct, field
 
 from tests.generate import random_spec
 from tests.oracle import OracleVerdict, Together, World, decide_world
@@ -24,8 +25,7 @@ FORMS_EVERY = 5
 """Every so many seeds the other backend and the other policy format are tried as well."""
 
 
-@dataclass(frozen=True)
-class Case:
+class Case(Struct, frozen=True):
     """A specification under one ordering."""
 
     profile: str
@@ -38,8 +38,7 @@ class Case:
         return random_spec(self.seed, ALL_PROFILES[self.profile])
 
 
-@dataclass
-class Report:
+class Report(Struct):
     """What was found: `complaints` is empty when everything agrees."""
 
     case: Case

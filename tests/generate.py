@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from itertools import product
 from math import prod
 from random import Random
 from typing import Literal
+
+from msgspec.structs import replace
 
 from tests.printing import formula_text, print_spec
 from tests.profiles import ALL_PROFILES, MIXED, PROFILES, Profile, Range

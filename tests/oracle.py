@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal, TypeAlias
 
 import z3
+from msgspec import Struct
 
 from tumato_symbolic.semantics import (
     ActionSet,
@@ -27,8 +27,7 @@ from tumato_symbolic.semantics import (
 from tumato_symbolic.spec import Ordering, Spec
 
 
-@dataclass(frozen=True)
-class Option:
+class Option(Struct, frozen=True):
     """One allowed set of a state: the nominal successor, and the residual goal that it leaves."""
 
     chosen: ActionSet
@@ -39,8 +38,7 @@ class Option:
 Kind: TypeAlias = Literal["realizable", "failing", "conflict"]
 
 
-@dataclass(frozen=True)
-class OracleVerdict:
+class OracleVerdict(Struct, frozen=True):
     """The truth about a specification.
 
     `no_allowed_set` and `no_plan` are the failing states by kind (`docs/semantics.md`, section 7); `conflict` means

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TypeAlias
+
+from msgspec import Struct
 
 Range: TypeAlias = tuple[int, int]
 
 
-@dataclass(frozen=True)
-class Profile:
+class Profile(Struct, frozen=True):
     """What specifications look like: inclusive ranges of counts, and probabilities between 0 and 1."""
 
     variables: Range = (2, 5)

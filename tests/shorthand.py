@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import product
 from random import Random
+
+from msgspec import Struct
 
 Value = str | int
 Scope = Mapping[str, Value]
@@ -23,8 +24,7 @@ COMPARISONS: dict[str, Callable[[object, object], bool]] = {
 ROBOTS = ("r1", "r2", "r3")
 
 
-@dataclass(frozen=True)
-class Piece:
+class Piece(Struct, frozen=True):
     """A piece of a specification: as it is written in short, and in full for given values of parameters."""
 
     short: str

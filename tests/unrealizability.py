@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from itertools import combinations
 from random import Random
 from typing import Literal, TypeVar
+
+from msgspec.structs import replace
 
 from tests.generate import ALL_PROFILES, random_spec
 from tests.oracle import Together, World

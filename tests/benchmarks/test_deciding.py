@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
+from msgspec.structs import replace
 
 from benchmarks.deciding import BAR, Deciding, count_tests, deciding, most_tests
 from tests.export.policies import decisions, example, random_request

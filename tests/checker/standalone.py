@@ -7,9 +7,10 @@ import io
 import re
 import sys
 from contextlib import redirect_stderr, redirect_stdout
-from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
+
+from msgspec import Struct
 
 CHECKER = Path(__file__).parents[2] / "proofs" / "checker.py"
 
@@ -27,8 +28,7 @@ def load_checker() -> ModuleType:
 checker = load_checker()
 
 
-@dataclass(frozen=True)
-class Answer:
+class Answer(Struct, frozen=True):
     """What the checker answers: the exit code, and what it prints."""
 
     code: int

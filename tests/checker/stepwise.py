@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from itertools import islice
 from random import Random
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tests.generate import random_spec
 from tests.oracle import World, decide_world
@@ -174,8 +176,7 @@ def improved(spec: Spec, ordering: Ordering, rows: Rows, times: int = 12) -> dic
     return better
 
 
-@dataclass
-class Claims:
+class Claims(Struct):
     """What a certificate says of a policy: ranks, efforts, and deviations with the runs that would miss their goals."""
 
     ranks: dict[Residual, dict[State, int]]

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from random import Random
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from tests.checker.standalone import Answer, ask, checker
 from tests.checker.stepwise import claiming, stepwise_spec, true_claims

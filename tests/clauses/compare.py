@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
 from pathlib import Path
 from random import Random
 from typing import TypeAlias
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from tests.checker.agreement import failing
 from tests.checker.standalone import ask, checker
@@ -44,8 +46,7 @@ PROVERS: tuple[ProverName, ...] = ("explicit", "walk", "z3")
 REFUSALS = ("TUM305", "TUM306")
 
 
-@dataclass
-class Report:
+class Report(Struct):
     """What was found: `kind` of outcome, how many policies were judged, and every difference."""
 
     kind: str = ""

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, replace
 from itertools import product
 from random import Random
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tests.generate import denoted, random_spec
 from tests.printing import formula_text, print_spec
@@ -17,16 +19,14 @@ RESTORATIONS: tuple[Restoration, ...] = ("one_step", "bounded", "fair")
 _VALUE = re.compile(r"\bv(\d+)\b")
 
 
-@dataclass(frozen=True)
-class Change:
+class Change(Struct, frozen=True):
     """A relative effect."""
 
     variable: int
     step: int
 
 
-@dataclass(frozen=True)
-class Clause:
+class Clause(Struct, frozen=True):
     """Effects under a condition; None: before all clauses."""
 
     condition: Formula | None
@@ -36,8 +36,7 @@ class Clause:
 ClauseSet = tuple[Clause, ...]
 
 
-@dataclass(frozen=True)
-class Pair:
+class Pair(Struct, frozen=True):
     """A text with clauses, the same without (None where effects disagree in some state), and the names of actions.
 
     `action_of` has the name of the action for each action of the text that is written out.

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import re
 import tempfile
-from dataclasses import dataclass
 from pathlib import Path
+
+from msgspec import Struct
 
 from tests import shell
 from tests.cli.inputs import write_inputs
@@ -13,8 +14,7 @@ from tests.explain.variants import VARIANTS
 from tests.repo.documents import ROOT
 
 
-@dataclass(frozen=True)
-class Case:
+class Case(Struct, frozen=True):
     """A command and the name of its golden file."""
 
     name: str

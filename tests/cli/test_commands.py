@@ -5,7 +5,6 @@ import inspect
 import json
 import sys
 from collections.abc import Iterator
-from dataclasses import fields, is_dataclass
 from pathlib import Path
 
 import pytest
@@ -15,13 +14,11 @@ from tests.limits import campaign
 from tests.repo.documents import ROOT
 from tumato_symbolic.cli import commands
 from tumato_symbolic.cli.commands import COMMANDS, load
-from tumato_symbolic.cli.options import CommandOptions
+from tumato_symbolic.cli.options import Argument, CommandOptions
 
 CLI = ROOT / "tumato_symbolic" / "cli"
 
 TOY = """
-from dataclasses import dataclass
-
 from tumato_symbolic.cli import arguments
 from tumato_symbolic.cli.options import CommandOptions, OutputFormat, Target, argument
 from tumato_symbolic.cli.output import show_as
@@ -30,8 +27,7 @@ ABOUT = "Count the bytes of a specification."
 EXAMPLES = "examples:\\n  tumato-sym count-bytes amr.tum\\n"
 
 
-@dataclass(frozen=True, slots=True)
-class Options(CommandOptions):
+class Options(CommandOptions, frozen=True):
     specs: tuple[str, ...] = arguments.specs()
     times: int = argument("--times", type=int, default=1, metavar="N", help="count so often")
     output: str | None = argument("--output", metavar="FILE", help="a copy of the number", writes=Target("number"))
@@ -108,8 +104,7 @@ def test_commands_have_one_face(name: str) -> None:
     assert f"  tumato-sym {name} " in command.EXAMPLES
     options = command.Options
     assert issubclass(options, CommandOptions)
-    assert is_dataclass(options)
-    assert all("settings" in field.metadata for field in fields(options)), "made by `argument`"
+    assert all(isinstance(each, Argument) for each in options.arguments().values()), "made by `argument`"
     assert len(inspect.signature(command.run).parameters) == 2
     if hasattr(command, "stopped"):
         assert len(inspect.signature(command.stopped).parameters) == 3
@@ -135,7 +130,7 @@ def test_options_of_several_commands_are_defined_once() -> None:
 
 def test_limits_are_tried_on_every_command_that_has_some() -> None:
     """The campaign on limits knows every command with a time limit."""
-    limited = {name for name in COMMANDS if "timeout" in {field.name for field in fields(load(name).Options)}}
+    limited = {name for name in COMMANDS if "timeout" in load(name).Options.__struct_fields__}
     assert set(campaign.COMMANDS) == limited
 
 

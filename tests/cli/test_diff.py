@@ -1,12 +1,12 @@
 """`diff`: two policies, or two specifications with their policies."""
 
 import json
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import jsonschema
 import pytest
+from msgspec.structs import replace
 
 from tests.cli.conftest import Cli
 from tests.policy.strategies import amr_like
@@ -74,7 +74,7 @@ def test_names_that_one_policy_has(cli: Cli, tmp_path: Path) -> None:
     variables = (place, ("S_Load", ("free", "full", "even")), ("S_Door", ("open", "shut")))
     rows = {(*state, value): chosen for state, chosen in amr_like().decisions.rows.items() for value in (0, 1)}  # type: ignore[union-attr]
     vocabulary = replace(old.vocabulary, variables=variables, actions=("go", "load", "halt"))
-    new = replace(old, vocabulary=vocabulary, decisions=replace(old.decisions, rows=rows), certificate=None)  # type: ignore[arg-type]
+    new = replace(old, vocabulary=vocabulary, decisions=replace(old.decisions, rows=rows), certificate=None)
     (tmp_path / "old.json").write_text(dumps(old))
     (tmp_path / "new.json").write_text(dumps(new))
     out = cli("diff", "old.json", "new.json").out

@@ -5,7 +5,6 @@ import re
 import shlex
 import subprocess
 import sys
-from dataclasses import fields
 from pathlib import Path
 
 import pytest
@@ -340,7 +339,7 @@ def test_a_half_is_no_whole_number(cli: Cli) -> None:
 
 @pytest.mark.parametrize(
     "command",
-    [name for name in COMMANDS if {"policy", "specs"} <= {field.name for field in fields(load(name).Options)}],
+    [name for name in COMMANDS if {"policy", "specs"} <= set(load(name).Options.__struct_fields__)],
 )
 def test_files_the_wrong_way_round(cli: Cli, command: str) -> None:
     """A specification and then a policy: exit 2, and the command that was meant."""
@@ -415,7 +414,7 @@ def test_an_unproved_policy_is_undecided_and_not_written(
     cli: Cli, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     """If the verifier meets its limits, nothing is written, the exit code is 3 and the verdict `undecided`."""
-    from dataclasses import replace
+    from msgspec.structs import replace
 
     from tumato_symbolic import verify
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from functools import cache, cached_property, lru_cache
 from typing import TYPE_CHECKING
 from unittest.mock import patch
+
+from msgspec.structs import replace
 
 from tests.conformance.roles import PROPERTIES, Rows
 from tests.conformance.turned import arriving, as_rival, jumping

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
+
+from msgspec import Struct
 
 from tests.conformance.world import World
 from tumato_symbolic.policy.unrealizability import Unrealizability
@@ -58,8 +59,7 @@ class Judge(Engine, Protocol):
         """Which of `PROPERTIES` fail."""
 
 
-@dataclass(frozen=True)
-class Answer:
+class Answer(Struct, frozen=True):
     """What there is: a policy with the length of its longest run, or the failing states by kind."""
 
     policy: Rows | None

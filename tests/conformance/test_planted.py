@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 from importlib import import_module
 from itertools import product
 from typing import Any
 
 import pytest
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tests.checker.standalone import checker
 from tests.conformance import by_checker, rules, world
@@ -58,8 +59,7 @@ refutations = import_module("tumato_symbolic.verify.unrealizability.verdict")
 by_solver = import_module("tumato_symbolic.verify.unrealizability.by_solver")
 
 
-@dataclass(frozen=True)
-class Bug:
+class Bug(Struct, frozen=True):
     """A bug, and the test of a rule that an engine with it fails; `change` puts one thing for another."""
 
     rule: str

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from functools import cache
 from itertools import combinations
+
+from msgspec import Struct
 
 from tumato_symbolic import parse
 from tumato_symbolic.semantics import ActionSet, State, action_names, all_states, cases_in, named
@@ -21,8 +22,7 @@ REMEMBERED = 4
 """Specifications for which an engine keeps what it has built: a manager of diagrams takes megabytes."""
 
 
-@dataclass(frozen=True)
-class World:
+class World(Struct, frozen=True):
     """A specification, as text and as a record, under one effect ordering."""
 
     text: str

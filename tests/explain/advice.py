@@ -13,11 +13,12 @@ import re
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from random import Random
 from typing import Literal, TypeAlias
+
+from msgspec.structs import replace
 
 from tests.clauses.generate import RESTORATIONS, random_pair
 from tests.explain.oracle import read_predicate, realizable, repaired

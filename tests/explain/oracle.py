@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import replace
 from itertools import product
 from random import Random
+
+from msgspec.structs import replace
 
 from tests.generate import NOWHERE
 from tests.oracle import Together, World, conflict_is_minimal, decide_world

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from functools import cache
 
 import pytest
+from msgspec.structs import replace
 
 from tests.explain.advice import (
     GIVEN_UP,
@@ -87,7 +87,7 @@ def test_advice_on_generated_specifications_is_safe(seed: int) -> None:
 
 def _told(text: str, **changes: object) -> set[str]:
     """What is wrong with an explanation that says something else than it should."""
-    spec, found = parse(text), replace(_explained(text), **changes)  # type: ignore[arg-type]
+    spec, found = parse(text), replace(_explained(text), **changes)
     return set(bad_advice(spec, text, found, _has_policy))
 
 

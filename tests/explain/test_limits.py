@@ -1,6 +1,6 @@
 """Tests of what `explain` may be asked: caps, more cores, no repairs, both orderings."""
 
-from dataclasses import replace
+from msgspec.structs import replace
 
 from tests.cli.inputs import CONFLICT, TWO_ROBOTS, WARNED
 from tests.generate import random_spec

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from tests.repo.documents import ROOT
 
@@ -16,8 +16,7 @@ action charge
 """
 
 
-@dataclass(frozen=True)
-class Variant:
+class Variant(Struct, frozen=True):
     """A broken specification: a part of the example, what stands in its place, and a text on the line to be named."""
 
     name: str

@@ -5,8 +5,10 @@ from __future__ import annotations
 import re
 import subprocess
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from pathlib import Path
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tests.export.c_compiler import compile_c
 from tests.export.compiler import Case
@@ -19,8 +21,7 @@ _COUNTS = re.compile(r"undecided (\d+), not allowed (\d+), goals not reached (\d
 _OTHERS = re.compile(r"others decided (\d+)")
 
 
-@dataclass(frozen=True)
-class Counted:
+class Counted(Struct, frozen=True):
     """The exit code, the faults of each kind, and how many states are decided though they are not valid."""
 
     code: int

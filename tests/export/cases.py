@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from random import Random
+
+from msgspec.structs import replace
 
 from tests.checker.stepwise import policies, stepwise_spec, ways
 from tests.differential import changed_policies

@@ -7,13 +7,13 @@ import re
 import shutil
 import subprocess
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import pytest
+from msgspec import Struct
 
 from tumato_symbolic.export.coq import export
 from tumato_symbolic.policy import policy_from_rows
@@ -29,8 +29,7 @@ COQC = shutil.which("coqc")
 needs_coq = pytest.mark.skipif(COQC is None, reason="coqc is not installed: the theorem is not compiled here")
 
 
-@dataclass(frozen=True)
-class Case:
+class Case(Struct, frozen=True):
     """A policy to be judged."""
 
     spec: Spec
@@ -43,8 +42,7 @@ class Case:
         return export(policy_from_rows(self.spec, self.rows), self.spec, self.ordering)
 
 
-@dataclass(frozen=True)
-class Library:
+class Library(Struct, frozen=True):
     """The sources in a folder of their own, so that nothing is left in the repository."""
 
     folder: Path

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Final, TypeAlias
 
 import pytest
+from msgspec import Struct
 
 from tests.export.c_check import counts, grouped
 from tests.export.c_compiler import needs_cc
@@ -36,8 +36,7 @@ Accepts: TypeAlias = Callable[[Sequence[Request], Path], list[bool]]
 """Whether a tool accepts each of several policies of one specification."""
 
 
-@dataclass(frozen=True)
-class Judge:
+class Judge(Struct, frozen=True):
     """A tool; `right` tells what it should accept, and `needs` skips where it is not installed."""
 
     accepts: Accepts

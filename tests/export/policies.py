@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from itertools import product
 from pathlib import Path
 from random import Random
+
+from msgspec.structs import replace
 
 from tests.export.compiler import Case
 from tests.repo.documents import ROOT

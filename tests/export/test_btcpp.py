@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from html import escape
 from itertools import product
 from random import Random
 
 import pytest
+from msgspec.structs import replace
 
 from tests.export.behaviour_trees import Running, entries, fallback, fresh, needs_library
 from tests.export.cases import generated

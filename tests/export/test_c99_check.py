@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import subprocess
 from collections.abc import Sequence
-from dataclasses import replace
 from itertools import chain, islice
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 from tests.export.c_check import counts, expected, grouped
 from tests.export.c_compiler import compile_c, needs_cc

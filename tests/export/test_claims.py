@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from itertools import chain, islice
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 from tests.export.cases import generated, stepwise
 from tests.export.compiler import Case

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 from tests.export.cases import generated, is_right, rows_of
 from tests.export.compiler import Case, Library, needs_coq

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import subprocess
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 from tests.export.c_compiler import compile_cpp, needs_cxx
 from tests.export.mixed import FROM_STARTS, mixed

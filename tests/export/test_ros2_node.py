@@ -6,10 +6,10 @@ import re
 import subprocess
 import xml.etree.ElementTree as ET
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 from tests.export.c_compiler import compile_cpp, needs_cxx
 from tests.export.policies import decisions, example, write

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
+from msgspec.structs import replace
 
 from tests.export.policies import example
 from tumato_symbolic.diagnostics import Code, UserError

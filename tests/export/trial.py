@@ -13,10 +13,11 @@ import tempfile
 import time
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from itertools import islice
 from pathlib import Path
 from random import Random
+
+from msgspec.structs import replace
 
 from tests.export import campaign, mixed
 from tests.export.compiler import Case

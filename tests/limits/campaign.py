@@ -7,8 +7,9 @@ import os
 import subprocess
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
+
+from msgspec import Struct
 
 from tests.limits.large import specification
 from tests.shell import PROGRAM
@@ -40,8 +41,7 @@ _CODES = {
 }
 
 
-@dataclass(frozen=True)
-class Ran:
+class Ran(Struct, frozen=True):
     """One command: what was run, within which limit, how long it took, its exit code, and what is wrong with all that.
 
     `problems` does not depend on how fast the machine is, as long as the command ended by itself.

@@ -6,8 +6,10 @@ import re
 import subprocess
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
 from pathlib import Path
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tests.conformance.by_coq import compiled
 from tests.export.compiler import COQC
@@ -22,8 +24,7 @@ from tumato_symbolic.spec import Spec
 Efforts = dict[State, Effort]
 
 
-@dataclass(frozen=True)
-class Question:
+class Question(Struct, frozen=True):
     """Whether Coq accepts decisions with what is told of their efforts, and whether it has to."""
 
     kind: str

@@ -7,10 +7,11 @@ from collections import Counter
 from collections.abc import Iterator
 from contextlib import suppress
 from copy import deepcopy
-from dataclasses import dataclass, field
 from pathlib import Path
 from random import Random
 from typing import Literal
+
+from msgspec import Struct, field
 
 from tests.checker.standalone import ask
 from tests.clauses.generate import random_pair
@@ -36,8 +37,7 @@ TIERS = (*PROVERS, "checker")
 Answer = Literal["accepted", "rejected", "undecided"]
 
 
-@dataclass(frozen=True)
-class Mutant:
+class Mutant(Struct, frozen=True):
     """A policy file beside a specification, and what was changed."""
 
     kind: str
@@ -45,8 +45,7 @@ class Mutant:
     spec: str
 
 
-@dataclass
-class Tally:
+class Tally(Struct):
     """What was found: `complaints` is empty where every tier knows right from wrong."""
 
     mutants: int = 0

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import pytest
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tumato_symbolic import Realizable, parse, synthesize
 from tumato_symbolic.game import evaluation, fixpoints, routing
@@ -40,8 +41,7 @@ END GOALS
 """A robot that goes anywhere in one step."""
 
 
-@dataclass(frozen=True)
-class Bug:
+class Bug(Struct, frozen=True):
     """A bug, and a specification whose policy it spoils."""
 
     name: str

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from copy import deepcopy
-from dataclasses import replace
 from pathlib import Path
 from random import Random
+
+from msgspec.structs import replace
 
 from tests.checker.stepwise import MODES, stepwise_spec, ways
 from tests.mutants import by_coq, policies, restoring, specs

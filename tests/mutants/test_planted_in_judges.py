@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import pytest
+from msgspec import Struct
 
 from tests.checker.standalone import ask, checker
 from tests.export.compiler import SOURCES, needs_coq
@@ -37,8 +37,7 @@ DROPS_AGAIN: Rows = {(0,): frozenset((0,)), (1,): frozenset((1,)), (2,): frozens
 CROSSES_FIRST = {**ROWS, T: frozenset((1,))}
 
 
-@dataclass(frozen=True)
-class Case:
+class Case(Struct, frozen=True):
     """A policy with a certificate, true or not where `worst` or `deviations` say so, and whether both are right."""
 
     text: str
@@ -118,8 +117,7 @@ def by_checker(case: Case, folder: Path) -> bool:
 JUDGES = {"z3": by_prover("z3"), "diagrams": by_prover("walk"), "states": by_prover("explicit"), "checker": by_checker}
 
 
-@dataclass(frozen=True)
-class Bug:
+class Bug(Struct, frozen=True):
     """In the code of a judge, `change` puts one thing for another."""
 
     judge: str

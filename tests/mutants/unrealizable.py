@@ -10,10 +10,11 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from copy import deepcopy
-from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 from random import Random
+
+from msgspec.structs import replace
 
 from tests.checker.standalone import ask
 from tests.generate import random_spec, random_text

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
+
+from msgspec import Struct
 
 RULES = "tests/conformance"
 
@@ -185,8 +186,7 @@ ONLY_WARN = {"tumato_symbolic/semantics/lint.py", "tumato_symbolic/semantics/lin
 """Modules in these folders on which no verdict depends."""
 
 
-@dataclass(frozen=True)
-class Covered:
+class Covered(Struct, frozen=True):
     """A module of the trusted base, its file, and its tests."""
 
     module: str

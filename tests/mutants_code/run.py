@@ -15,10 +15,11 @@ import tempfile
 import time
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from pathlib import Path
 from types import CodeType
 from typing import Any, Literal
+
+from msgspec import Struct
 
 from tests.mutants_code.sites import planted
 
@@ -35,8 +36,7 @@ miss that. `error`: pytest itself failed.
 _CODES: dict[int, Outcome] = {10: "survived", 11: "noticed", 12: "not loaded"}
 
 
-@dataclass(frozen=True)
-class Ending:
+class Ending(Struct, frozen=True):
     """How the tests ended, in how many seconds of the processor."""
 
     how: Outcome

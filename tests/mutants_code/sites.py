@@ -10,8 +10,9 @@ import ast
 import copy
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
+
+from msgspec import Struct
 
 COMPARISONS: dict[type[ast.cmpop], tuple[type[ast.cmpop], ...]] = {
     ast.Lt: (ast.LtE, ast.GtE),
@@ -65,8 +66,7 @@ WORDS = {
 }
 
 
-@dataclass(frozen=True)
-class Site:
+class Site(Struct, frozen=True):
     """One fault: `name` says where and what, `line` is where it stands today, `number` its place in the module."""
 
     name: str
@@ -74,8 +74,7 @@ class Site:
     number: int
 
 
-@dataclass(frozen=True)
-class _Change:
+class _Change(Struct, frozen=True):
     """Another node in the place of one: `field` of `parent`, at `index` where the field is a list."""
 
     parent: ast.AST

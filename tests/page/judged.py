@@ -7,13 +7,13 @@ import shutil
 import subprocess
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
 from random import Random
 from typing import Any
 
 import pytest
+from msgspec import Struct, field
 
 from tests.clauses.generate import random_pair
 from tests.generate import random_text
@@ -35,8 +35,7 @@ NODE = shutil.which("node")
 needs_node = pytest.mark.skipif(NODE is None, reason="node is not installed: the judge of the page is not run here")
 
 
-@dataclass(frozen=True)
-class Asked:
+class Asked(Struct, frozen=True):
     """A policy, right or wrong, for a specification."""
 
     name: str
@@ -56,8 +55,7 @@ class Asked:
         return json.dumps(record | {"policy": policy_record(policy, "policy.json")})
 
 
-@dataclass
-class Tally:
+class Tally(Struct):
     """How many policies were judged, and what the judges found wrong; `complaints` where they differ."""
 
     judged: int = 0

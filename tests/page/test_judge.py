@@ -44,7 +44,7 @@ def test_a_difference_is_noticed() -> None:
     assert tally.complaints
 
 
-class Misled(Asked):
+class Misled(Asked, frozen=True):
     """A question that forgets the rules of the specification, and says another one."""
 
     @property

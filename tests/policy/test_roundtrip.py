@@ -1,7 +1,6 @@
 """What is written is what is read."""
 
 import json
-from dataclasses import replace
 from pathlib import Path
 from random import Random
 
@@ -9,6 +8,7 @@ import jsonschema
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from msgspec.structs import replace
 
 from tests.policy.strategies import QUICK, amr_like, policies
 from tumato_symbolic.diagnostics import UserError

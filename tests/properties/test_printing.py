@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
 import pytest
+from msgspec import Struct
+from msgspec.structs import asdict, replace
 
 from tests.generate import NOWHERE, random_spec, random_text
 from tests.profiles import ALL_PROFILES, Profile
@@ -17,10 +18,11 @@ def bare(value: Any) -> Any:
     """A record without the places and texts that it came from; what an alternative may do has no order."""
     if isinstance(value, tuple):
         return tuple(bare(part) for part in value)
-    if not is_dataclass(value) or isinstance(value, type):
+    if not isinstance(value, Struct):
         return value
-    kept = {part.name: bare(getattr(value, part.name)) for part in fields(value) if part.init}
+    kept = {name: bare(part) for name, part in asdict(value).items()}
     hidden = {"span": NOWHERE, "text": "", "outcomes": tuple(sorted(kept.get("outcomes", ())))}
+    hidden |= {"resource_span": None, "bound_span": None}
     return replace(value, **{name: hidden.get(name, part) for name, part in kept.items()})
 
 

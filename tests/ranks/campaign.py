@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from pathlib import Path
 from random import Random
+
+from msgspec import Struct, field
 
 from tests.checker.standalone import ask
 from tests.generate import random_text
@@ -32,8 +33,7 @@ LARGEST = 60
 """The most states of a generated specification that is taken."""
 
 
-@dataclass(frozen=True)
-class Case:
+class Case(Struct, frozen=True):
     """Ranks beside a policy, and how they were changed."""
 
     text: str
@@ -43,8 +43,7 @@ class Case:
     kind: str
 
 
-@dataclass
-class Tally:
+class Tally(Struct):
     """What was found: `complaints` is empty where every judge says what the explicit meaning says."""
 
     cases: int = 0

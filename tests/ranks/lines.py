@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from random import Random
+
+from msgspec import Struct
 
 from tumato_symbolic import parse
 from tumato_symbolic.semantics import ActionSet, State, all_states, is_valid
@@ -13,8 +14,7 @@ LENGTHS = (0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 13, 14, 15, 16, 17)
 """Around powers of two, where a number may be taken for *none*."""
 
 
-@dataclass(frozen=True)
-class Line:
+class Line(Struct, frozen=True):
     """A line of places `t0`, `t1`, …, unsafe places beside it, and a trap; perhaps a lamp.
 
     `t0` is the goal. From an unsafe place `dear` leads near to it, and `cheap` to anywhere, perhaps too far away, or

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
 from pathlib import Path
+
+from msgspec import Struct, field
 
 from tests.readers.claims import claim_by_checker, claim_by_package
 from tests.readers.files import damaged as damaged_file
@@ -23,8 +24,7 @@ from tests.readers.texts import damaged as damaged_text
 from tumato_symbolic.spec import Spec
 
 
-@dataclass
-class Tally:
+class Tally(Struct):
     """How many files there were of which kind, and where the readers differ."""
 
     kinds: Counter[str] = field(default_factory=Counter)

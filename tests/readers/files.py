@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from functools import cache
 from random import Random
 from typing import Any
+
+from msgspec import Struct, field
 
 from tests.generate import random_spec, random_text
 from tests.profiles import PROFILES
@@ -22,15 +23,13 @@ from tumato_symbolic.semantics import count_states
 from tumato_symbolic.synthesis import Unrealizable
 
 
-@dataclass
-class Object:
+class Object(Struct):
     """A JSON object: its keys may repeat."""
 
     pairs: list[list[Any]] = field(default_factory=list)
 
 
-@dataclass(frozen=True)
-class Raw:
+class Raw(Struct, frozen=True):
     """A piece of JSON, or of what is none."""
 
     text: str
@@ -73,8 +72,7 @@ def _tree(text: str) -> Document:
     return json.loads(text, object_pairs_hook=lambda pairs: Object([[key, value] for key, value in pairs]))
 
 
-@dataclass(frozen=True)
-class Base:
+class Base(Struct, frozen=True):
     """A right file, and the specification that it is for."""
 
     text: str

@@ -11,10 +11,10 @@ import os
 import subprocess
 import sys
 import zipfile
-from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+from msgspec import Struct
 
 from tests.checker.standalone import CHECKER
 from tests.shell import PROGRAM
@@ -31,8 +31,7 @@ ASKED = 20
 """Rows of a policy that are asked for, evenly spread."""
 
 
-@dataclass(frozen=True)
-class Published:
+class Published(Struct, frozen=True):
     """A policy, the smallest specification that it fits, and how many states it decides."""
 
     policy: Path

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import hashlib
-from dataclasses import replace
 from random import Random
+
+from msgspec.structs import replace
 
 from tests.repeats.specs import crossroads
 from tumato_symbolic import parse

@@ -15,9 +15,10 @@ from __future__ import annotations
 import re
 import shutil
 from collections.abc import Iterator
-from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
+
+from msgspec import Struct
 
 from tests import shell
 
@@ -27,8 +28,7 @@ _FENCE = re.compile(r"^```([^\n]*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 _TIME = re.compile(r"\b(?:\d+ min )?\d+(?:\.\d+)? s\b")
 
 
-@dataclass(frozen=True)
-class Step:
+class Step(Struct, frozen=True):
     """A command with its expected output, and where in the document that output stands."""
 
     command: str
@@ -37,8 +37,7 @@ class Step:
     end: int
 
 
-@dataclass(frozen=True)
-class Given:
+class Given(Struct, frozen=True):
     """A file that the document gives."""
 
     name: str

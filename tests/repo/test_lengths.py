@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import pytest
+from msgspec import Struct
 
 from tests.repo.documents import ROOT
 
@@ -21,8 +21,7 @@ REASON = re.compile(r"^Longer than 300 lines because [^.]+\.$", re.MULTILINE)
 FILES = sorted((ROOT / "tumato_symbolic").rglob("*.py"))
 
 
-@dataclass(frozen=True)
-class Source:
+class Source(Struct, frozen=True):
     """A file: how many lines it has, and its tree."""
 
     path: str

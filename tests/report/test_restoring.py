@@ -1,6 +1,6 @@
 """What `verify` reports where safety may take several steps to restore."""
 
-from dataclasses import replace
+from msgspec.structs import replace
 
 from tests.semantics.test_restoration import EDGE, RETRY, VALVES
 from tests.verify.several_steps import Rows

@@ -1,6 +1,6 @@
 """Verdicts that no small example reaches."""
 
-from dataclasses import replace
+from msgspec.structs import replace
 
 from tests.cli.inputs import CONFLICT
 from tests.repo.documents import ROOT

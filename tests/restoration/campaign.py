@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
 from random import Random
 from typing import get_args
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from tests.generate import random_spec
 from tests.profiles import INTERACTING, PROFILES
@@ -47,8 +49,7 @@ MOST_POLICIES = 100_000
 """Where there are more policies a campaign does not try them one by one."""
 
 
-@dataclass
-class Tally:
+class Tally(Struct):
     """What was found, by restoration, number of tiers and answer; `tried` where all policies were tried as well."""
 
     answers: Counter[tuple[Restoration, int, str]] = field(default_factory=Counter)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 
 import z3
+from msgspec import Struct
 
 from tests.oracle import Option, World
 from tumato_symbolic.semantics import ActionSet, Residual, State, restored
@@ -14,8 +14,7 @@ from tumato_symbolic.semantics.step import next_states
 from tumato_symbolic.spec import Ordering, Spec
 
 
-@dataclass(frozen=True)
-class Truth:
+class Truth(Struct, frozen=True):
     """The failing states by kind; without any, a sound and complete policy, or None where the goals conflict."""
 
     failing: Mapping[str, frozenset[State]]

@@ -2,12 +2,12 @@
 
 import json
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from random import Random
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from tests.checker.standalone import ask
 from tests.mutants.unrealizable import examine_text
@@ -58,7 +58,7 @@ def test_a_worse_decision_serves_another_state() -> None:
 @pytest.mark.parametrize("restoration", ["bounded", "fair"])
 def test_the_deviation_is_listed_with_the_run_that_would_miss(restoration: str) -> None:
     """With the better set in the middle, the run of the state that needs the other side misses its goal."""
-    spec = replace(crossing(north="right"), restoration=restoration)  # type: ignore[arg-type]
+    spec = replace(crossing(north="right"), restoration=restoration)
     outcome = synthesize(spec)
     assert isinstance(outcome, Realizable)
     assert outcome.policy.certificate is not None
@@ -73,7 +73,7 @@ def test_the_deviation_is_listed_with_the_run_that_would_miss(restoration: str) 
 @pytest.mark.parametrize("restoration", ["bounded", "fair"])
 def test_states_that_no_policy_serves_together(restoration: str) -> None:
     """One has to pass through the middle to the left, the other to the right."""
-    spec = replace(crossing(north="right", south="left"), restoration=restoration)  # type: ignore[arg-type]
+    spec = replace(crossing(north="right", south="left"), restoration=restoration)
     outcome = synthesize(spec)
     assert isinstance(outcome, Unrealizable)
     assert [(each.kind, each.states) for each in outcome.failures] == [("conflict", ((0,), (1,)))]

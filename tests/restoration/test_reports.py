@@ -1,6 +1,6 @@
 """What `synth` says of a policy that takes several steps to restore safety."""
 
-from dataclasses import replace
+from msgspec.structs import replace
 
 from tests.semantics.test_restoration import EDGE, RETRY, VALVES, restoring
 from tumato_symbolic import Realizable, Unrealizable, parse, synthesize

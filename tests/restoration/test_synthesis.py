@@ -2,9 +2,9 @@
 
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import replace
 
 import pytest
+from msgspec.structs import replace
 
 from tests.restoration.campaign import Tally, examine, specifications
 from tests.semantics.test_restoration import EDGE, RETRY, VALVES, restoring

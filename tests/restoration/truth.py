@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
 from math import prod
+
+from msgspec import Struct
 
 from tumato_symbolic.semantics import (
     ActionSet,
@@ -25,8 +26,7 @@ from tumato_symbolic.semantics import (
 from tumato_symbolic.spec import Ordering, Spec
 
 
-@dataclass(frozen=True)
-class Option:
+class Option(Struct, frozen=True):
     """One set of actions that may be executed in a state, and all that follows from it."""
 
     chosen: ActionSet

@@ -1,8 +1,7 @@
 """Restoring safety in several steps, by severity, on small specifications (`docs/semantics.md`, sections 9 and 10)."""
 
-from dataclasses import replace
-
 import pytest
+from msgspec.structs import replace
 
 from tumato_symbolic import parse
 from tumato_symbolic.semantics import (

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from random import Random
+
+from msgspec import Struct, field
 
 from tests.generate import random_spec
 from tests.profiles import PROFILES
@@ -26,8 +27,7 @@ Rows = Mapping[State, ActionSet]
 ORDERINGS: tuple[Ordering, ...] = ("any", "first")
 
 
-@dataclass
-class Tally:
+class Tally(Struct):
     """How much was looked at, and what is wrong.
 
     `states` of which the worst case was held against what is guaranteed, by the kind of guarantee; `without` those of

@@ -1,10 +1,10 @@
 """Executions by chance are executions, as the explicit meaning knows them, and depend on the seed alone."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from random import Random
 
 import pytest
+from msgspec.structs import replace
 
 from tests.generate import random_spec
 from tests.profiles import PROFILES

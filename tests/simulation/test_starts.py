@@ -1,11 +1,11 @@
 """Where an execution may start: in the states that are decided, each as likely as the others."""
 
 from collections import Counter
-from dataclasses import replace
 from itertools import product
 from random import Random
 
 import pytest
+from msgspec.structs import replace
 
 from tests.generate import random_spec
 from tests.profiles import PROFILES

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Diagnostic, Source, Span
 from tumato_symbolic.spec import Loaded, load
@@ -18,8 +18,7 @@ BEGIN GOALS goal type: priority goal: S is b END GOALS
 """Complete, without errors or warnings; cases add blocks to it."""
 
 
-@dataclass(frozen=True)
-class Marked:
+class Marked(Struct, frozen=True):
     """A text and the span that was marked in it, if any."""
 
     text: str

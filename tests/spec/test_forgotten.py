@@ -1,9 +1,9 @@
 """What was probably forgotten is said, once and at its place, and the text can allow it."""
 
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 from tests.spec.marked import loaded, unmark
 from tumato_symbolic.diagnostics import Diagnostic, Source, not_allowed

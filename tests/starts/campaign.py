@@ -6,9 +6,11 @@ import json
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from copy import deepcopy
-from dataclasses import dataclass, field, replace
 from pathlib import Path
 from random import Random
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from tests.checker.agreement import failing
 from tests.checker.standalone import ask
@@ -96,8 +98,7 @@ CHANGED = 4
 Decisions = Mapping[State, ActionSet]
 
 
-@dataclass
-class Tally:
+class Tally(Struct):
     """What was found; `tried` where every closed set and every policy was tried."""
 
     answers: Counter[str] = field(default_factory=Counter)
@@ -347,8 +348,7 @@ def _differs_from_assumed(spec: Spec, outcome: Realizable, rows: Decisions, orde
         yield "with the part assumed, decisions differ"
 
 
-@dataclass(frozen=True)
-class Asked:
+class Asked(Struct, frozen=True):
     """What policies are judged by, and where files for the stand-alone checker go."""
 
     spec: Spec

@@ -5,10 +5,10 @@ import signal
 import threading
 import time
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 from benchmarks.robots import loads
 from tests.sweep.here import AMR, COIN

@@ -1,9 +1,9 @@
 """What would restore the states that cannot be restored in one step, against the explicit meaning and known answers."""
 
-from dataclasses import replace
 from random import Random
 
 import pytest
+from msgspec.structs import replace
 
 from tests.generate import random_spec
 from tests.profiles import RESTORING

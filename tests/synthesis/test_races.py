@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
+from msgspec.structs import replace
 
 from tests.generate import ALL_PROFILES, random_spec
 from tumato_symbolic import parse

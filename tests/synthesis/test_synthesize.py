@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from importlib import import_module
 from itertools import combinations
 
 import pytest
+from msgspec.structs import replace
 
 from tests.semantics.build import Build, constraint, priority, when
 from tumato_symbolic.diagnostics import Code, UserError

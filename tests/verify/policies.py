@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from random import Random
+
+from msgspec.structs import replace
 
 from tests.oracle import decide
 from tumato_symbolic.diagrams import DiagramBuilder

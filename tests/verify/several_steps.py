@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from random import Random
+
+from msgspec.structs import replace
 
 from tests.generate import NOWHERE, random_spec
 from tests.oracle import World, decide_world

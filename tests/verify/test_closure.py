@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from random import Random
 
 import pytest
+from msgspec.structs import replace
 
 from tests.generate import ALL_PROFILES, random_spec
 from tests.verify.policies import leaving, near_policies

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from importlib import import_module
 from typing import Literal, cast
 
 import pytest
+from msgspec.structs import replace
 
 from tests.semantics.build import Build, chosen, constraint, priority, when
 from tests.verify.policies import certified, exact_ranks

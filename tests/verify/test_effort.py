@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from importlib import import_module
 from typing import Any, cast
 
 import pytest
 import z3
+from msgspec.structs import replace
 
 from tests.unrealizability import certified as certificate_of
 from tests.verify.policies import certified

@@ -1,11 +1,11 @@
 """What is guaranteed, by the walk, is what the explicit meaning says; every shortcoming is one."""
 
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 from random import Random
 
 import pytest
+from msgspec.structs import replace
 
 from tests.generate import random_spec
 from tests.profiles import PROFILES

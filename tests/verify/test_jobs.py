@@ -6,12 +6,12 @@ import os
 import signal
 import sys
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from functools import partial
 from importlib import import_module
 from random import Random
 
 import pytest
+from msgspec.structs import replace
 
 from tests.generate import random_spec
 from tests.profiles import ALL_PROFILES

@@ -1,10 +1,10 @@
 """*No plan*: any layers that hold the runs and avoid the goal are a proof, whoever made or checks them."""
 
-from dataclasses import replace
 from itertools import pairwise
 from random import Random
 
 import pytest
+from msgspec.structs import replace
 
 from tests.generate import PROFILES
 from tests.oracle import World

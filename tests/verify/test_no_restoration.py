@@ -1,10 +1,10 @@
 """Certificates that safety is never surely restored (`docs/certificate.md`, *no restoration*)."""
 
 from collections.abc import Iterator
-from dataclasses import replace
 from random import Random
 
 import pytest
+from msgspec.structs import replace
 
 from tests.restoration.campaign import specifications
 from tests.semantics.test_restoration import EDGE, RETRY, VALVES, restoring

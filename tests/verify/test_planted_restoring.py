@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
+from msgspec.structs import replace
 
 from tests.semantics.test_restoration import EDGE, RETRY, VALVES
 from tests.verify.several_steps import Rows, certified, exact

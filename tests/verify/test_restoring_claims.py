@@ -1,10 +1,10 @@
 """Certificates about restoring safety in several steps: right ones are used, wrong ones are found out."""
 
 from collections import Counter
-from dataclasses import replace
 from random import Random
 
 import pytest
+from msgspec.structs import replace
 
 from tests.semantics.test_restoration import OVERRIDE
 from tests.verify.several_steps import RESTORATIONS, Efforts, Said, certified, detours, exact, near, stepwise_spec

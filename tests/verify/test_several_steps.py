@@ -1,10 +1,10 @@
 """`verify` and the explicit judgement agree where safety may take several steps to restore."""
 
 from collections import Counter
-from dataclasses import replace
 from random import Random
 
 import pytest
+from msgspec.structs import replace
 
 from tests.verify.several_steps import RESTORATIONS, Rows, near, stepwise_spec
 from tumato_symbolic.policy import Policy, policy_from_rows

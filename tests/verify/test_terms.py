@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
 from itertools import product
 from typing import Any
 
 import pytest
 import z3
+from msgspec.structs import replace
 
 from tests.generate import ALL_PROFILES, random_spec
 from tests.semantics import literal

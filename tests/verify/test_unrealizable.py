@@ -1,9 +1,9 @@
 """Certificates of unrealizability are proved when they are right, and never when what they claim is false."""
 
-from dataclasses import replace
 from random import Random
 
 import pytest
+from msgspec.structs import replace
 
 from tests.generate import ALL_PROFILES, random_spec
 from tests.oracle import World, decide_world

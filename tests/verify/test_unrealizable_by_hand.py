@@ -1,11 +1,11 @@
 """Certificates of unrealizability, part by part, on specifications made by hand."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 from random import Random
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from tests.oracle import World
 from tests.policy.mutations import mutations

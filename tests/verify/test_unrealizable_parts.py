@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
+from msgspec.structs import replace
 
 from tests.semantics.build import Build, priority, when
 from tests.unrealizability import certified, unrealizable

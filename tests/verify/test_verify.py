@@ -1,10 +1,10 @@
 """What `verify` is asked, whose ordering counts, and what it does when it cannot tell."""
 
-from dataclasses import replace
 from typing import Any
 
 import pytest
 import z3
+from msgspec.structs import replace
 
 from tests.semantics.build import Build, chosen, constraint, priority, when
 from tests.verify.policies import certified, exact_ranks

@@ -1,7 +1,6 @@
 """What two policies decide otherwise, against a comparison state by state."""
 
 from collections import Counter
-from dataclasses import replace
 from itertools import product
 from math import prod
 from random import Random
@@ -10,6 +9,7 @@ from unittest.mock import patch
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from msgspec.structs import replace
 
 from tests.generate import NOWHERE
 from tests.policy.strategies import QUICK, amr_like, policies, rows_of, spec_of

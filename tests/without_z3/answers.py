@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import hashlib
-from dataclasses import replace
 from typing import Literal
+
+from msgspec.structs import replace
 
 from tests.generate import random_spec
 from tests.profiles import ALL_PROFILES

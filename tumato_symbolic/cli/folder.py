@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
+
+from msgspec.structs import replace
 
 from tumato_symbolic.cli.exits import NO, UNDECIDED, USAGE, worst
 from tumato_symbolic.cli.matching import Specifications

@@ -8,10 +8,12 @@ import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import redirect_stderr, redirect_stdout, suppress
-from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tumato_symbolic.cli.console import wants_colour, write
 from tumato_symbolic.cli.exits import UNDECIDED, worst
@@ -32,16 +34,14 @@ Ended = Callable[[Any, str, Any], int]
 """What it does when it has to end."""
 
 
-@dataclass(frozen=True, slots=True)
-class Work:
+class Work(Struct, frozen=True):
     """What a command does for one file: with these options, or nothing, where something is wrong with it."""
 
     name: str
     options: CommandOptions | UserError
 
 
-@dataclass(frozen=True, slots=True)
-class Doing:
+class Doing(Struct, frozen=True):
     """A command: how it runs, how it ends at a limit, and what it says in a few words of its report."""
 
     run: Run

@@ -5,9 +5,10 @@ from __future__ import annotations
 import argparse
 import os
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any, ClassVar, Literal, NamedTuple
+
+from msgspec import Struct
 
 OutputFormat = Literal["text", "json", "github", "sarif"]
 
@@ -23,6 +24,17 @@ class Target(NamedTuple):
     path: str = ""
 
 
+class Argument(Struct, frozen=True, eq=False):
+    """How a field is typed: what `argparse` is told of it. Without flags, it is typed by its place.
+
+    `writes` says what is written to the file that the field names.
+    """
+
+    flags: tuple[str, ...]
+    settings: dict[str, Any]
+    writes: Target | None
+
+
 _LARGE = 200_000
 """Bytes of specifications that take a second or so to read."""
 
@@ -32,8 +44,7 @@ def are_large(paths: Iterable[str]) -> bool:
     return sum(Path(path).stat().st_size for path in paths if Path(path).is_file()) > _LARGE
 
 
-@dataclass(frozen=True, slots=True)
-class CommandOptions:
+class CommandOptions(Struct, frozen=True):
     """What was typed after a command. A command's own record extends this one, and says so where it differs.
 
     Its fields are made by `argument`, in the order in which the help shows them; one of a name that is known here
@@ -90,7 +101,12 @@ class CommandOptions:
     @classmethod
     def outputs(cls) -> dict[str, Target]:
         """The fields that name a file to write, with what is written there."""
-        return {each.name: each.metadata["writes"] for each in fields(cls) if each.metadata["writes"] is not None}
+        return {name: each.writes for name, each in cls.arguments().items() if each.writes is not None}
+
+    @classmethod
+    def arguments(cls) -> dict[str, Argument]:
+        """How every field is typed."""
+        return dict(zip(cls.__struct_fields__, cls.__struct_defaults__, strict=True))
 
     def targets(self) -> Iterator[Target]:
         """The files that may be written."""
@@ -115,20 +131,17 @@ def is_folder(name: str) -> bool:
 
 
 def argument(*flags: str, writes: Target | None = None, **settings: Any) -> Any:  # noqa: ANN401 - a field of any type
-    """A field of a record of options, with what `argparse` is told of it. Without flags, it is typed by its place.
-
-    `writes` says what is written to the file that the field names.
-    """
-    return field(metadata={"flags": flags, "settings": settings, "writes": writes})
+    """A field of a record of options: an `Argument`, in the place of a default."""
+    return Argument(flags, settings, writes)
 
 
 def add_arguments(parser: argparse.ArgumentParser, options: type[CommandOptions]) -> None:
     """Let a parser know the fields of a record."""
-    for each in fields(options):
-        flags, settings = each.metadata["flags"], each.metadata["settings"]
-        if flags:
-            parser.add_argument(*flags, dest=each.name, **settings)
+    for name, each in options.arguments().items():
+        settings = each.settings
+        if each.flags:
+            parser.add_argument(*each.flags, dest=name, **settings)
         else:
             if settings.get("nargs") == "*":
                 settings = {"default": (), **settings}  # without a default, usage says that some is required
-            parser.add_argument(each.name, **settings)
+            parser.add_argument(name, **settings)

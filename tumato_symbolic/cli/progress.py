@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Final
+
+from msgspec import Struct
 
 from tumato_symbolic.cli.console import write
 from tumato_symbolic.limits import Context
@@ -14,8 +15,7 @@ _BETWEEN: Final = 0.5
 """Seconds between two records of what is known."""
 
 
-@dataclass
-class Progress:
+class Progress(Struct):
     """A stage, lines for a program in their order, and a record of what is known, for a report if the work ends here.
 
     `line` is the line of a number; None where it is not known yet, or none is wanted. `known` is all that a report

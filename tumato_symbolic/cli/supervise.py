@@ -14,9 +14,10 @@ import signal
 import time
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, field
 from types import FrameType
 from typing import NoReturn, TypeAlias
+
+from msgspec import Struct, field
 
 from tumato_symbolic.cli import console
 from tumato_symbolic.limits import Context
@@ -154,8 +155,7 @@ class _Sender:
             os.read(self._leave, 1)
 
 
-@dataclass
-class _Watch:
+class _Watch(Struct):
     """The parent's end."""
 
     child: int

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import time
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, cast
+
+from msgspec.structs import replace
 
 from tumato_symbolic.cli.console import note, write, writing
 from tumato_symbolic.cli.options import STANDARD_OUTPUT

@@ -7,9 +7,10 @@ import stat
 import sys
 from collections.abc import Iterable
 from contextlib import suppress
-from dataclasses import replace
 from pathlib import Path
 from typing import TextIO, TypeVar
+
+from msgspec.structs import replace
 
 from tumato_symbolic.cli.console import need_output
 from tumato_symbolic.cli.options import STANDARD_OUTPUT, CommandOptions, Target

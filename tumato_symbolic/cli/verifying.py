@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias, cast
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tumato_symbolic.cli.console import write
 from tumato_symbolic.cli.exits import NO, UNDECIDED, YES
@@ -30,8 +32,7 @@ if TYPE_CHECKING:
     Verdict: TypeAlias = Verified | VerifiedUnrealizable
 
 
-@dataclass(frozen=True, slots=True)
-class Criteria:
+class Criteria(Struct, frozen=True):
     """What a claim is held to: an ordering and a restoration (None: the specification's), properties, and who proves.
 
     `strict`: its certificate has to hold as well. `guarantees`: what a policy guarantees beyond
@@ -70,8 +71,7 @@ def verify_claim(
         return asked.unrealizable(verify_unrealizable(claim, asked.spec, ordering=criteria.ordering, context=part))
 
 
-@dataclass(frozen=True, slots=True)
-class _Asked:
+class _Asked(Struct, frozen=True):
     """The file with a claim, what the claim is about, and what it is held to; when proving began, in seconds."""
 
     path: str

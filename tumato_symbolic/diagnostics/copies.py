@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
 from typing import TypeAlias
+
+from msgspec.structs import replace
 
 from tumato_symbolic.diagnostics.codes import Code
 from tumato_symbolic.diagnostics.diagnostic import CopySpan, Diagnostic, Note, Span

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from msgspec import Struct
+from msgspec.structs import force_setattr
 
 from tumato_symbolic.diagnostics.codes import Code, Severity
 
 
-@dataclass(frozen=True, slots=True)
-class Span:
+class Span(Struct, frozen=True):
     """A range of a source text: 1-based lines and columns (in characters); the end is exclusive."""
 
     line: int
@@ -17,8 +17,7 @@ class Span:
     end_column: int
 
 
-@dataclass(frozen=True, slots=True)
-class CopySpan(Span):
+class CopySpan(Span, frozen=True):
     """A range of a source text that stands for several things: this one was made with these parameters."""
 
     parameters: tuple[tuple[str, str], ...]
@@ -34,8 +33,7 @@ class CopySpan(Span):
         return Span(self.line, self.column, self.end_line, self.end_column)
 
 
-@dataclass(frozen=True, slots=True)
-class Source:
+class Source(Struct, frozen=True):
     """A text and the name it is shown under (usually its path as the user typed it).
 
     The text has no byte-order mark, and every line ends with a line feed, whatever it was made from: a line ends with a
@@ -47,19 +45,17 @@ class Source:
 
     def __post_init__(self) -> None:
         plain = self.text.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n")
-        object.__setattr__(self, "text", plain)
+        force_setattr(self, "text", plain)
 
 
-@dataclass(frozen=True, slots=True)
-class Note:
+class Note(Struct, frozen=True):
     """A second place that explains a diagnostic, such as the first of two declarations."""
 
     message: str
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Diagnostic:
+class Diagnostic(Struct, frozen=True):
     """One finding.
 
     `help` is the way out ("did you mean `S_Battery`?"); `span` is None where no place in a text is to blame.
@@ -69,7 +65,7 @@ class Diagnostic:
     message: str
     span: Span | None = None
     help: str | None = None
-    notes: tuple[Note, ...] = field(default=())
+    notes: tuple[Note, ...] = ()
 
     @property
     def severity(self) -> Severity:

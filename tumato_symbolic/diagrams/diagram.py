@@ -8,9 +8,10 @@ their parents, so a diagram cannot contain a cycle.
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from math import prod
 from typing import Generic, TypeAlias, TypeVar
+
+from msgspec import Struct
 
 Leaf = TypeVar("Leaf", bound=Hashable)
 Reference: TypeAlias = int
@@ -18,8 +19,7 @@ Node: TypeAlias = tuple[int, tuple[Reference, ...]]
 """(level, one child for every value of the variable at that level); levels grow towards the leaves."""
 
 
-@dataclass(frozen=True, slots=True)
-class Diagram(Generic[Leaf]):
+class Diagram(Struct, Generic[Leaf], frozen=True):
     """A shared diagram: `order[level]` is the number of the variable that is tested at that level.
 
     Reduced: no two nodes are equal, and no node has only equal children. Roots are kept by the owner.

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import fields
 from typing import NamedTuple
 
 from tumato_symbolic.diagnostics import Span
@@ -62,8 +61,8 @@ class _Finder:
             case _ if _is_predicate(node):
                 self._predicate(node, 0)
             case ast.Node():
-                for each in fields(node):  # type: ignore[arg-type]
-                    self.inside(getattr(node, each.name))
+                for name in node.__struct_fields__:
+                    self.inside(getattr(node, name))
 
     def _before(self, nodes: Sequence[ast.Node], where: Break, operator: bool = False) -> None:
         """Before each of some nodes, or before the operator in front of it."""

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import pairwise
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Source, UserError
 from tumato_symbolic.editor.breaks import Break, breaks
@@ -51,8 +53,7 @@ def _comments(between: Sequence[Gap]) -> list[str]:
     return [comment.text for gap in between for comment in gap.comments]
 
 
-@dataclass(slots=True)
-class _Layout:
+class _Layout(Struct, frozen=True, dict=True):
     """A text whose lines are being chosen. Its first token and each of `starts` begin a line, or go on with one."""
 
     tokens: Sequence[Token]
@@ -60,12 +61,11 @@ class _Layout:
     gaps: Sequence[Gap]
     starts: Mapping[int, Start]
     breaks: Mapping[int, Break]
-    entries: list[int] = field(init=False)
-    columns: list[int] = field(init=False)
 
-    def __post_init__(self) -> None:
-        self.entries = self._chosen()
-        self.columns = _line_columns(self.tokens, self.gaps)
+    @cached_property
+    def columns(self) -> list[int]:
+        """The column at which the line of each token begins, be it with a comment."""
+        return _line_columns(self.tokens, self.gaps)
 
     def text(self) -> str:
         """Every line."""
@@ -76,7 +76,8 @@ class _Layout:
         self._write_gap(lines, end, 0)
         return lines.text()
 
-    def _chosen(self) -> list[int]:
+    @cached_property
+    def entries(self) -> list[int]:
         """The places at which lines begin; a goal that fits after its condition begins none."""
         found = [place for place in self.starts if not (place and self.gaps[place].is_fixed_line)]
         kept = list[int]()

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Final, Literal, NamedTuple, TypeAlias
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import CopySpan, Source, Span
 from tumato_symbolic.editor.parameters import parameter_places
@@ -39,8 +40,7 @@ class Mention(NamedTuple):
     inside: str
 
 
-@dataclass(frozen=True)
-class Index:
+class Index(Struct, frozen=True, dict=True):
     """A text with its tree, copies written out where they can be, and all that is mentioned in it."""
 
     source: Source
@@ -122,7 +122,7 @@ def _declared(node: object) -> Iterator[tuple[str, SymbolKind]]:
     elif isinstance(node, ast.Specification):
         yield from _declared(node.blocks)
     elif isinstance(node, ast.StateVector | ast.Aliases | ast.Resources | ast.Actions):
-        yield from _declared(getattr(node, node.__slots__[0]))
+        yield from _declared(getattr(node, node.__struct_fields__[0]))
 
 
 def _lists_used(tree: ast.Specification | None, names: Mapping[str, SymbolKind]) -> Iterator[Mention]:
@@ -140,7 +140,7 @@ def _lists_used(tree: ast.Specification | None, names: Mapping[str, SymbolKind])
         elif isinstance(node, ast.NamedList) and names.get(node.name.text) != "named list":
             yield Mention(Symbol("named list", node.name.text), node.name.span, "declared", f"`{node.name.text}`")
         elif isinstance(node, ast.Node) and not isinstance(node, ast.Name):
-            waiting += [getattr(node, each) for each in node.__slots__ if each != "span"]
+            waiting += [getattr(node, each) for each in node.__struct_fields__ if each != "span"]
 
 
 def _parameters(tree: ast.Specification | None) -> Iterator[Mention]:

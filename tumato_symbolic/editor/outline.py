@@ -42,7 +42,7 @@ def outline(source: Source) -> tuple[Entry, ...]:
 def _block(block: ast.Block, lines: list[str]) -> Entry:
     span = block.span
     title = lines[span.line - 1][span.column - 1 :].split("//")[0].removeprefix("BEGIN").strip() or type(block).__name__
-    entries: Iterable[object] = getattr(block, block.__slots__[0])
+    entries: Iterable[object] = getattr(block, block.__struct_fields__[0])
     if isinstance(block, ast.Goals):
         entries = block.goals.members
     return Entry(title, "block", span, _first_line(span, lines), tuple(_entries(entries, lines)))

@@ -46,6 +46,6 @@ def parameter_places(node: object, scope: _Scope | None = None) -> Iterator[Para
                     place = Span(span.line, column, span.line, column + len(found[1]))
                     yield ParameterPlace(found[1], scope[found[1]], place)
         case ast.Node():
-            for each in node.__slots__:
+            for each in node.__struct_fields__:
                 if each != "span":
                     yield from parameter_places(getattr(node, each), scope)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from tumato_symbolic.syntax.tokens import Token
 
@@ -24,8 +25,7 @@ _INSIDE = {"for": ("end",), "effects": ("nominal", "alternative")}
 """Where such a terminal goes on with a line: after these."""
 
 
-@dataclass(frozen=True, slots=True)
-class Start:
+class Start(Struct, frozen=True):
     """The first token of a line. `inner` is the indentation of a comment before it that is about what it closes."""
 
     indent: int
@@ -34,8 +34,7 @@ class Start:
     inner: int = 0
 
 
-@dataclass(slots=True)
-class _Frame:
+class _Frame(Struct):
     """A block, or copies: the indentation of its own lines, and of entries, fields and clauses in it."""
 
     indent: int

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
 from typing import TypeAlias
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tumato_symbolic.diagnostics import Span
 from tumato_symbolic.explain.as_predicates import cube_formula, predicate_text
@@ -25,23 +27,20 @@ from tumato_symbolic.spec import (
 _SPAN = Span(1, 1, 1, 1)
 
 
-@dataclass(frozen=True, slots=True)
-class Setting:
+class Setting(Struct, frozen=True):
     """A line in CONFIG: safety may take several steps to restore."""
 
     restoration: Restoration
 
 
-@dataclass(frozen=True, slots=True)
-class NewAction:
+class NewAction(Struct, frozen=True):
     """An action that the robot lacks: where it has to be able to start (None: anywhere), and its nominal effects."""
 
     condition: StateCube | None
     effects: Assignment
 
 
-@dataclass(frozen=True, slots=True)
-class NoGoalWhile:
+class NoGoalWhile(Struct, frozen=True):
     """No goal is active while one of some variables has one of its values."""
 
     values: tuple[tuple[int, tuple[int, ...]], ...]

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
 from typing import Literal, TypeAlias
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from tumato_symbolic.explain.cubes import disjoint_cubes, set_of
 from tumato_symbolic.explain.elements import Element, Elements
@@ -20,8 +22,7 @@ Asked: TypeAlias = FailingKind | Literal["left-out"]
 """What cores are asked about; `left-out`: whatever a policy decides, it leaves the state out."""
 
 
-@dataclass(frozen=True)
-class Cause:
+class Cause(Struct, frozen=True):
     """States that fail in one way and have one core in common. `example` is one of them.
 
     `later`: they are starts, and fail only because of what follows them.
@@ -39,8 +40,7 @@ class Cause:
         return "left-out" if self.later else self.kind
 
 
-@dataclass(frozen=True)
-class Failing:
+class Failing(Struct, frozen=True):
     """The valid states that fail, by kind; `later` are starts that fail only because of what follows them."""
 
     no_allowed_set: Bdd
@@ -80,8 +80,7 @@ def causes(oracle: FailingStates, states: Failing) -> Iterator[Cause]:
             yield replace(cause, kind=kind, later=True)
 
 
-@dataclass(frozen=True)
-class Question:
+class Question(Struct, frozen=True):
     """Whether one state fails in one way when only some elements are kept, and which of some states do."""
 
     fails: Callable[[State, Elements], bool]

@@ -7,8 +7,9 @@ covers most is taken.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import TypeAlias
+
+from msgspec import Struct
 
 from tumato_symbolic.semantics import State
 from tumato_symbolic.symbolic import Bdd, Encoding
@@ -17,8 +18,7 @@ StateCube: TypeAlias = tuple[tuple[int, ...], ...]
 """For every variable the values that it may have, ascending; all of them where it does not matter."""
 
 
-@dataclass(frozen=True)
-class Cover:
+class Cover(Struct, frozen=True):
     """Cubes, and what they leave uncovered where a limit was met."""
 
     cubes: tuple[StateCube, ...]

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tumato_symbolic.explain.guaranteed import Guaranteed, guaranteed
 from tumato_symbolic.explain.near_misses import candidates
@@ -32,8 +34,7 @@ Verdict: TypeAlias = Literal[
 ]
 
 
-@dataclass(frozen=True, slots=True)
-class GoalNote:
+class GoalNote(Struct, frozen=True):
     """What the walk through the goals came to: a goal that is active, or a condition that does not hold.
 
     `conditions` are those on the way to the goal, outermost first; the last one is false where it is not `active`.
@@ -44,8 +45,7 @@ class GoalNote:
     body: Rule | None
 
 
-@dataclass(frozen=True, slots=True)
-class Other:
+class Other(Struct, frozen=True):
     """What another set of actions would mean.
 
     `forbidden`: the objection says why. `misses`: its run, continued by the policy, does not meet the goal. The others
@@ -62,8 +62,7 @@ class Other:
     quality: Quality | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Decision:
+class Decision(Struct, frozen=True):
     """A decision with all that explains it. `broken` are the state rules that the state breaks.
 
     `way` leads from an unsafe state back to safety, where that may take several steps, and `quality` is how well the

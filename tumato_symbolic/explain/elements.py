@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
 from typing import Final, Literal, TypeAlias
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tumato_symbolic.diagnostics import Span
 from tumato_symbolic.spec import Action, Rule, Spec
@@ -25,8 +27,7 @@ PREFERENCE: Final[tuple[ElementKind, ...]] = (
 """Where several reasons are as good, the one whose elements come first is told."""
 
 
-@dataclass(frozen=True, slots=True)
-class Element:
+class Element(Struct, frozen=True):
     """One thing that a specification requires.
 
     `number` is that of the rule, the assumption or the first case of the action (0 for the plan bound). Of an action,

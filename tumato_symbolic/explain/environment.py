@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import chain
+
+from msgspec import Struct
 
 from tumato_symbolic.explain.cubes import StateCube, disjoint_cubes
 from tumato_symbolic.explain.requirements import Requirements
@@ -14,8 +15,7 @@ MOST_CUBES = 2
 """A condition of more cubes is not told."""
 
 
-@dataclass(frozen=True, slots=True)
-class Restriction:
+class Restriction(Struct, frozen=True):
     """Values that an assumption takes from a variable that no action controls.
 
     `never` are those that it takes away everywhere, `only` is the value that is left where that is a single one. The

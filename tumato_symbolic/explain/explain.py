@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from typing import Final, TypeAlias
+
+from msgspec.structs import replace
 
 from tumato_symbolic.explain.as_predicates import predicate_text
 from tumato_symbolic.explain.explanation import (

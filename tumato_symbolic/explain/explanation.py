@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from typing import Final, Literal, TypeAlias
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tumato_symbolic.explain.additions import Addition
 from tumato_symbolic.explain.cubes import StateCube
@@ -17,8 +19,7 @@ from tumato_symbolic.synthesis.diagnosis import Restorability
 from tumato_symbolic.synthesis.result import FailureKind, Statistics
 
 
-@dataclass(frozen=True, slots=True)
-class OwnGoal:
+class OwnGoal(Struct, frozen=True):
     """An active goal of a state that has no plan: `body` indexes `Spec.bodies`.
 
     `never` are those of its parts (conjuncts) that no nominal effects ever make true, whatever is dropped. `clashes`:
@@ -30,8 +31,7 @@ class OwnGoal:
     clashes: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Reason:
+class Reason(Struct, frozen=True):
     """States that fail in one way for one reason.
 
     `count` is the exact number of these states. `cubes` are disjoint and hold exactly these valid states, but for the
@@ -60,16 +60,14 @@ class Reason:
         return self.cores[0]
 
 
-@dataclass(frozen=True, slots=True)
-class Change:
+class Change(Struct, frozen=True):
     """One line to change: an element, and the text that takes its place (None: it is dropped)."""
 
     element: Element
     text: str | None
 
 
-@dataclass(frozen=True, slots=True)
-class Repair:
+class Repair(Struct, frozen=True):
     """Additions and changes that together make the specification realizable; synthesis has said so."""
 
     changes: tuple[Change, ...] = ()
@@ -90,8 +88,7 @@ Wanted: TypeAlias = int | Literal["all"]
 """How many ways to change lines are looked for; `all`: also those that give up safety."""
 
 
-@dataclass(frozen=True, slots=True)
-class RealizablePart:
+class RealizablePart(Struct, frozen=True):
     """An assumption that makes the specification realizable, and how many states it keeps and gives up.
 
     With starts, it is a start condition in the place of those that are there, and starts are counted.
@@ -116,8 +113,7 @@ Stage: TypeAlias = Literal["states", "part", "reasons", "near", "repairs"]
 STAGES: Final[tuple[Stage, ...]] = ("states", "part", "reasons", "near", "repairs")
 
 
-@dataclass(frozen=True, slots=True)
-class FailingGroup:
+class FailingGroup(Struct, frozen=True):
     """The states that fail in one way, all of them; of a conflict, those that no policy serves together.
 
     `cubes` are disjoint and hold exactly these valid states, but for the `omitted` ones of which no cube is listed;
@@ -132,8 +128,7 @@ class FailingGroup:
     together: tuple[State, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class LeftOut:
+class LeftOut(Struct, frozen=True):
     """A stage that was not finished: `found` says how far it came, `why` what ended it."""
 
     stage: Stage
@@ -141,8 +136,7 @@ class LeftOut:
     why: str
 
 
-@dataclass(frozen=True, slots=True)
-class Explanation:
+class Explanation(Struct, frozen=True):
     """Why there is no policy, and what would change that; what is known of it by now.
 
     Every stage adds its part: `groups` (`states`), `part`, `reasons` with `omitted` (the failing states whose reason is
@@ -174,15 +168,13 @@ class Explanation:
         return stage in self.finished or any(each.stage == stage for each in self.left_out)
 
 
-@dataclass(frozen=True, slots=True)
-class NothingToExplain:
+class NothingToExplain(Struct, frozen=True):
     """There is a policy."""
 
     statistics: Statistics
 
 
-@dataclass(frozen=True, slots=True)
-class Unexplained:
+class Unexplained(Struct, frozen=True):
     """It is not known whether there is a policy: a limit was met, or (`limit` is None) work goes on."""
 
     limit: str | None = None

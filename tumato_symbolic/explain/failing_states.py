@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from msgspec.structs import replace
 
 from tumato_symbolic.explain.elements import Element, Elements
 from tumato_symbolic.explain.requirements import Requirements

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from tumato_symbolic.semantics import (
     ActionSet,
@@ -22,8 +23,7 @@ MOST_OUTCOMES = 50_000
 """So many outcomes are followed, state by state; beyond, `verify --guarantees` has to be asked."""
 
 
-@dataclass(frozen=True, slots=True)
-class Guaranteed:
+class Guaranteed(Struct, frozen=True):
     """The guarantee of a state, None where not even the nominal run meets its goal, and why it is no stronger."""
 
     guarantee: Guarantee | None

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import combinations
 from math import prod
+
+from msgspec import Struct
 
 from tumato_symbolic.semantics import NOTHING, ActionSet, Objection, State, duration, holds, objections
 from tumato_symbolic.spec import Ordering, Spec
@@ -17,16 +18,14 @@ MOST_OUTCOMES = 50_000
 """So many outcomes are looked at in one state, over all sets."""
 
 
-@dataclass(frozen=True, slots=True)
-class NearMiss:
+class NearMiss(Struct, frozen=True):
     """A set of actions that is not allowed in a state, and every objection to it, in the order of section 3."""
 
     chosen: ActionSet
     objections: tuple[Objection, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Nearest:
+class Nearest(Struct, frozen=True):
     """The sets that come nearest to being allowed in a state; `passed_over` sets have too many outcomes to look at."""
 
     misses: tuple[NearMiss, ...]

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tumato_symbolic.diagnostics import Span
 from tumato_symbolic.explain.as_predicates import in_other_words, predicate_text, shortest_formula
@@ -22,16 +24,14 @@ CHOICES = 200
 """So many ways out of conflicts are tried at most."""
 
 
-@dataclass(frozen=True)
-class SteadyPart:
+class SteadyPart(Struct, frozen=True):
     """States that make the specification realizable, and out of which the environment alone does not lead."""
 
     count: int
     formula: Formula
 
 
-@dataclass(frozen=True)
-class Part:
+class Part(Struct, frozen=True):
     """States which, taken as an assumption, or as the starts, make the specification realizable.
 
     `unique`: it is the greatest such set, and every other one is a part of it. Where goals conflict there may be

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from tumato_symbolic.explain.conflicts import conflict_core, conflicting
 from tumato_symbolic.explain.cores import Cause, causes, core_finder, element_list, more_cores

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from types import MappingProxyType
 from typing import Literal, TypeAlias
+
+from msgspec.structs import replace
 
 from tumato_symbolic.explain.adding import composed, controlling_the_environment, derived, settings, single_additions
 from tumato_symbolic.explain.additions import Addition, with_additions

@@ -9,7 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from copy import copy
-from dataclasses import dataclass, replace
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tumato_symbolic.explain.elements import Element, Elements, elements_of, keep_only, replace_rule, rule_of
 from tumato_symbolic.limits import Context
@@ -30,8 +32,7 @@ from tumato_symbolic.symbolic import (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class Requirement:
+class Requirement(Struct, frozen=True):
     """What one element requires beside others: the alternatives that can happen, or the other users of a resource."""
 
     element: Element

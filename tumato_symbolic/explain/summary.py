@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import Literal, TypeAlias
+
+from msgspec import Struct
 
 from tumato_symbolic.explain.additions import every_state
 from tumato_symbolic.explain.cubes import StateCube, expanded, set_of
@@ -25,8 +26,7 @@ MOST_LITERALS = 3
 Change: TypeAlias = Literal["raises", "lowers", "changes"]
 
 
-@dataclass(frozen=True, slots=True)
-class Summary:
+class Summary(Struct, frozen=True):
     """In the states of a cube, nothing changes a variable in one way: sets it to one of some values.
 
     `by_itself`: no action that may start there does; else no set of actions that is allowed.

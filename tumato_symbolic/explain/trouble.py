@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from tumato_symbolic.explain.cores import Failing, failing_states
 from tumato_symbolic.explain.failing_states import FailingStates
@@ -11,8 +11,7 @@ from tumato_symbolic.spec import Spec
 from tumato_symbolic.symbolic import Bdd
 
 
-@dataclass(frozen=True)
-class Trouble:
+class Trouble(Struct, frozen=True):
     """A specification and the states that fail in it."""
 
     requirements: Requirements

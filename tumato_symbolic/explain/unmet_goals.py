@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from tumato_symbolic.explain.as_predicates import conjunction
 from tumato_symbolic.explain.explanation import OwnGoal

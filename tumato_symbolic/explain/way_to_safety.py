@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from tumato_symbolic.semantics import (
     AT_ONCE,
@@ -27,8 +28,7 @@ MOST_STATES = 5_000
 """So many unsafe states are looked at for one question."""
 
 
-@dataclass(frozen=True, slots=True)
-class WayToSafety:
+class WayToSafety(Struct, frozen=True):
     """The way from an unsafe state to a safe one: the worst case where it is bounded, else the nominal run.
 
     `effort` is the sum of its durations, and its steps; it is `bounded` where nothing takes longer.

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import TypeAlias
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tumato_symbolic.explain.additions import every_state
 from tumato_symbolic.explain.as_predicates import cube_formula, predicate_text
@@ -36,16 +38,14 @@ _Test: TypeAlias = Callable[[Requirements, Elements], bool]
 """Whether the specification that is left when some elements are dropped will do."""
 
 
-@dataclass(frozen=True)
-class Edit:
+class Edit(Struct, frozen=True):
     """An element with the text that takes its place."""
 
     element: Element
     text: str
 
 
-@dataclass(frozen=True)
-class Weakening:
+class Weakening(Struct, frozen=True):
     """Edits that make the specification realizable, and what is dropped beside them; both are needed."""
 
     edits: tuple[Edit, ...]

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
 from functools import cached_property
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tumato_symbolic.explain.cores import Failing, failing_states, typical_state
 from tumato_symbolic.explain.cubes import Cover, StateCube, disjoint_cubes, set_of
@@ -20,8 +22,7 @@ from tumato_symbolic.synthesis import Unrealizable
 from tumato_symbolic.synthesis.result import FailureKind
 
 
-@dataclass
-class Work:
+class Work(Struct, dict=True):
     """What is asked about, and what was asked for; `context` is that of the whole explanation."""
 
     requirements: Requirements

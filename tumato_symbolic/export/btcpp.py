@@ -7,11 +7,12 @@ and a changed decision would leave the old action running.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from string import Template
 from textwrap import fill
 from typing import Final
 from xml.sax.saxutils import quoteattr
+
+from msgspec import Struct
 
 from tumato_symbolic.export.decisions import DecisionRule, rules_of
 from tumato_symbolic.export.identifiers import distinct, identifier
@@ -73,8 +74,7 @@ _WORDS: Final = "true false"
 """What is no name in scripts."""
 
 
-@dataclass(frozen=True, slots=True)
-class Names:
+class Names(Struct, frozen=True):
     """The entries of the blackboard and their values, and the nodes of actions."""
 
     entries: Mapping[str, str]

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from string import Template
 from textwrap import indent
+
+from msgspec import Struct
 
 from tumato_symbolic.export.c99_check import check
 from tumato_symbolic.export.c99_names import Names
@@ -122,8 +123,7 @@ def _range_checks(names: Names) -> Iterator[str]:
         yield f"(unsigned)state->{field} >= {len(values)}u"
 
 
-@dataclass(frozen=True, slots=True)
-class _C:
+class _C(Struct, frozen=True):
     """The style of C: see `Style`."""
 
     names: Names

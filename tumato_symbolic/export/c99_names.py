@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Final
+
+from msgspec import Struct
 
 from tumato_symbolic.export.identifiers import distinct, identifier
 from tumato_symbolic.export.request import Request
@@ -26,8 +27,7 @@ ULONG_MAX CHAR_MIN CHAR_MAX SCHAR_MIN SCHAR_MAX UCHAR_MAX SHRT_MIN SHRT_MAX USHR
 """Keywords of C and C++, and macros that common headers and compilers define."""
 
 
-@dataclass(frozen=True, slots=True)
-class Names:
+class Names(Struct, frozen=True):
     """The identifiers of a header: types and fields of variables, their values, and actions.
 
     Everything at the level of the file begins with `prefix` or, where it is a constant, with `upper`.

@@ -10,8 +10,9 @@ is said here as formulas; targets print them.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import combinations
+
+from msgspec import Struct
 
 from tumato_symbolic.export.request import Request
 from tumato_symbolic.semantics import excluded
@@ -35,16 +36,14 @@ from tumato_symbolic.spec import (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class Required:
+class Required(Struct, frozen=True):
     """Where `when` holds in the state of a decision, `rule` has to hold after every effect of what was decided."""
 
     when: Formula
     rule: Formula
 
 
-@dataclass(frozen=True, slots=True)
-class ActiveGoal:
+class ActiveGoal(Struct, frozen=True):
     """Where `when` holds in the state of a decision, the run from there has to reach `body`.
 
     Atoms `executing` in it mean that first decision.
@@ -54,8 +53,7 @@ class ActiveGoal:
     body: Formula
 
 
-@dataclass(frozen=True, slots=True)
-class ClosedLoop:
+class ClosedLoop(Struct, frozen=True):
     """A specification as conditions on the steps of a policy.
 
     `cases[action]` are the numbers of the entries of `actions` that share the name of an action of the policy: the one

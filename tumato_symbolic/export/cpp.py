@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from string import Template
 from textwrap import indent
 from typing import Final
+
+from msgspec import Struct
 
 from tumato_symbolic.export.c99_names import WORDS as C_WORDS
 from tumato_symbolic.export.c_decisions import statements
@@ -116,8 +117,7 @@ _WORDS: Final = f"{C_WORDS} ERROR DELETE IN OUT OPTIONAL VOID CONST DOMAIN OVERF
 _OURS: Final = ["State", "Action", "all_actions", "name", "Actions", "Status", "Decision", "detail", "decide"]
 
 
-@dataclass(frozen=True, slots=True)
-class Names:
+class Names(Struct, frozen=True):
     """Identifiers: types and fields of variables; values inside their types, and actions inside `Action`."""
 
     namespace: str
@@ -186,8 +186,7 @@ def _range_check(names: Names) -> Iterator[str]:
     yield "if (" + "\n    || ".join(checks) + ") {\n    return {Status::invalid, {}};\n}\n"
 
 
-@dataclass(frozen=True, slots=True)
-class _Cpp:
+class _Cpp(Struct, frozen=True):
     """The style of C++: see `Style`."""
 
     names: Names

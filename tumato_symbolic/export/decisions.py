@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TypeAlias
+
+from msgspec import Struct
 
 from tumato_symbolic.diagrams import EVERYTHING, LEAVES, Sets, room_for
 from tumato_symbolic.policy import DecisionDiagram, Policy, Roots, Vocabulary, as_diagram, decided_at, minimal_rules
@@ -13,15 +14,13 @@ MOST_QUESTIONS = 20_000
 """Larger trees are of no use: each action has a diagram of its own then."""
 
 
-@dataclass(frozen=True, slots=True)
-class Answer:
+class Answer(Struct, frozen=True):
     """What is done: a set of actions, by their numbers in order; None where the policy does not decide."""
 
     actions: tuple[int, ...] | None
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Question:
+class Question(Struct, frozen=True, eq=False):
     """Which value a variable has; `below` goes on with what follows from each."""
 
     variable: int
@@ -112,8 +111,7 @@ def size_written_out(tree: Tree) -> int:
     return sizes.get(id(tree), 1)
 
 
-@dataclass(frozen=True, slots=True)
-class DecisionRule:
+class DecisionRule(Struct, frozen=True):
     """A rule of an ordered list of which the first that matches decides: where it matches, and what is done then.
 
     `condition` gives the values, by name, that some variables may have. `actions` is None where nothing is decided.

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from tumato_symbolic.export.closed_loop import ClosedLoop, lasting, preconditions
 from tumato_symbolic.export.decisions import DecisionRule, rules_of
@@ -12,8 +13,7 @@ from tumato_symbolic.export.request import Request
 from tumato_symbolic.spec import TRUE, Connectives, Executing, Formula, Is, executing_atoms, fold
 
 
-@dataclass(frozen=True, slots=True)
-class Model:
+class Model(Struct, frozen=True):
     """A closed loop, the decisions in it as a list of rules, and the identifiers of a language.
 
     `actions` are those of the entries of `loop.actions`. `rules` are numbered from 0.
@@ -82,8 +82,7 @@ class Model:
             yield variable, [known.index(value) for value in values]
 
 
-@dataclass(frozen=True, slots=True)
-class Language:
+class Language(Struct, frozen=True):
     """How a language writes formulas: connectives, what is between a variable and a value, which rules decide.
 
     `and_below` joins conditions that stand below each other; `safe`, `valid` and `decided` name the safe, the valid and

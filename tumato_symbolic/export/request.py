@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from textwrap import fill
+
+from msgspec import Struct
 
 from tumato_symbolic.policy import Policy
 from tumato_symbolic.spec import Ordering, Spec
@@ -27,8 +28,7 @@ def commented(text: str, mark: str) -> str:
     return fill(text, 117, initial_indent=mark, subsequent_indent=mark)
 
 
-@dataclass(frozen=True, slots=True)
-class Request:
+class Request(Struct, frozen=True):
     """A policy in the names of its specification, and how it is to be written.
 
     `name` is that of the file, without its ending. `check` asks for the program that checks what is written.

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass
 from string import Template
 from typing import Final
+
+from msgspec import Struct
 
 from tumato_symbolic.export.decisions import DecisionRule, rules_of
 from tumato_symbolic.export.identifiers import distinct, identifier
@@ -59,8 +60,7 @@ _OURS: Final = ("status", "invalid", "undecided", "decided", "decide")
 """What the block, the type of its status, and its constants are called, after the name of the file."""
 
 
-@dataclass(frozen=True, slots=True)
-class Names:
+class Names(Struct, frozen=True):
     """Identifiers, of which no two differ in case alone; types and values begin with the name of the file."""
 
     prefix: str

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING, Final, TypeAlias, cast
+
+from msgspec import Struct
 
 if TYPE_CHECKING:
     from tumato_symbolic.export.request import Request
@@ -14,8 +15,7 @@ Texts: TypeAlias = tuple[str, ...]
 """The text of FILE, then those of the files beside it, then that of the program that checks it, if it is asked for."""
 
 
-@dataclass(frozen=True, slots=True)
-class Target:
+class Target(Struct, frozen=True):
     """A format. Its module has the same name (with `_` for `-`), and a function `files` from a `Request` to `Texts`.
 
     `example` is a usual name of FILE. `beside` are the endings of files that are written beside FILE in any case,

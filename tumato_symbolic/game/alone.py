@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from tumato_symbolic.game.evaluation import winning
 from tumato_symbolic.game.fixpoints import Layers, distances, preimage
@@ -11,8 +12,7 @@ from tumato_symbolic.game.problem import Problem
 from tumato_symbolic.symbolic import Bdd, compatible_sets, staying_in, without_effect
 
 
-@dataclass(frozen=True)
-class Alone:
+class Alone(Struct, frozen=True):
     """`restorable` is `R`, the safe states included; `pairs` are the steps that a run of one state may take."""
 
     restorable: Bdd

@@ -8,7 +8,8 @@ preconditions, that is much less than a look at each in every round.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from tumato_symbolic.game.problem import Problem
 from tumato_symbolic.spec import Assignment
@@ -21,8 +22,7 @@ LEAST_TOGETHER = 8
 """So many actions a block has to have on average."""
 
 
-@dataclass(frozen=True)
-class Block:
+class Block(Struct, frozen=True):
     """Actions next to each other in the order of declaration, or none of them, with their pairs in a relation.
 
     No state has two of these pairs. `leading` tells which states have one that leads into a set.

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import cached_property
+
+from msgspec import Struct
 
 from tumato_symbolic.game.fixpoints import ClosedLoop, Layers, attractor, closed_loop, preimage
 from tumato_symbolic.game.problem import Problem
@@ -12,8 +13,7 @@ from tumato_symbolic.game.restoration import Restoration, Restorer
 from tumato_symbolic.symbolic import Bdd, Target
 
 
-@dataclass(frozen=True)
-class Evaluation:
+class Evaluation(Struct, frozen=True):
     """What a policy achieves.
 
     `ranks[k]` are the exact layers of target `k` under the policy; `failing` the valid states that have no good

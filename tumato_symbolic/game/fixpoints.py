@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TypeAlias
+
+from msgspec import Struct
 
 from tumato_symbolic.game.problem import Problem
 from tumato_symbolic.spec import Assignment
@@ -89,8 +90,7 @@ def distances(problem: Problem, pairs: Bdd | None = None) -> tuple[Layers, ...]:
     return tuple(attractor(problem, target.states, step, within, problem.last_layer) for target in problem.targets)
 
 
-@dataclass(frozen=True)
-class ClosedLoop:
+class ClosedLoop(Struct, frozen=True, dict=True):
     """The closed loop of a policy: its nominal successor function and each state's target.
 
     A policy that does few different things is taken move by move: `moves` has the states by what is written there, and

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from tumato_symbolic.limits import Context
 from tumato_symbolic.spec import Ordering, Spec
@@ -23,8 +23,7 @@ from tumato_symbolic.symbolic import (
 )
 
 
-@dataclass(frozen=True)
-class Problem:
+class Problem(Struct, frozen=True):
     """Steps, regions and targets; no regions, and a single target, where there are many residual goals.
 
     Policies are relations between *safe* states and sets of actions, functional where they are defined: no nominal

@@ -7,9 +7,10 @@ outcome, to what is restored or decided already. There is one fixpoint step for 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from heapq import heappop, heappush
+
+from msgspec import Struct
 
 from tumato_symbolic.game.fixpoints import Layers, preimage
 from tumato_symbolic.game.problem import Problem
@@ -22,8 +23,7 @@ Efforts = dict[Effort, Bdd]
 """Disjoint sets of states, each with its effort."""
 
 
-@dataclass(frozen=True)
-class Restoration:
+class Restoration(Struct, frozen=True):
     """What is decided in unsafe states, and what that comes to.
 
     `worst` has the states by their worst effort, `nominal` those where it is infinite by the effort along the nominal

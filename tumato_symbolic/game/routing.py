@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from tumato_symbolic.game.blocks import Block, blocks_of
 from tumato_symbolic.game.fixpoints import Layers, attractor, closed_loop, preimage, turns_of
@@ -16,8 +17,7 @@ MANY_NODES = 10_000
 """With larger sets of pairs a search goes on in turns, if it can."""
 
 
-@dataclass(frozen=True, slots=True)
-class OwnRegions:
+class OwnRegions(Struct, frozen=True):
     """Decisions whose runs stay where the same goals are active until these are reached, with the fewest steps.
 
     `ranks` are those of the policy, as `attractor` gives them, where they are known: a single target, and one region.

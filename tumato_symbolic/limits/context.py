@@ -5,15 +5,15 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 
 class LimitReachedError(Exception):
     """A limit was met before there was an answer; the message says which, and during what."""
 
 
-@dataclass(frozen=True, slots=True)
-class Limits:
+class Limits(Struct, frozen=True):
     """How much an answer may cost: seconds, and megabytes. None: no limit.
 
     Megabytes bound the diagrams of CUDD; the command line bounds the memory of its processes as well.

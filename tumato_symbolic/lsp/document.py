@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 from pathlib import PurePosixPath
 from typing import cast
 from urllib.parse import unquote, urlsplit
 
 from lsprotocol import types
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.editor.mentions import Index, index
 from tumato_symbolic.editor.positions import Encoding, Position, Positions
 
 
-@dataclass
-class Document:
+class Document(Struct, dict=True):
     """One version of a text; what is known of it is found out once."""
 
     uri: str

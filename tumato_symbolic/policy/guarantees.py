@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from pathlib import Path
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tumato_symbolic.diagrams import Diagram, Reference
 from tumato_symbolic.policy.formats import header, kinds
@@ -18,8 +20,7 @@ GUARANTEES = "guarantees"
 """The `Type` of such a file."""
 
 
-@dataclass(frozen=True, slots=True)
-class CertifiedGoal:
+class CertifiedGoal(Struct, frozen=True):
     """A residual goal, as in `RankedGoal`, with the ranks of its fixpoints.
 
     `surviving` has a root for each of `W_0, W_1, …, W_ω`: the number of nominal steps to the goal, None outside.
@@ -32,8 +33,7 @@ class CertifiedGoal:
     forced: Reference
 
 
-@dataclass(frozen=True, slots=True)
-class CertifiedLevel:
+class CertifiedLevel(Struct, frozen=True):
     """A level with the number of its states, and cubes of them: for some variables the values that they may have."""
 
     level: str
@@ -43,8 +43,7 @@ class CertifiedLevel:
     cubes: tuple[dict[str, tuple[str, ...]], ...] | None
 
 
-@dataclass(frozen=True, slots=True)
-class CertifiedRanks:
+class CertifiedRanks(Struct, frozen=True):
     """The ranks of all goals, in one diagram."""
 
     diagram: Diagram[int | None]
@@ -65,8 +64,7 @@ class CertifiedRanks:
         return CertifiedRanks(diagram, tuple(goals))
 
 
-@dataclass(frozen=True, slots=True)
-class GuaranteesCertificate:
+class GuaranteesCertificate(Struct, frozen=True):
     """All that is claimed, for one specification, ordering and restoration."""
 
     vocabulary: Vocabulary

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics.wording import count
 from tumato_symbolic.policy.formats import policy_fields
@@ -26,8 +28,7 @@ MOST_NODES = 10_000
 """So has a graph nodes that the policy decides."""
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class Policy:
+class Policy(Struct, frozen=True, dict=True):
     """What to do in every valid state.
 
     `digest` identifies the meaning of the specification that the policy was made for; it, the effect ordering and
@@ -43,7 +44,6 @@ class Policy:
     certificate: Certificate | None = None
     certificate_problem: str | None = None
     restoration: Restoration = "one_step"
-    _decider: Decider | None = field(default=None, init=False, repr=False, compare=False)
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Policy:
@@ -63,13 +63,13 @@ class Policy:
         Raises `UndecidedState` where the policy says nothing of the state, and `UserError` where `state` does not
         give every variable of the policy one of its values, and nothing else.
         """
-        decider = self._decider
-        if decider is None:
-            from tumato_symbolic.policy.lookup import make_decider
+        return self._decider.decide(state)
 
-            decider = make_decider(self.vocabulary, self.decisions)
-            object.__setattr__(self, "_decider", decider)
-        return decider.decide(state)
+    @cached_property
+    def _decider(self) -> Decider:
+        from tumato_symbolic.policy.lookup import make_decider
+
+        return make_decider(self.vocabulary, self.decisions)
 
     def __repr__(self) -> str:
         names, decisions = self.vocabulary, self.decisions

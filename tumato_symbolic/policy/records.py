@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
 from typing import Any, NamedTuple, Protocol, Self, TypeAlias, TypeVar
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tumato_symbolic.diagrams import Diagram, Reference, count_true, rebuild
 from tumato_symbolic.semantics import ActionSet, Effort, State
@@ -33,8 +35,7 @@ def canonical(record: SomeDrawn) -> SomeDrawn:
     return record.drawn(*rebuild(*record.drawing))
 
 
-@dataclass(frozen=True, slots=True)
-class Vocabulary:
+class Vocabulary(Struct, frozen=True):
     """The names that a policy uses: `(variable, its values)` and the actions, in the policy's own order."""
 
     variables: tuple[tuple[str, tuple[str, ...]], ...]
@@ -54,8 +55,7 @@ class Vocabulary:
         return tuple(len(values) for _, values in self.variables)
 
 
-@dataclass(frozen=True, slots=True)
-class Table:
+class Table(Struct, frozen=True):
     """One row for every state that is decided."""
 
     rows: Mapping[State, ActionSet]
@@ -65,8 +65,7 @@ class Table:
         return len(self.rows)
 
 
-@dataclass(frozen=True, slots=True)
-class DecisionDiagram:
+class DecisionDiagram(Struct, frozen=True):
     """The same, shared: `roots[a]` tells in which states action `a` is executed, `defined` which states are decided.
 
     The leaves are `(False, True)`. What `roots` say of a state that is not defined means nothing.
@@ -90,8 +89,7 @@ class DecisionDiagram:
         return DecisionDiagram(diagram, roots[:-1], roots[-1])
 
 
-@dataclass(frozen=True, slots=True)
-class RankedGoal:
+class RankedGoal(Struct, frozen=True):
     """The ranks of one residual goal under the policy.
 
     `bodies` are the active goal bodies in canonical text, sorted; `executed` the actions of the first set that the
@@ -109,8 +107,7 @@ def rooted(goals: tuple[RankedGoal, ...], roots: tuple[Reference, ...]) -> tuple
     return tuple(RankedGoal(goal.bodies, goal.executed, root) for goal, root in zip(goals, roots, strict=True))
 
 
-@dataclass(frozen=True, slots=True)
-class Deviation:
+class Deviation(Struct, frozen=True):
     """Why a state is not restored better: with the set `better` in it, the run from `missed` misses its goal."""
 
     state: State
@@ -118,8 +115,7 @@ class Deviation:
     missed: State
 
 
-@dataclass(frozen=True, slots=True)
-class Restoring:
+class Restoring(Struct, frozen=True):
     """How a policy restores safety in several steps.
 
     `worst` leads to `w` of an unsafe state, (duration, steps), or to None where it is infinite; `nominal` to the sum
@@ -143,8 +139,7 @@ class Restoring:
         return Restoring(diagram, worst, nominal, self.deviations)
 
 
-@dataclass(frozen=True, slots=True)
-class Certificate:
+class Certificate(Struct, frozen=True):
     """What a proof needs beside the policy (`docs/certificate.md`).
 
     Ranks per residual goal, of every safe state; where safety may take several steps to restore, of every valid one,

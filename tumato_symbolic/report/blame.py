@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from tumato_symbolic.explain.as_predicates import predicate_text
 from tumato_symbolic.explain.elements import Element, span_of

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Diagnostic, Severity, Source, render
 from tumato_symbolic.report.findings import Finding, finding_json, findings_of
@@ -13,8 +14,7 @@ from tumato_symbolic.semantics import count_states
 from tumato_symbolic.spec import Spec
 
 
-@dataclass(frozen=True, slots=True)
-class Checked:
+class Checked(Struct, frozen=True):
     """One checked file: `source` is None where it could not be read, `spec` where it has errors."""
 
     path: str

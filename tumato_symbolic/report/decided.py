@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from tumato_symbolic.explain.decision import Decision, GoalNote, Other
 from tumato_symbolic.report.guaranteed import guarantee_json, guarantee_text, shortcoming_json, shortcoming_lines
@@ -15,8 +16,7 @@ from tumato_symbolic.spec import Spec
 _LISTED = 6
 
 
-@dataclass(frozen=True, slots=True)
-class Decided:
+class Decided(Struct, frozen=True):
     """A decision with everything that its report needs. `asked` is the set that `--not` names."""
 
     place: Place

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Span
 from tumato_symbolic.report.differing_decisions import change_lines, difference_json, difference_lines, names_lines
@@ -20,8 +21,7 @@ _ANNOTATED = 8
 """GitHub shows ten annotations of a kind."""
 
 
-@dataclass(frozen=True, slots=True)
-class PoliciesDiffer:
+class PoliciesDiffer(Struct, frozen=True):
     """How the policies of two files differ; in the valid states of `specification`, if that is given."""
 
     old: str
@@ -35,8 +35,7 @@ class PoliciesDiffer:
         return "same" if self.found.same else "different"
 
 
-@dataclass(frozen=True, slots=True)
-class SpecificationsDiffer:
+class SpecificationsDiffer(Struct, frozen=True):
     """How the specifications of two files differ, and the policies that are synthesized from them.
 
     `found` is None where one has no policy, or `limit` was met before there were both, and compared.

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Diagnostic, Source
 from tumato_symbolic.explain.explanation import STAGES, Explanation, Found, NothingToExplain, Unexplained
@@ -17,8 +18,7 @@ from tumato_symbolic.semantics import count_states
 from tumato_symbolic.spec import Spec
 
 
-@dataclass(frozen=True, slots=True)
-class Explained:
+class Explained(Struct, frozen=True):
     """What `explain` found by now, with everything that its report needs. `written` is the file with the assumption."""
 
     source: Source

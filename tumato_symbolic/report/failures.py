@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Final
+
+from msgspec.structs import replace
 
 from tumato_symbolic.diagnostics import Code
 from tumato_symbolic.report.layout import count, enumeration

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass
 from typing import Literal
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import UserError, render
 from tumato_symbolic.report import unrealizable, verified
@@ -20,8 +21,7 @@ Outcome = Literal["error", "refuted", "not accepted", "missing", "undecided", "p
 _MISSING = "no NAME.policy.json and no NAME.unrealizable.json is about this specification (--require-all)"
 
 
-@dataclass(frozen=True, slots=True)
-class Entry:
+class Entry(Struct, frozen=True):
     """One file: its verification, or the error or limit for which there is none; or a specification without a file."""
 
     path: str
@@ -41,8 +41,7 @@ class Entry:
         return "not accepted" if self.done.not_accepted and verdict != "refuted" else verdict
 
 
-@dataclass(frozen=True, slots=True)
-class Folder:
+class Folder(Struct, frozen=True):
     """All files of a folder; `took` is in seconds."""
 
     path: str

@@ -5,8 +5,9 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import Any, TypeAlias
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.report.findings import finding_json
@@ -16,8 +17,7 @@ Report: TypeAlias = Mapping[str, Any]
 """What a command says of one file to a program."""
 
 
-@dataclass(frozen=True, slots=True)
-class Row:
+class Row(Struct, frozen=True):
     """One file: the exit code that the command would have, and its report."""
 
     name: str
@@ -25,8 +25,7 @@ class Row:
     report: Report
 
 
-@dataclass(frozen=True, slots=True)
-class Many:
+class Many(Struct, frozen=True):
     """The files that are done, in their order, of so many; `limit` is why some are missing; `took` is in seconds."""
 
     rows: tuple[Row, ...]

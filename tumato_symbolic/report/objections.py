@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from tumato_symbolic.report.layout import enumeration
 from tumato_symbolic.semantics import (
@@ -25,8 +26,7 @@ if TYPE_CHECKING:
     from tumato_symbolic.explain.near_misses import NearMiss
 
 
-@dataclass(frozen=True, slots=True)
-class Place:
+class Place(Struct, frozen=True):
     """A specification with the name of its file, for `file:line`."""
 
     spec: Spec

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics.cubes import actions_text, named_cube_text
 from tumato_symbolic.policy import RuleList
@@ -15,8 +16,7 @@ from tumato_symbolic.report.trees import row_json, table_lines, tree_lines
 from tumato_symbolic.views import Answer, Folded, Row, Selected, Selection, Tree, rows
 
 
-@dataclass(frozen=True, slots=True)
-class Shown:
+class Shown(Struct, frozen=True):
     """What a policy file does in the states of a selection. `specification` is the file that says which are valid.
 
     `selected` are these states, `content` what is shown of them: rules, or a tree in the form of a `table` or not; None

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from tumato_symbolic.report.layout import count
 from tumato_symbolic.report.objections import Place
@@ -20,8 +21,7 @@ _ENDS: dict[End, str] = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Simulated:
+class Simulated(Struct, frozen=True):
     """The summary of executions with how they were made; `trace` is the only one, or the first that missed its goal."""
 
     place: Place
@@ -33,8 +33,7 @@ class Simulated:
     trace: Trace | None
 
 
-@dataclass(frozen=True, slots=True)
-class WorstCase:
+class WorstCase(Struct, frozen=True):
     """The longest way to the goal; `starts` tells how many states it was looked for from."""
 
     place: Place

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Span
 from tumato_symbolic.report.findings import Finding
@@ -15,8 +16,7 @@ _WIDEST = 60
 """Columns for what is changed."""
 
 
-@dataclass(frozen=True, slots=True)
-class Swept:
+class Swept(Struct, frozen=True):
     """The results that are known by now, in order; `limit` is why some are missing."""
 
     plan: Plan

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import shlex
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Diagnostic, Source
 from tumato_symbolic.policy import never_executed, some_decided
@@ -20,8 +21,7 @@ from tumato_symbolic.synthesis.result import Realizable, Statistics, SynthesisRe
 from tumato_symbolic.verify.result import UnrealizabilityVerdict, Verification
 
 
-@dataclass(frozen=True, slots=True)
-class Synthesized:
+class Synthesized(Struct, frozen=True):
     """An outcome with everything that its report needs. Times are in seconds.
 
     `proof` is None where there was nothing to prove, or where proving was declined; `written` tells whether the

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics.cubes import actions_text, shown
 from tumato_symbolic.policy import Vocabulary
@@ -16,8 +17,7 @@ UNDECIDED = "(undecided)"
 _ANY = "·"
 
 
-@dataclass(frozen=True, slots=True)
-class _Line:
+class _Line(Struct, frozen=True):
     """A question and an answer, so deep in the tree."""
 
     depth: int

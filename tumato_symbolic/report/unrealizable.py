@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import shlex
-from dataclasses import dataclass
 from typing import Final
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source
 from tumato_symbolic.report.findings import Finding, finding_json, findings_of
@@ -24,8 +25,7 @@ _REASONS: Final[dict[UnrealizabilityKind, str]] = {
 _NO_PART_WITHOUT_STARTS: Final = "there is no policy that decides every valid state"
 
 
-@dataclass(frozen=True, slots=True)
-class VerifiedUnrealizable:
+class VerifiedUnrealizable(Struct, frozen=True):
     """A verdict on a certificate with everything that its report needs; `took` is in seconds.
 
     `strict`: a certificate that was made for another specification fails, whatever it proves.

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import shlex
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source
 from tumato_symbolic.report.findings import Finding, finding_json, findings_of
@@ -54,8 +56,7 @@ _SOURCES: Final[dict[OrderingSource, str]] = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Verified:
+class Verified(Struct, frozen=True):
     """A verification with everything that its report needs; `took` is in seconds.
 
     `strict`: a certificate that is wrong or stale fails, whatever the policy is. `guarantees`: None where not asked.

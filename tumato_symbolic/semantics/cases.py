@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from tumato_symbolic.semantics.states import ActionSet, State, holds
 from tumato_symbolic.spec import FORMULAS, Executing, Formula, Is, Rule, Spec, executing_actions, fold

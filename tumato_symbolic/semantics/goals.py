@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from typing import TypeAlias
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tumato_symbolic.semantics.states import ActionSet, State, holds, is_safe
 from tumato_symbolic.spec import ConditionalGoal, Goal, Rule, SimpleGoal, Spec, executing_atoms
@@ -12,8 +14,7 @@ ActiveGoals: TypeAlias = frozenset[int]
 """`Γ(s)`: numbers of goal bodies (`Spec.bodies`)."""
 
 
-@dataclass(frozen=True, slots=True)
-class Residual:
+class Residual(Struct, frozen=True):
     """A residual goal: active bodies whose `executing` atoms are settled by the first set.
 
     `executed` holds those actions of the first set that the bodies speak of, each by its first case; every other atom

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from math import inf
 from typing import Literal, TypeAlias
+
+from msgspec import Struct
 
 from tumato_symbolic.semantics.goals import Residual, reached, residual_goal
 from tumato_symbolic.semantics.states import ActionSet, State, is_valid
@@ -16,8 +17,7 @@ from tumato_symbolic.spec import Ordering, Spec
 GuaranteeKind: TypeAlias = Literal["guaranteed", "fair", "survives", "nominal"]
 
 
-@dataclass(frozen=True, slots=True)
-class Guarantee:
+class Guarantee(Struct, frozen=True):
     """The strongest that holds of a state: its goal is met
 
     - `guaranteed`: whatever happens, within `steps` steps, and no fewer at worst;
@@ -31,8 +31,7 @@ class Guarantee:
     deviations: int | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Step:
+class Step(Struct, frozen=True):
     """What the policy does in a state: `δ(s, π(s))`, and all of `Next(s, π(s))`."""
 
     nominal: State

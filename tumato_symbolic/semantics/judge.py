@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from tumato_symbolic.semantics.restoration import Restorations
 from tumato_symbolic.semantics.runs import Run, follow
@@ -12,8 +13,7 @@ from tumato_symbolic.semantics.step import Objection, allowed_sets, nominal_agre
 from tumato_symbolic.spec import FALSE, TRUE, And, Formula, Is, Or, Ordering, Spec
 
 
-@dataclass(frozen=True, slots=True)
-class Judgement:
+class Judgement(Struct, frozen=True):
     """Where a policy falls short. It is sound, complete and minimal when all of these are empty.
 
     `not_restored` are unsafe states from where the way back to safety may never end: where safety may take several

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
+
+from msgspec import Struct
 
 from tumato_symbolic.semantics.goals import reached, residual_goal
 from tumato_symbolic.semantics.states import ActionSet, State
@@ -15,8 +16,7 @@ End: TypeAlias = Literal["goal", "bound", "loop", "undefined"]
 """How an execution ends: in the goal, at a bound, in a loop (the last state was met before), or without a decision."""
 
 
-@dataclass(frozen=True, slots=True)
-class Run:
+class Run(Struct, frozen=True):
     """The nominal run from `states[0]`, as far as it matters.
 
     `end` tells how it ended; the bound is that of plans. `decisions` has one entry for every step taken.

@@ -6,8 +6,9 @@ See `docs/semantics.md`, section 11.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from itertools import islice
+
+from msgspec import Struct
 
 from tumato_symbolic.semantics.goals import Residual, reached, residual_goal
 from tumato_symbolic.semantics.guarantees import Guarantee
@@ -20,8 +21,7 @@ MOST_OUTCOMES = 2_000
 """Of a step, so many outcomes are looked at for a short example, before the first that serves is taken."""
 
 
-@dataclass(frozen=True, slots=True)
-class Shortcoming:
+class Shortcoming(Struct, frozen=True):
     """Why a state is not guaranteed the next level up: `moves` from it.
 
     With `loop`, the moves from that one on lead back to where it began, without meeting the goal, and can go on for

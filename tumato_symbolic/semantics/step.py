@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from itertools import combinations
 from typing import Literal, TypeAlias
+
+from msgspec import Struct
 
 from tumato_symbolic.semantics.states import ActionSet, State, apply, holds, required_rules
 from tumato_symbolic.spec import Assignment, Ordering, Rule, Spec
 
 
-@dataclass(frozen=True, slots=True)
-class EffectStep:
+class EffectStep(Struct, frozen=True):
     """One action taking one of its effects, and the state after it."""
 
     action: int
@@ -91,8 +91,7 @@ def successor(spec: Spec, state: State, chosen: ActionSet) -> State:
     return state
 
 
-@dataclass(frozen=True, slots=True)
-class Objection:
+class Objection(Struct, frozen=True):
     """Why a set is not allowed: the first condition of section 3 that fails, with what it fails on.
 
     `actions` are those to blame, `rule` the user's precondition or rule that is broken, and `outcome` the way into

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 from typing import TypeAlias
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tumato_symbolic.semantics.runs import End
 from tumato_symbolic.semantics.states import ActionSet, State
@@ -12,8 +14,7 @@ from tumato_symbolic.semantics.step import EffectSequence, outcomes_in_turn, suc
 from tumato_symbolic.spec import Ordering, Spec
 
 
-@dataclass(frozen=True, slots=True)
-class Move:
+class Move(Struct, frozen=True):
     """A step of the policy with one of its outcomes: the nominal one, or a deviation with the way to it."""
 
     decision: ActionSet
@@ -21,8 +22,7 @@ class Move:
     deviation: EffectSequence | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Disturbance:
+class Disturbance(Struct, frozen=True):
     """A change of the state that no action made."""
 
     after: State
@@ -31,8 +31,7 @@ class Disturbance:
 Event: TypeAlias = Move | Disturbance
 
 
-@dataclass(frozen=True, slots=True)
-class Trace:
+class Trace(Struct, frozen=True):
     """An execution from `start`: its events in turn, each with the state after it.
 
     `end` tells how it ended, as in a `Run`; None: nobody waited for an end. With `loop`, the state after the last event

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
+
+from msgspec import Struct
 
 from tumato_symbolic.semantics import (
     ActionSet,
@@ -28,8 +29,7 @@ from tumato_symbolic.spec import Ordering, Spec
 Faults: TypeAlias = Literal["none", "random"]
 
 
-@dataclass(frozen=True, slots=True)
-class Simulation:
+class Simulation(Struct, frozen=True):
     """What is executed, and how: `disturb` is the probability of a disturbance after each step."""
 
     spec: Spec

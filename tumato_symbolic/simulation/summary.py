@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from tumato_symbolic.semantics import Disturbance, End, State, Trace, duration, is_safe
 from tumato_symbolic.spec import Spec
 
 
-@dataclass(frozen=True, slots=True)
-class Spread:
+class Spread(Struct, frozen=True):
     """How often each of some numbers came, in ascending order."""
 
     counts: Mapping[int, int]
@@ -27,8 +27,7 @@ class Spread:
         return sum(number * times for number, times in self.counts.items()) / (sum(self.counts.values()) or 1)
 
 
-@dataclass(frozen=True, slots=True)
-class Summary:
+class Summary(Struct, frozen=True):
     """The executions by how they ended, and what happened in all of them together.
 
     `steps` and `durations` are of those that met their goal. A restoration is a step from an unsafe state to a safe

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence, Set
-from dataclasses import dataclass
 from typing import TypeAlias
+
+from msgspec import Struct
 
 from tumato_symbolic.spec.names import Names
 from tumato_symbolic.syntax import ast
@@ -13,8 +14,7 @@ Uses: TypeAlias = Sequence[Sequence[int]]
 """For every alias, the numbers of those that its predicate names directly."""
 
 
-@dataclass(frozen=True, slots=True)
-class Cycle:
+class Cycle(Struct, frozen=True):
     """Aliases each of which uses the next, and the last one the first."""
 
     aliases: tuple[int, ...]

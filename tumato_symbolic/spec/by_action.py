@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from msgspec.structs import replace
 
 from tumato_symbolic.spec.fold import FORMULAS, fold
 from tumato_symbolic.spec.formula import And, Executing, Formula, Iff, Is, Not, Or

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
 from itertools import product
 from math import prod
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tumato_symbolic.diagnostics import Code, Note
 from tumato_symbolic.diagnostics.wording import quoted
@@ -28,8 +30,7 @@ MAX_SEARCH_WORK = 2_000_000
 """How many terms are looked at to find states in which effects disagree or leave the range of a variable."""
 
 
-@dataclass(frozen=True, slots=True)
-class Unfinished:
+class Unfinished(Struct, frozen=True):
     """An action with clauses, of which the cases are not made yet; the nominal set is the first one."""
 
     action: Action

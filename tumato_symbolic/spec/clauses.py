@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Code, CopySpan, Note, Span
 from tumato_symbolic.diagnostics.wording import listed, quoted
@@ -19,8 +20,7 @@ MAX_CHANGE = 1_000_000_000
 """The most by which a relative effect changes a value."""
 
 
-@dataclass(frozen=True, slots=True)
-class Change:
+class Change(Struct, frozen=True):
     """A relative effect: `results[value]` is what a value becomes; at the values `clipped` it stays at its end."""
 
     variable: int
@@ -30,8 +30,7 @@ class Change:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Clause:
+class Clause(Struct, frozen=True):
     """Effects under a condition: `fixed` are predicates. The condition of what stands before all clauses is `TRUE`."""
 
     condition: Formula
@@ -50,8 +49,7 @@ class Clause:
                 yield condition, (Is(change.variable, result),)
 
 
-@dataclass(frozen=True, slots=True)
-class ClauseSet:
+class ClauseSet(Struct, frozen=True):
     """A set of effects: the first clause holds what stands before all others."""
 
     is_nominal: bool

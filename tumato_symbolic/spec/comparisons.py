@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Final
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Code, CopySpan, Note
 from tumato_symbolic.diagnostics.wording import listed, quoted
@@ -22,8 +23,7 @@ ValuePredicate = ast.Comparison | ast.Difference | ast.Membership | ast.Ordering
 """What says something about the value of a variable."""
 
 
-@dataclass(frozen=True, slots=True)
-class Written:
+class Written(Struct, frozen=True):
     """A predicate written out, with its size and depth."""
 
     formula: Formula

@@ -7,10 +7,11 @@ variables; the cases of an action are the product of those of its components.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import product
 from math import prod
 from typing import TypeAlias
+
+from msgspec import Struct
 
 from tumato_symbolic.spec.clauses import Clause, ClauseSet
 from tumato_symbolic.spec.effects import conjunction
@@ -25,16 +26,14 @@ Active: TypeAlias = tuple[tuple[int, int, tuple[Formula, ...]], ...]
 """Which effects happen: the number of their set, that of their clause, and the predicates."""
 
 
-@dataclass(frozen=True, slots=True)
-class Part:
+class Part(Struct, frozen=True):
     """A case of one component: what happens in it, and where it is met."""
 
     active: Active
     guard: Formula
 
 
-@dataclass(frozen=True, slots=True)
-class Component:
+class Component(Struct, frozen=True):
     """Clauses that share variables, each with the number of its set and its own."""
 
     variables: tuple[int, ...]

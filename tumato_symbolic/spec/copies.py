@@ -6,8 +6,9 @@ What a copy holds has a `CopySpan`: its place in the text, and the parameters th
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
 from typing import Any
+
+from msgspec.structs import replace
 
 from tumato_symbolic.diagnostics import Code, CopySpan, Span
 from tumato_symbolic.diagnostics.wording import listed, quoted
@@ -74,7 +75,7 @@ def copies_in(node: object) -> bool:
         return any(copies_in(each) for each in node)
     if isinstance(node, ast.Copies | ast.Quantifier):
         return True
-    return isinstance(node, ast.Node) and any(copies_in(getattr(node, each)) for each in node.__slots__)
+    return isinstance(node, ast.Node) and any(copies_in(getattr(node, each)) for each in node.__struct_fields__)
 
 
 class _Copier:
@@ -106,7 +107,7 @@ class _Copier:
         if isinstance(node, ast.Copies | ast.Quantifier):
             return self._check_header(node, scope, used)
         if isinstance(node, ast.Node):
-            return all([self._check(getattr(node, each), scope, used) for each in node.__slots__])  # noqa: C419 - all are looked at
+            return all([self._check(getattr(node, each), scope, used) for each in node.__struct_fields__])  # noqa: C419 - all are looked at
         return True
 
     def _is_known(self, name: ast.Name, scope: Scope, used: set[str]) -> bool:
@@ -149,14 +150,14 @@ class _Copier:
             self._add(_DECLARATIONS, times, node)
             self._count_parts(node, binding, times)
         elif isinstance(node, _RULES):
-            self._add(_DECLARATIONS, times * _rules_in(getattr(node, node.__slots__[0])), node)
+            self._add(_DECLARATIONS, times * _rules_in(getattr(node, node.__struct_fields__[0])), node)
             self._count_parts(node, binding, times)
         elif isinstance(node, ast.Node) and not isinstance(node, ast.Name | ast.Range):
             self._add(_TERMS, times * (2 if isinstance(node, ast.Implication) else 1), node)
             self._count_parts(node, binding, times)
 
     def _count_parts(self, node: ast.Node, binding: Binding, times: int) -> None:
-        for each in node.__slots__:
+        for each in node.__struct_fields__:
             self.count(getattr(node, each), binding, times)
 
     def _count_copies(self, node: ast.Copies | ast.Quantifier, binding: Binding, times: int) -> None:
@@ -184,7 +185,7 @@ class _Copier:
             return any(self._varies(each) for each in node)
         if id(node) in self._varying:
             return True
-        return isinstance(node, ast.Node) and any(self._varies(getattr(node, each)) for each in node.__slots__)
+        return isinstance(node, ast.Node) and any(self._varies(getattr(node, each)) for each in node.__struct_fields__)
 
     def _add(self, what: int, number: int, place: Any) -> None:  # noqa: ANN401 - whatever has a span
         self._made[what] += number
@@ -213,7 +214,7 @@ class _Copier:
         if isinstance(node, ast.Quantifier):
             return self._quantified(node, binding, own)
         if isinstance(node, ast.Node):
-            return type(node)(*[self._part(node, each, binding, own) for each in node.__slots__])
+            return type(node)(*[self._part(node, each, binding, own) for each in node.__struct_fields__])
         return node
 
     def _part(self, node: ast.Node, slot: str, binding: Binding, own: tuple[tuple[str, str], ...]) -> Any:  # noqa: ANN401

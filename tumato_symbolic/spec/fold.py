@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import Generic, TypeVar
+
+from msgspec import Struct
 
 from tumato_symbolic.spec.formula import And, Constant, Executing, Formula, Iff, Is, Not, Or
 from tumato_symbolic.spec.specification import ConditionalGoal, Goal, GoalList, SimpleGoal
@@ -12,8 +13,7 @@ from tumato_symbolic.spec.specification import ConditionalGoal, Goal, GoalList, 
 Value = TypeVar("Value")
 
 
-@dataclass(frozen=True, slots=True)
-class Connectives(Generic[Value]):
+class Connectives(Struct, Generic[Value], frozen=True):
     """What the connectives of formulas are among values of one kind: diagrams, terms, texts, truth values."""
 
     constant: Callable[[bool], Value]
@@ -80,8 +80,7 @@ def subgoals(goal: Goal | None) -> list[Goal]:
     )
 
 
-@dataclass(frozen=True, slots=True)
-class _Activity(Generic[Value]):
+class _Activity(Struct, Generic[Value], frozen=True):
     """When a goal is entered, and when it makes which body active (`docs/semantics.md`, section 4)."""
 
     entered: Value

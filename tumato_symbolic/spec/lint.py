@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from math import prod
+
+from msgspec.structs import replace
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Span
 from tumato_symbolic.diagnostics.wording import quoted

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Diagnostic, Source, not_allowed
 from tumato_symbolic.diagnostics.copies import merged
@@ -15,8 +16,7 @@ from tumato_symbolic.spec.specification import Spec
 from tumato_symbolic.syntax import parse
 
 
-@dataclass(frozen=True, slots=True)
-class Loaded:
+class Loaded(Struct, frozen=True):
     """A specification, None where there is an error, and what there is to say in the order of the text."""
 
     spec: Spec | None

@@ -7,8 +7,9 @@ executed first*, tell the residual goals apart.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import prod
+
+from msgspec import Struct
 
 from tumato_symbolic.spec.fold import fold_goal
 from tumato_symbolic.spec.formula import executing_atoms
@@ -18,8 +19,7 @@ MOST_APART = 256
 """Up to so many sets of active goals, by the structure of the goals, are looked at one by one."""
 
 
-@dataclass(frozen=True, slots=True)
-class GoalParameters:
+class GoalParameters(Struct, frozen=True):
     """What residual goals are told apart by: bodies, and actions (by their first cases) that some body speaks of."""
 
     bodies: tuple[int, ...]

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Final, Literal, TypeAlias, get_args
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Code, Note, Span
 from tumato_symbolic.diagnostics.wording import quoted
@@ -21,8 +22,7 @@ Kind: TypeAlias = Literal["state variable", "alias", "resource", "action", "name
 _RESERVED = frozenset({"true", "false", "none", "executing"})
 
 
-@dataclass(frozen=True, slots=True)
-class Declared:
+class Declared(Struct, frozen=True):
     """What a name stands for: the how-many-th declaration of which kind, and where."""
 
     kind: Kind
@@ -30,8 +30,7 @@ class Declared:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Names:
+class Names(Struct, frozen=True):
     """All declarations, in order, without repetitions, and what each name stands for.
 
     `unsettled` are the variables whose values are in error.

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from itertools import product
 from math import prod
 from operator import eq, ge, gt, le, lt, ne
 from typing import Final, TypeAlias
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Code
 from tumato_symbolic.diagnostics.wording import listed, quoted
@@ -45,8 +46,7 @@ class CopyError(Exception):
     """A copy cannot be made; what is wrong is reported."""
 
 
-@dataclass(frozen=True, slots=True)
-class Combinations:
+class Combinations(Struct, frozen=True):
     """What a header stands for: the domains of its parameters, and its conditions."""
 
     header: ast.Header

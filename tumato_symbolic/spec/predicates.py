@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Code, CopySpan, Note, Span
 from tumato_symbolic.diagnostics.wording import listed, quoted
@@ -33,16 +34,14 @@ _NONE = {
 """The way out where `none` is one of several."""
 
 
-@dataclass(frozen=True, slots=True)
-class Mention:
+class Mention(Struct, frozen=True):
     """Where a predicate says `executing`: `place` is in the predicate, `origin` in the alias that it came through."""
 
     place: Span
     origin: Span | None
 
 
-@dataclass(frozen=True, slots=True)
-class Resolved:
+class Resolved(Struct, frozen=True):
     """A formula, its size, and its first `executing`."""
 
     formula: Formula

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Note, Source, Span
 from tumato_symbolic.diagnostics.wording import quoted
@@ -34,8 +36,7 @@ _TITLES = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Resolution:
+class Resolution(Struct, frozen=True):
     """A specification, None where there is a mistake, what was found, and what lint needs to know beside it."""
 
     spec: Spec | None

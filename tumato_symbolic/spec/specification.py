@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Literal, TypeAlias
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tumato_symbolic.diagnostics import Span
 from tumato_symbolic.spec.formula import TRUE, Formula, Or
@@ -20,8 +23,7 @@ Assignment: TypeAlias = tuple[tuple[int, int], ...]
 """What an effect writes: pairs (variable, value), sorted by variable, each variable once. Empty: no change."""
 
 
-@dataclass(frozen=True, slots=True)
-class Variable:
+class Variable(Struct, frozen=True):
     """A state variable and its values, in the order of declaration."""
 
     name: str
@@ -29,8 +31,7 @@ class Variable:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Rule:
+class Rule(Struct, frozen=True):
     """A predicate that the user wrote: a rule, an assumption, or one comma-separated part of a precondition.
 
     `severity` is that of a state rule: 1, or more where it is milder; only the order of the numbers counts.
@@ -42,8 +43,7 @@ class Rule:
     severity: int = 1
 
 
-@dataclass(frozen=True, slots=True)
-class Alternative:
+class Alternative(Struct, frozen=True):
     """One `alternative effects:` entry: all assignments that it denotes, one or more."""
 
     outcomes: tuple[Assignment, ...]
@@ -51,8 +51,7 @@ class Alternative:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class EffectSet:
+class EffectSet(Struct, frozen=True):
     """A set of effects with clauses, as it is written: `clauses` are pairs of a condition and the effects under it.
 
     A relative effect is one clause for each value of its variable.
@@ -62,13 +61,10 @@ class EffectSet:
     clauses: tuple[tuple[Formula, tuple[Formula, ...]], ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Action:
+class Action(Struct, frozen=True, dict=True):
     """An action, or one case of an action with clauses. `resources` are resource numbers; preconditions a conjunction.
 
-    `resource_span` is where the resources are listed, None where the text has no such field. `effects` has the nominal
-    assignment first, then every alternative one; each assignment once. It is empty for an action without effects, none
-    of whose effects mentions a variable: it never takes effect.
+    `resource_span` is where the resources are listed, None where the text has no such field.
 
     The cases of an action have its name. `guard` tells in which states one is meant, None where it is all; the guards
     of an action exclude each other. `written` are the sets of effects of an action with clauses, the nominal one first.
@@ -81,14 +77,18 @@ class Action:
     nominal: Assignment
     alternatives: tuple[Alternative, ...]
     span: Span
-    resource_span: Span | None = field(default=None, compare=False)
+    resource_span: Span | None = None
     guard: Rule | None = None
-    written: tuple[EffectSet, ...] = field(default=(), repr=False, compare=False)
-    effects: tuple[Assignment, ...] = field(init=False, repr=False, compare=False)
+    written: tuple[EffectSet, ...] = ()
 
-    def __post_init__(self) -> None:
+    @cached_property
+    def effects(self) -> tuple[Assignment, ...]:
+        """The nominal assignment, then every alternative one; each once.
+
+        It is empty for an action without effects, none of whose effects mentions a variable: it never takes effect.
+        """
         found = [self.nominal, *(outcome for entry in self.alternatives for outcome in entry.outcomes)]
-        object.__setattr__(self, "effects", tuple(dict.fromkeys(found)) if any(found) else ())
+        return tuple(dict.fromkeys(found)) if any(found) else ()
 
     @property
     def conditions(self) -> tuple[Rule, ...]:
@@ -96,16 +96,14 @@ class Action:
         return self.preconditions if self.guard is None else (*self.preconditions, self.guard)
 
 
-@dataclass(frozen=True, slots=True)
-class SimpleGoal:
+class SimpleGoal(Struct, frozen=True):
     """`goal: PREDICATE`; `body` indexes `Spec.bodies`."""
 
     body: int
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class ConditionalGoal:
+class ConditionalGoal(Struct, frozen=True):
     """`when PREDICATE then …`."""
 
     condition: Rule
@@ -113,8 +111,7 @@ class ConditionalGoal:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class GoalList:
+class GoalList(Struct, frozen=True):
     """`BEGIN GOALS goal type: … END GOALS`."""
 
     kind: Literal["priority", "constraint"]
@@ -125,20 +122,16 @@ class GoalList:
 Goal: TypeAlias = SimpleGoal | ConditionalGoal | GoalList
 
 
-@dataclass(frozen=True, slots=True)
-class Spec:
+class Spec(Struct, frozen=True, dict=True):
     """A whole specification.
 
     Variables, resources and actions are known by their position. `bodies` holds the goal bodies, each structure
     once (aliases expanded), so that two goals are the same exactly when their body numbers are. `max_plan_length`
-    is None where plans are unbounded, `effect_ordering` is None where the text does not say.
-    `bound_span` is where the plan bound is set. `restoration` is how safety is to be restored: what the text says,
-    or the command line in its place. `preconditions` is when those of actions have to hold. `tiers` are the state rules
-    by severity, the most severe first; one tier at least. A valid state that satisfies one of `starts` is a start;
-    where there are none, every valid state is one. `part` is what a policy from the starts decides, where only that is
-    looked at (`within`): one more thing that valid states satisfy. `cases[n]` are the numbers of the cases of the n-th
-    action: one, its own, for an action without clauses. They follow one another in `actions`; `first_case` has, for
-    each of these, the first case of the same action.
+    is None where plans are unbounded, `effect_ordering` is None where the text does not say. `bound_span` is where the
+    plan bound is set. `restoration` is how safety is to be restored: what the text says, or the command line in its
+    place. `preconditions` is when those of actions have to hold. A valid state that satisfies one of `starts` is a
+    start; where there are none, every valid state is one. `part` is what a policy from the starts decides, where only
+    that is looked at (`within`): one more thing that valid states satisfy.
     """
 
     variables: tuple[Variable, ...]
@@ -151,25 +144,36 @@ class Spec:
     bodies: tuple[Rule, ...]
     max_plan_length: int | None
     effect_ordering: Ordering | None
-    bound_span: Span | None = field(default=None, compare=False)
+    bound_span: Span | None = None
     restoration: Restoration = "one_step"
     preconditions: PreconditionsHold = "at_start"
     starts: tuple[Rule, ...] = ()
-    part: Rule | None = field(default=None, repr=False, compare=False)
-    tiers: tuple[tuple[Rule, ...], ...] = field(init=False, repr=False, compare=False)
-    cases: tuple[range, ...] = field(init=False, repr=False, compare=False)
-    first_case: tuple[int, ...] = field(init=False, repr=False, compare=False)
-    _action_at: dict[int, int] = field(init=False, repr=False, compare=False, hash=False)
+    part: Rule | None = None
 
-    def __post_init__(self) -> None:
+    @cached_property
+    def tiers(self) -> tuple[tuple[Rule, ...], ...]:
+        """The state rules by severity, the most severe first; one tier at least."""
+        severities = sorted({rule.severity for rule in self.state_rules}) or [1]
+        return tuple(tuple(rule for rule in self.state_rules if rule.severity == each) for each in severities)
+
+    @cached_property
+    def cases(self) -> tuple[range, ...]:
+        """For every action the numbers of its cases: one, its own, for an action without clauses.
+
+        They follow one another in `actions`.
+        """
         names = [action.name for action in self.actions]
         starts = [number for number, name in enumerate(names) if number == 0 or names[number - 1] != name]
-        object.__setattr__(self, "cases", tuple(map(range, starts, [*starts[1:], len(names)])))
-        object.__setattr__(self, "_action_at", {start: number for number, start in enumerate(starts)})
-        object.__setattr__(self, "first_case", tuple(cases[0] for cases in self.cases for _ in cases))
-        severities = sorted({rule.severity for rule in self.state_rules}) or [1]
-        tiers = tuple(tuple(rule for rule in self.state_rules if rule.severity == each) for each in severities)
-        object.__setattr__(self, "tiers", tiers)
+        return tuple(map(range, starts, [*starts[1:], len(names)]))
+
+    @cached_property
+    def first_case(self) -> tuple[int, ...]:
+        """For every case, the first case of the same action."""
+        return tuple(cases[0] for cases in self.cases for _ in cases)
+
+    @cached_property
+    def _action_at(self) -> dict[int, int]:
+        return {cases[0]: number for number, cases in enumerate(self.cases)}
 
     @property
     def validity(self) -> tuple[Rule, ...]:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Code, Note, Span
 from tumato_symbolic.diagnostics.wording import quoted
@@ -18,8 +19,7 @@ MAX_VALUES_IN_ALL = 1_000_000
 """The most values of all state variables together."""
 
 
-@dataclass(frozen=True, slots=True)
-class Values:
+class Values(Struct, frozen=True):
     """The values of one variable in order, each once; `complete` where no mistake keeps some of them unknown."""
 
     texts: tuple[str, ...]

@@ -12,8 +12,9 @@ import signal
 import sys
 import time
 from collections.abc import Iterator
-from dataclasses import asdict
 from typing import Final, Literal, TextIO, TypeAlias
+
+from msgspec.structs import asdict
 
 from tumato_symbolic.limits.processes import end_with, megabytes_of
 from tumato_symbolic.sweep.tasks import Batch, Task

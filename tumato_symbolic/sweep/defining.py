@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import product
 from math import prod
 from typing import Final, NoReturn, TypeAlias
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source, Span, UserError
 from tumato_symbolic.diagnostics.wording import listed, nearest, quoted
@@ -41,8 +42,7 @@ _NODES: Final[dict[type[ast.Setting], str]] = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Definition:
+class Definition(Struct, frozen=True):
     """`NAME=VALUE,…` as it was typed."""
 
     name: str

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import TypeAlias
+
+from msgspec.structs import replace
 
 from tumato_symbolic.diagnostics import Source, Span
 from tumato_symbolic.sweep.tree import below
@@ -81,7 +82,7 @@ class Written:
 
 def predicates_in(block: ast.Block) -> Iterator[ast.Predicate]:
     """The predicates of a block of rules, copies being looked into."""
-    yield from _entries(getattr(block, block.__slots__[0]))
+    yield from _entries(getattr(block, block.__struct_fields__[0]))
 
 
 def _entries(entries: tuple[ast.Entry, ...]) -> Iterator[ast.Predicate]:

@@ -6,9 +6,10 @@ from collections import deque
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import Future
 from contextlib import AbstractContextManager
-from dataclasses import dataclass
 from math import ceil
 from typing import Final, TypeAlias
+
+from msgspec import Struct
 
 from tumato_symbolic.sweep.tasks import Reply
 from tumato_symbolic.sweep.variants import Variant
@@ -20,8 +21,7 @@ _LEAST: Final = 0.1
 """No batch is made smaller than this part of one that takes as long as it should."""
 
 
-@dataclass(frozen=True, slots=True)
-class Workers:
+class Workers(Struct, frozen=True):
     """Who works: `submit` takes a batch, of which `hands` are worked on at a time.
 
     A batch should take so many `seconds`, which is much longer than handing it over takes. Its future raises
@@ -45,8 +45,7 @@ class LostError(Exception):
     """A batch without a reply, because those who worked on it were killed again and again."""
 
 
-@dataclass(frozen=True, slots=True)
-class Portion:
+class Portion(Struct, frozen=True):
     """Variants for one batch. `alone`: one variant, while nothing else is under way."""
 
     variants: Sequence[Variant]

@@ -7,9 +7,10 @@ import os
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO, Any, NoReturn
+
+from msgspec import Struct, field
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.diagnostics.wording import quoted
@@ -28,8 +29,7 @@ def written(line: Mapping[str, object]) -> str:
     return json.dumps(line, ensure_ascii=False)
 
 
-@dataclass
-class Results:
+class Results(Struct):
     """What is known by now: a line for each variant that is done, by its number."""
 
     header: Mapping[str, object]

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, replace
 from functools import lru_cache
+
+from msgspec import to_builtins
+from msgspec.structs import replace
 
 from tumato_symbolic.diagnostics import Diagnostic, Source, UserError
 from tumato_symbolic.limits import Context, LimitReachedError
@@ -95,9 +97,10 @@ def _proved(task: Task, spec: Spec, outcome: SynthesisResult, context: Context) 
 def _compared(against: str, policy: Policy, context: Context) -> dict[str, object] | None:
     """In how many states the policy decides otherwise than the one in a file; None where that takes too long."""
     try:
-        return asdict(counted(_loaded(against), policy, context))
+        found = counted(_loaded(against), policy, context)
     except LimitReachedError:
         return None
+    return dict(to_builtins(found))
 
 
 @lru_cache(maxsize=2)

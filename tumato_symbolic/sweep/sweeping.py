@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager
-from dataclasses import replace
 from functools import partial
 from math import inf
 from typing import Final
+
+from msgspec.structs import replace
 
 from tumato_symbolic.sweep.asking import Children
 from tumato_symbolic.sweep.portions import Hired, LostError, Portion, Portions, Workers

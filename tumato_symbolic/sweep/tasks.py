@@ -6,8 +6,10 @@ Who asks needs no solver, and so nothing here imports one.
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass, replace
 from typing import TYPE_CHECKING
+
+from msgspec import Struct, to_builtins
+from msgspec.structs import replace
 
 from tumato_symbolic.limits import Limits
 
@@ -18,8 +20,7 @@ if TYPE_CHECKING:
     from tumato_symbolic.verify import ProverName
 
 
-@dataclass(frozen=True, slots=True)
-class Task:
+class Task(Struct, frozen=True):
     """A text to solve, with everything on which the answer depends.
 
     `against` is the policy file that its policy is compared with; `policy`: its own file is wanted as well. `seconds`
@@ -43,16 +44,14 @@ class Task:
         return Limits(self.seconds, self.megabytes)
 
 
-@dataclass(frozen=True, slots=True)
-class Answer:
+class Answer(Struct, frozen=True):
     """What is found: `result` goes into a line of results; `policy` is the file of the policy, where it is wanted."""
 
     result: dict[str, object]
     policy: str | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Batch:
+class Batch(Struct, frozen=True):
     """Texts that one process solves one after the other; `common` is what all their tasks share.
 
     Once it is at work for `enough` seconds, no other text is begun.
@@ -69,7 +68,7 @@ class Batch:
 
     def written(self) -> str:
         """As a line of JSON."""
-        return json.dumps(asdict(self))
+        return json.dumps(to_builtins(self))
 
     @classmethod
     def read(cls, line: str) -> Batch:
@@ -78,8 +77,7 @@ class Batch:
         return cls(Task(**found["common"]), tuple(found["texts"]), found["enough"])
 
 
-@dataclass(frozen=True, slots=True)
-class Reply:
+class Reply(Struct, frozen=True):
     """The answers to the first texts of a batch, and how many seconds they took together.
 
     `bug` is the traceback of an exception that came instead of the next answer.
@@ -91,7 +89,7 @@ class Reply:
 
     def written(self) -> str:
         """As a line of JSON."""
-        return json.dumps(asdict(self))
+        return json.dumps(to_builtins(self))
 
     @classmethod
     def read(cls, line: str) -> Reply:

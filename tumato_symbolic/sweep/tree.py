@@ -18,5 +18,5 @@ def below(node: object, kind: type[Found]) -> Iterator[Found]:
         for each in node:
             yield from below(each, kind)
     elif isinstance(node, ast.Node):
-        for slot in node.__slots__:
-            yield from below(getattr(node, slot), kind)
+        for name in node.__struct_fields__:
+            yield from below(getattr(node, name), kind)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
+
+from msgspec import Struct, field
 
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.syntax.edits import Edit, edited
@@ -14,8 +15,7 @@ Kind: TypeAlias = Literal["define", "drop", "mutate"]
 """What is varied: named values, elements that are left out, or anything that a person may get wrong."""
 
 
-@dataclass(frozen=True, slots=True)
-class Change:
+class Change(Struct, frozen=True):
     """What a variant says otherwise: in the place of `before`, `after`; None where that is nothing.
 
     `what` is the kind of thing that is changed, `name` that of a list or a setting. `line` and `column` are where it
@@ -41,8 +41,7 @@ class Change:
         }
 
 
-@dataclass(frozen=True, slots=True)
-class Variant:
+class Variant(Struct, frozen=True):
     """One text: number 0 is the specification as it stands."""
 
     number: int
@@ -54,8 +53,7 @@ class Variant:
         return edited(source, self.edits)
 
 
-@dataclass(frozen=True, slots=True)
-class Plan:
+class Plan(Struct, frozen=True):
     """All variants of a specification, the first of which is the specification itself.
 
     `options` are those of the command on which the results depend, by their names.

@@ -8,16 +8,16 @@ the values apart.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import TypeAlias
+
+from msgspec import Struct
 
 from tumato_symbolic.spec import Assignment
 from tumato_symbolic.symbolic.manager import Bdd, Manager
 
 
-@dataclass(frozen=True, eq=False)
-class EffectTree:
+class EffectTree(Struct, frozen=True, eq=False):
     """Effects by what they write first. `ends`: writing nothing (more) is one of them. Equal trees are one object."""
 
     ends: bool

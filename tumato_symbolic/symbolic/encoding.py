@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import groupby
 
@@ -15,8 +14,7 @@ from tumato_symbolic.symbolic.manager import Backend, Bdd
 from tumato_symbolic.symbolic.present import FEW_MOVES, Leading, Written, by_values, next_values, written_by
 
 
-@dataclass(frozen=True)
-class Encoding(Layout):
+class Encoding(Layout, frozen=True, dict=True):
     """A layout, and the specification that is looked at in it."""
 
     spec: Spec

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+
+from msgspec import Struct, field
 
 from tumato_symbolic.semantics import ActionSet, ActiveGoals, Residual, residual_goal
 from tumato_symbolic.spec import (
@@ -27,8 +28,7 @@ from tumato_symbolic.symbolic.steps import Steps
 Regions = dict[ActiveGoals, Bdd]
 
 
-@dataclass(frozen=True)
-class Target:
+class Target(Struct, frozen=True):
     """The safe states that satisfy a residual goal, and the steps after which it is pending.
 
     `states` are the safe states that satisfy the residual goal; `pending` are the allowed pairs `(s, A)` with that

@@ -8,8 +8,9 @@ first variable that it writes, so that independent parts of a robot stay apart i
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
+
+from msgspec import Struct
 
 from tumato_symbolic.limits import Context
 from tumato_symbolic.semantics import ActionSet, State, exclusive_groups
@@ -28,16 +29,14 @@ from tumato_symbolic.symbolic.manager import Backend, Bdd, Manager
 from tumato_symbolic.symbolic.order import variable_order
 
 
-@dataclass(frozen=True, slots=True)
-class Group:
+class Group(Struct, frozen=True):
     """Mutually exclusive actions and the bits that choose among them; choice 0 is idle."""
 
     actions: tuple[int, ...]
     bits: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class GoalBits:
+class GoalBits(Struct, frozen=True):
     """The bits that tell residual goals apart where there are many: which bodies are active, what is executed first.
 
     A state or a pair does not set them: they stand for the goal of a run, wherever that is by now.
@@ -47,8 +46,7 @@ class GoalBits:
     actions: Mapping[int, str]
 
 
-@dataclass(frozen=True)
-class Layout:
+class Layout(Struct, frozen=True, dict=True):
     """The bits that stand for states and for sets of actions, whatever the actions do and the rules say.
 
     Specifications that have the same variables, and actions of the same groups, can share one.
@@ -61,7 +59,7 @@ class Layout:
     groups: tuple[Group, ...]
     order: tuple[int, ...]
     """State variables as their bits are ordered."""
-    choice_of: Mapping[int, tuple[int, int]] = field(repr=False)
+    choice_of: Mapping[int, tuple[int, int]]
     """For every action, its group and its choice number there."""
     goal_bits: GoalBits | None
     """None where there are few residual goals, which are looked at one by one."""

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import TypeAlias
+
+from msgspec import Struct
 
 from tumato_symbolic.spec import Assignment
 from tumato_symbolic.symbolic.manager import Bdd, Manager
@@ -21,8 +22,7 @@ LEAST_RELATED = 4
 """So many values that are written at least are taken together by a relation."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Moves:
+class _Moves(Struct, frozen=True):
     """Moves by what they write. `ends` has what stands for those that write nothing (more).
 
     `branches` has, by bits and then by their values, these values and the moves that go on from there. `related` has
@@ -34,8 +34,7 @@ class _Moves:
     related: dict[tuple[str, ...], _Related]
 
 
-@dataclass(frozen=True, slots=True)
-class _Related:
+class _Related(Struct, frozen=True):
     """Moves that write some bits: `before` is what these are before; `written` what stands for which values there."""
 
     before: Bdd

@@ -7,9 +7,10 @@ is composed group by group (`docs/semantics.md`, section 3).
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import accumulate, pairwise
 from operator import and_
+
+from msgspec import Struct
 
 from tumato_symbolic.semantics import contested_resources, contested_values
 from tumato_symbolic.spec import Assignment, Ordering, Spec
@@ -21,8 +22,7 @@ LARGE = 20_000
 """Nodes of a relation that is not multiplied by many more at once."""
 
 
-@dataclass(frozen=True)
-class Steps:
+class Steps(Struct, frozen=True):
     """The step relation of a specification.
 
     `valid` and `safe` are sets of states; `candidates` relates valid states to sets of actions that satisfy conditions

@@ -8,8 +8,9 @@ is the sum of what the groups do, not its product.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import TypeAlias
+
+from msgspec import Struct
 
 from tumato_symbolic.symbolic.encoding import Encoding
 from tumato_symbolic.symbolic.manager import Bdd, Manager
@@ -18,8 +19,7 @@ MOST_TURN_MOVES = 1000
 """A relation that takes more moves, in all turns together, is not taken in turns."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Move:
+class Move(Struct, frozen=True, eq=False):
     """What a group writes in its turn: its `choices` that write it, where they are taken, and where that leads.
 
     `after` may hold more, where what is written was something else before.
@@ -37,8 +37,7 @@ class Move:
         return manager.and_exists(self.written, target, self.after) & self.before
 
 
-@dataclass(frozen=True, eq=False)
-class Turn:
+class Turn(Struct, frozen=True, eq=False):
     """The turn of a group: what it may do, and for each part of that the turn of the next group from there.
 
     `states` are those that the relation relates to some set. After the last turn there are no branches.

@@ -9,8 +9,9 @@ Longer than 300 lines because it has one small record for every sentence of the 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from typing import Literal, TypeAlias, TypeVar
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Span
 
@@ -20,13 +21,8 @@ NOWHERE = Span(1, 1, 1, 1)
 """The span of a node that no text stands for."""
 
 
-class Node:
-    """What all nodes share: how they compare and how they are shown.
-
-    One method for all nodes, because generating one for each of thirty classes slows down every start.
-    """
-
-    __slots__: tuple[str, ...] = ()
+class Node(Struct, frozen=True, eq=False):
+    """What all nodes share: how they compare and how they are shown."""
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Node) and type(self) is type(other) and self._values() == other._values()
@@ -38,7 +34,7 @@ class Node:
         return f"{type(self).__name__}({', '.join(map(repr, self._values()))})"
 
     def _values(self) -> tuple[object, ...]:
-        return tuple(getattr(self, name) for name in self.__slots__ if name != "span")
+        return tuple(getattr(self, name) for name in self.__struct_fields__ if name != "span")
 
 
 def number(value: int | Name) -> int:
@@ -54,16 +50,14 @@ def one_by_one(entries: Iterable[One | Copies]) -> Iterator[One]:
         yield each
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Name(Node):
+class Name(Node, frozen=True):
     """A name as it is written in one place."""
 
     text: str
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Range(Node):
+class Range(Node, frozen=True):
     """`LOW..HIGH`: all whole numbers from one to the other."""
 
     low: Name
@@ -75,16 +69,14 @@ Item: TypeAlias = Name | Range
 """What stands in a list of values: one, by name or as a number, or a range of numbers."""
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Truth(Node):
+class Truth(Node, frozen=True):
     """`true` or `false`."""
 
     value: bool
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Comparison(Node):
+class Comparison(Node, frozen=True):
     """`VARIABLE is VALUE`."""
 
     variable: Name
@@ -92,8 +84,7 @@ class Comparison(Node):
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Difference(Node):
+class Difference(Node, frozen=True):
     """`VARIABLE is not VALUE`."""
 
     variable: Name
@@ -101,8 +92,7 @@ class Difference(Node):
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Membership(Node):
+class Membership(Node, frozen=True):
     """`VARIABLE in {VALUE, …}`, or `not in`."""
 
     variable: Name
@@ -114,8 +104,7 @@ class Membership(Node):
 Operator: TypeAlias = Literal["<", "<=", ">", ">=", "=", "!="]
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Ordering(Node):
+class Ordering(Node, frozen=True):
     """`VARIABLE < NUMBER` or `VARIABLE < VARIABLE`, with this operator or another; `sign` is where that stands."""
 
     variable: Name
@@ -128,8 +117,7 @@ class Ordering(Node):
         return self.variable, self.operator, self.other
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Parameter(Node):
+class Parameter(Node, frozen=True):
     """`NAME in VALUE, …`, or `NAME in {VALUE, …}`."""
 
     name: Name
@@ -138,8 +126,7 @@ class Parameter(Node):
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Operand(Node):
+class Operand(Node, frozen=True):
     """A side of a condition: a parameter, a word or a number, and what is added to it."""
 
     name: Name
@@ -147,8 +134,7 @@ class Operand(Node):
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Condition(Node):
+class Condition(Node, frozen=True):
     """`OPERAND < OPERAND` after `where`, with this operator or another."""
 
     left: Operand
@@ -157,8 +143,7 @@ class Condition(Node):
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Header(Node):
+class Header(Node, frozen=True):
     """The parameters of copies and the conditions that they have to satisfy."""
 
     parameters: tuple[Parameter, ...]
@@ -166,8 +151,7 @@ class Header(Node):
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Quantifier(Node):
+class Quantifier(Node, frozen=True):
     """`all`, `some` or `exactly one`, a header, and a predicate about it."""
 
     kind: Literal["all", "some", "exactly one"]
@@ -176,8 +160,7 @@ class Quantifier(Node):
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Copies(Node):
+class Copies(Node, frozen=True):
     """`for`, a header, what is copied, and `end for`."""
 
     header: Header
@@ -185,48 +168,42 @@ class Copies(Node):
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Execution(Node):
+class Execution(Node, frozen=True):
     """`executing ACTION`."""
 
     action: Name
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Reference(Node):
+class Reference(Node, frozen=True):
     """An alias, by name."""
 
     name: Name
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Negation(Node):
+class Negation(Node, frozen=True):
     """`NOT p`."""
 
     operand: Predicate
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Conjunction(Node):
+class Conjunction(Node, frozen=True):
     """`p AND q AND …`: two operands or more."""
 
     operands: tuple[Predicate, ...]
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Disjunction(Node):
+class Disjunction(Node, frozen=True):
     """`p OR q OR …`: two operands or more."""
 
     operands: tuple[Predicate, ...]
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Implication(Node):
+class Implication(Node, frozen=True):
     """`IF p THEN q`."""
 
     condition: Predicate
@@ -234,8 +211,7 @@ class Implication(Node):
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Equivalence(Node):
+class Equivalence(Node, frozen=True):
     """`p IFONLYIF q`."""
 
     left: Predicate
@@ -260,8 +236,7 @@ Predicate: TypeAlias = (
 )
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class VariableDeclaration(Node):
+class VariableDeclaration(Node, frozen=True):
     """`state NAME can be VALUE, …`: one value or more."""
 
     name: Name
@@ -269,8 +244,7 @@ class VariableDeclaration(Node):
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class AliasDefinition(Node):
+class AliasDefinition(Node, frozen=True):
     """`define NAME as PREDICATE`."""
 
     name: Name
@@ -278,8 +252,7 @@ class AliasDefinition(Node):
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class NamedList(Node):
+class NamedList(Node, frozen=True):
     """`define NAME as {VALUE, …}`."""
 
     name: Name
@@ -287,40 +260,35 @@ class NamedList(Node):
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class ResourceDeclaration(Node):
+class ResourceDeclaration(Node, frozen=True):
     """`resource NAME`."""
 
     name: Name
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Duration(Node):
+class Duration(Node, frozen=True):
     """`duration: N`, or `cost: N` in older files. Among copies, the number may be a name with parameters in it."""
 
     value: int | Name
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class ControlledResources(Node):
+class ControlledResources(Node, frozen=True):
     """`controlled resources: R, …`; none at all is written `none`."""
 
     names: tuple[Name, ...]
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Preconditions(Node):
+class Preconditions(Node, frozen=True):
     """`preconditions: PREDICATE, …`; none at all is written `none`."""
 
     predicates: tuple[Predicate, ...]
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Change(Node):
+class Change(Node, frozen=True):
     """`VARIABLE is VARIABLE + NUMBER`, or `-`. Among copies, the number may be a name with parameters in it."""
 
     variable: Name
@@ -333,8 +301,7 @@ class Change(Node):
 Effect: TypeAlias = Predicate | Change
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Clause(Node):
+class Clause(Node, frozen=True):
     """`when PREDICATE: EFFECT, …` in a set of effects."""
 
     condition: Predicate
@@ -342,8 +309,7 @@ class Clause(Node):
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class NominalEffects(Node):
+class NominalEffects(Node, frozen=True):
     """`nominal effects: EFFECT, …`, or `effects:` in older files, and clauses; no change at all is written `none`."""
 
     effects: tuple[Effect, ...]
@@ -351,8 +317,7 @@ class NominalEffects(Node):
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class AlternativeEffects(Node):
+class AlternativeEffects(Node, frozen=True):
     """`alternative effects: EFFECT, …` and clauses; no change at all is written `none`."""
 
     effects: tuple[Effect, ...]
@@ -363,8 +328,7 @@ class AlternativeEffects(Node):
 Field: TypeAlias = Duration | ControlledResources | Preconditions | NominalEffects | AlternativeEffects
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class ActionDeclaration(Node):
+class ActionDeclaration(Node, frozen=True):
     """`action NAME` and its fields, as they stand."""
 
     name: Name
@@ -375,16 +339,14 @@ class ActionDeclaration(Node):
 Declaration: TypeAlias = VariableDeclaration | AliasDefinition | NamedList | ResourceDeclaration | ActionDeclaration
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class SimpleGoal(Node):
+class SimpleGoal(Node, frozen=True):
     """`goal: PREDICATE`."""
 
     predicate: Predicate
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class ConditionalGoal(Node):
+class ConditionalGoal(Node, frozen=True):
     """`when PREDICATE then` and a goal or a list of goals."""
 
     condition: Predicate
@@ -392,8 +354,7 @@ class ConditionalGoal(Node):
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class GoalList(Node):
+class GoalList(Node, frozen=True):
     """`BEGIN GOALS goal type: … END GOALS`. The kind is None in a block that holds nothing."""
 
     kind: Literal["priority", "constraint"] | None
@@ -404,32 +365,28 @@ class GoalList(Node):
 Goal: TypeAlias = SimpleGoal | ConditionalGoal | GoalList
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class MaxPlanLength(Node):
+class MaxPlanLength(Node, frozen=True):
     """`max_plan_length: N`. Among copies, the number may be a name with parameters in it."""
 
     value: int | Name
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class EffectOrdering(Node):
+class EffectOrdering(Node, frozen=True):
     """`effect_ordering: any` or `first`."""
 
     value: Literal["any", "first"]
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Restoration(Node):
+class Restoration(Node, frozen=True):
     """`restoration: one_step`, `bounded` or `fair`."""
 
     value: Literal["one_step", "bounded", "fair"]
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class PreconditionsHold(Node):
+class PreconditionsHold(Node, frozen=True):
     """`preconditions: at_start` or `throughout`."""
 
     value: Literal["at_start", "throughout"]
@@ -439,88 +396,77 @@ class PreconditionsHold(Node):
 Setting: TypeAlias = MaxPlanLength | EffectOrdering | Restoration | PreconditionsHold
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class StateVector(Node):
+class StateVector(Node, frozen=True):
     """`BEGIN STATE VECTOR`."""
 
     variables: tuple[VariableDeclaration | Copies, ...]
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Aliases(Node):
+class Aliases(Node, frozen=True):
     """`BEGIN ALIASES`."""
 
     definitions: tuple[AliasDefinition | NamedList | Copies, ...]
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Resources(Node):
+class Resources(Node, frozen=True):
     """`BEGIN RESOURCES`."""
 
     resources: tuple[ResourceDeclaration | Copies, ...]
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Actions(Node):
+class Actions(Node, frozen=True):
     """`BEGIN ACTIONS`."""
 
     actions: tuple[ActionDeclaration | Copies, ...]
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class ReactionRules(Node):
+class ReactionRules(Node, frozen=True):
     """`BEGIN REACTION RULES`."""
 
     rules: tuple[Predicate | Copies, ...]
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Severity(Node):
+class Severity(Node, frozen=True):
     """`severity: N`: how severe the state rules after it are."""
 
     value: int | Name
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class StateRules(Node):
+class StateRules(Node, frozen=True):
     """`BEGIN STATE RULES`."""
 
     rules: tuple[Predicate | Severity | Copies, ...]
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Assumptions(Node):
+class Assumptions(Node, frozen=True):
     """`BEGIN ASSUMPTIONS`."""
 
     assumptions: tuple[Predicate | Copies, ...]
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Start(Node):
+class Start(Node, frozen=True):
     """`BEGIN START`."""
 
     conditions: tuple[Predicate | Copies, ...]
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Goals(Node):
+class Goals(Node, frozen=True):
     """The outermost `BEGIN GOALS`."""
 
     goals: GoalList
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Config(Node):
+class Config(Node, frozen=True):
     """`BEGIN CONFIG`."""
 
     settings: tuple[Setting | Copies, ...]
@@ -535,8 +481,7 @@ Block: TypeAlias = (
 )
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Specification(Node):
+class Specification(Node, frozen=True):
     """A whole text: its blocks, in the order in which they stand."""
 
     blocks: tuple[Block, ...]

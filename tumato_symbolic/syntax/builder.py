@@ -8,9 +8,10 @@ Longer than 300 lines because the grammar has so many rules: a function is a lin
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import pairwise
 from typing import Any, TypeAlias
+
+from msgspec.structs import replace
 
 from tumato_symbolic.diagnostics import Span
 from tumato_symbolic.syntax import ast

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
+
+from msgspec import Struct
 
 from tumato_symbolic.syntax.table import Table, read
 from tumato_symbolic.syntax.tokens import pattern
@@ -14,8 +15,7 @@ TABLE_PATH = Path(__file__).with_name("tumato.table.json")
 """The parse table of the grammar, compiled beforehand."""
 
 
-@dataclass(frozen=True, slots=True)
-class Grammar:
+class Grammar(Struct, frozen=True):
     """A parse table, the words and symbols that the grammar spells out, and the pattern of a token."""
 
     table: Table

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Diagnostic
 from tumato_symbolic.syntax.situation import Situation
 from tumato_symbolic.syntax.tokens import COMPARING, TITLES
 
 
-@dataclass(frozen=True, slots=True)
-class Mending:
+class Mending(Struct, frozen=True):
     """Tokens that are passed over, so many of them, and words that are read in their place."""
 
     passed: int

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Span
 from tumato_symbolic.syntax import ast
@@ -39,6 +39,6 @@ def deepest(tree: ast.Specification) -> Span | None:
             depth += 1
             if depth > MAX_NESTING:
                 return node.span
-        if not isinstance(node, ast.Name | Span) and hasattr(node, "__dataclass_fields__"):
-            waiting.extend((getattr(node, each.name), depth, copies) for each in fields(node))  # type: ignore[arg-type]
+        if isinstance(node, Struct) and not isinstance(node, ast.Name | Span):
+            waiting.extend((getattr(node, name), depth, copies) for name in node.__struct_fields__)
     return None

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Diagnostic
 from tumato_symbolic.syntax import ast
 
 
-@dataclass(frozen=True, slots=True)
-class Parsed:
+class Parsed(Struct, frozen=True):
     """The tree of a text and the mistakes in it.
 
     After a mistake the tree holds what could be read all the same, or is None where reading had to be given up.

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source, Span
 from tumato_symbolic.syntax import ast
@@ -46,8 +47,7 @@ def read_terminals(source: Source) -> tuple[Parsed, tuple[Token, ...], tuple[str
     return Parsed(tree, tuple(found), frozenset(run.lost)), text.tokens, tuple(run.terminals)
 
 
-@dataclass(frozen=True, slots=True)
-class Expected:
+class Expected(Struct, frozen=True):
     """What may stand at a place: terminals of the grammar.
 
     `before` are the tokens before it, `open` those of them that are keywords and symbols of what is half read.

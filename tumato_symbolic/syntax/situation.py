@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from difflib import get_close_matches
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics.wording import MAX_QUOTED
 from tumato_symbolic.syntax.tokens import BLOCKS, COMPARING, HARD, Token
@@ -11,8 +12,7 @@ from tumato_symbolic.syntax.tokens import BLOCKS, COMPARING, HARD, Token
 _PREDICATE = frozenset({"NAME", "(", "executing", "true", "false"})
 
 
-@dataclass(frozen=True, slots=True)
-class Situation:
+class Situation(Struct, frozen=True):
     """A token that does not fit.
 
     `expected` is what could stand there: words and symbols as they are written, or NAME, NUMBER, $END. `open` holds

@@ -8,16 +8,16 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
 from hashlib import sha256
 from typing import Any
+
+from msgspec import Struct
 
 START = 0
 """The state in which parsing starts."""
 
 
-@dataclass(frozen=True, slots=True)
-class Rule:
+class Rule(Struct, frozen=True):
     """`origin: parts`. `node` says what is built of the parts, by the name of a function in `builder`.
 
     Where it is None, nothing is built: the only part stands for the whole, or the origin is a list (`is_list`).
@@ -28,8 +28,7 @@ class Rule:
     node: str | None
 
 
-@dataclass(frozen=True, slots=True)
-class Table:
+class Table(Struct, frozen=True):
     """What to do in which state. Keywords and symbols are terminals that are named as they are written.
 
     `actions[state][terminal]` is the state to go to, or -1 - n, after which rule n is complete. `gotos[state][origin]`

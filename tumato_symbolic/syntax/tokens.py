@@ -6,8 +6,9 @@ Whether a word is a keyword depends on where it stands, so the parser decides th
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import Literal, NamedTuple, TypeAlias
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source, Span
 from tumato_symbolic.diagnostics.wording import quoted
@@ -60,8 +61,7 @@ class Token(NamedTuple):
         return Span(self.line, self.column, self.line, self.column + len(self.text))
 
 
-@dataclass(frozen=True, slots=True)
-class Tokens:
+class Tokens(Struct, frozen=True):
     """All tokens of a text, the last of which is its end, and what is wrong with comments.
 
     `unclosed_comment` is the one that is not closed, if there is one; `misleading` those with a character of that kind.

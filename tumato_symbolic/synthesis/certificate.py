@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from tumato_symbolic.diagrams import Diagram, DiagramBuilder, Reference
 from tumato_symbolic.game import Layers, Problem, Restoration

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tumato_symbolic.diagnostics import Diagnostic
 from tumato_symbolic.game import (
@@ -44,8 +46,7 @@ def unrealizable(
     return answer
 
 
-@dataclass(frozen=True)
-class Completed:
+class Completed(Struct, frozen=True):
     """A policy for all safe states that serves every valid state."""
 
     evaluation: Evaluation

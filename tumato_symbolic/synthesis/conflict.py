@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from tumato_symbolic.game import Layers
 from tumato_symbolic.semantics import ActionSet, State
 from tumato_symbolic.symbolic import Target
 
 
-@dataclass(frozen=True, slots=True)
-class Option:
+class Option(Struct, frozen=True):
     """One way to act in a state: where it nominally leads, its target, and the preferred set that does so.
 
     `following` are the outcomes that are not restored, where these matter.
@@ -22,8 +21,7 @@ class Option:
     following: frozenset[State] = frozenset()
 
 
-@dataclass(frozen=True, slots=True)
-class FailingRun:
+class FailingRun(Struct, frozen=True):
     """A run whose first step leaves `target` pending: along `states` to `end`, too far away, or among them for ever.
 
     Where there is a `back`, outcomes lead along the states, from the last one to that at this place, for ever.
@@ -35,8 +33,7 @@ class FailingRun:
     back: int | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class RepairConflict:
+class RepairConflict(Struct, frozen=True):
     """Valid states that no policy serves together, though it does so without any one of them.
 
     The proof: all options of every state that the cuts mention, and cuts that no choice among these options respects.

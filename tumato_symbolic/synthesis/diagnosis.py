@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tumato_symbolic.diagrams import Diagram, DiagramBuilder, Reference
 from tumato_symbolic.game import Problem, Restorer, alone
@@ -22,8 +24,7 @@ MOST_JOINT = 3
 """So many joint actions are proposed at most."""
 
 
-@dataclass(frozen=True, slots=True)
-class Cured:
+class Cured(Struct, frozen=True):
     """The states for which one way to restore safety is the first that would do: how many, one of them, and all.
 
     `root` leads to the set in `Restorability.states`. Under `bounded`, `efforts` counts them by their least worst
@@ -47,8 +48,7 @@ class Cured:
         return self.efforts[-1][0] if self.efforts else None
 
 
-@dataclass(frozen=True, slots=True)
-class JointAction:
+class JointAction(Struct, frozen=True):
     """An action that does at once what several do together: its effects, tried in the specification.
 
     Of the states that could not be restored in one step it leaves so many.
@@ -58,8 +58,7 @@ class JointAction:
     left: int
 
 
-@dataclass(frozen=True, slots=True)
-class Restorability:
+class Restorability(Struct, frozen=True):
     """What would restore the unsafe states that are not restored as asked.
 
     Under `one_step` no set of actions is allowed in them; under `bounded` they have no way back.

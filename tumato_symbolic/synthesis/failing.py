@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from tumato_symbolic.game import Alone, Layers, OwnRegions, Problem, chances, distances, in_time, way_of, winning
 from tumato_symbolic.symbolic import Bdd
@@ -13,8 +14,7 @@ if TYPE_CHECKING:
     from tumato_symbolic.policy.unrealizability import NoAllowedSet, NoPlan, NoRestoration
 
 
-@dataclass(frozen=True)
-class Failing:
+class Failing(Struct, frozen=True):
     """The failing states by kind, disjoint; kinds without states are left out.
 
     `apart` are the distances from the targets; `way` has the steps that runs may take, where safety may take several

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import replace
 from typing import TypeVar
+
+from msgspec.structs import replace
 
 from tumato_symbolic.game import Evaluation, Evaluator, attractor, closed_loop, in_time
 from tumato_symbolic.policy import Deviation

@@ -7,7 +7,7 @@ fail.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from msgspec.structs import replace
 
 from tumato_symbolic.game import Problem
 from tumato_symbolic.game.subgoals import attracted, moves_of, one_after_the_other, subgoals_of

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tumato_symbolic.diagrams import DiagramBuilder
 from tumato_symbolic.game import OwnRegions, Problem, only_region, with_goals
@@ -22,8 +24,7 @@ Solve = Callable[[Problem, Undecided, OwnRegions | None], SynthesisResult]
 """A policy for all valid states of a problem, or why there is none; the policy of the own regions may be known."""
 
 
-@dataclass(frozen=True)
-class Stage:
+class Stage(Struct, frozen=True):
     """States that were left out together, by why they fail where only the valid states of `problem` may be met.
 
     `failing` has more of that; it is None where goals conflict.
@@ -34,8 +35,7 @@ class Stage:
     failing: Failing | None = None
 
 
-@dataclass(frozen=True)
-class Part:
+class Part(Struct, frozen=True):
     """A closed part of the valid states in which none fails, as a problem, and what was left out before.
 
     `own` is the policy of its own regions, where that was found on the way.

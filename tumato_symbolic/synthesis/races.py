@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Note
 from tumato_symbolic.game import Problem
@@ -12,8 +13,7 @@ from tumato_symbolic.spec import Assignment, Rule, Spec, variables_of
 from tumato_symbolic.symbolic import Bdd, Encoding
 
 
-@dataclass(frozen=True, slots=True)
-class _Race:
+class _Race(Struct, frozen=True):
     """In some states, the action `writer` has an effect that falsifies a precondition of the action `pending`."""
 
     pending: int

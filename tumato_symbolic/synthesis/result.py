@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal, TypeAlias
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Diagnostic
 from tumato_symbolic.diagnostics.wording import count
@@ -18,8 +19,7 @@ if TYPE_CHECKING:
 FailureKind: TypeAlias = Literal["no-allowed-set", "no-restoration", "no-plan", "conflict"]
 
 
-@dataclass(frozen=True, slots=True)
-class Statistics:
+class Statistics(Struct, frozen=True):
     """Exact counts of states, and how the answer was found.
 
     `longest_run` is None where there is no policy. `own_region` and `routed` count the safe states that were
@@ -49,8 +49,7 @@ class Statistics:
         return ("at most " if self.one_at_a_time else "") + count(self.longest_run or 0, "step")
 
 
-@dataclass(frozen=True, slots=True)
-class DecidedPart:
+class DecidedPart(Struct, frozen=True):
     """How many valid states a policy from the starts decides, and why not the others; `starts` counts the starts.
 
     Where there is no policy, `decided` is how many any one could decide, goals that conflict aside. `left_out` are the
@@ -64,8 +63,7 @@ class DecidedPart:
     left_out: tuple[Failure, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class RestoredIn:
+class RestoredIn(Struct, frozen=True):
     """How a policy restores safety, where that may take several steps: exact counts of unsafe states.
 
     `bounded` has them by the number of steps in the worst case, `fair` those that are restored along nominal effects
@@ -79,8 +77,7 @@ class RestoredIn:
     levels: tuple[int, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Failure:
+class Failure(Struct, frozen=True):
     """States that fail for one reason (`docs/semantics.md`, section 7).
 
     `count` is exact. `states` holds them in the order of declaration, up to `STATES_LISTED`; of a conflict it is the
@@ -91,15 +88,17 @@ class Failure:
     kind: FailureKind
     count: int
     example: State
-    states: tuple[State, ...] = field(repr=False)
-    within: Formula | None = field(default=None, repr=False, compare=False)
+    states: tuple[State, ...]
+    within: Formula | None = None
+
+    def __repr__(self) -> str:
+        return f"<Failure: {_failure_text(self)}>"
 
 
 STATES_LISTED = 10_000
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class Realizable:
+class Realizable(Struct, frozen=True):
     """There is a policy, and this is it, with its certificate."""
 
     policy: Policy
@@ -125,8 +124,7 @@ class Realizable:
         return f"a policy for {count(states, 'valid state')}, {states - unsafe:,} of them safe{run}"
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class Unrealizable:
+class Unrealizable(Struct, frozen=True):
     """There is no policy: these states fail, or these goals conflict; `certificate` proves it.
 
     It is None where `limit` was met before it was made. `restorability` tells what would restore the states that
@@ -139,7 +137,7 @@ class Unrealizable:
     warnings: tuple[Diagnostic, ...] = ()
     limit: str | None = None
     restorability: Restorability | None = None
-    spec: Spec | None = field(default=None, repr=False, compare=False)
+    spec: Spec | None = None
 
     def __repr__(self) -> str:
         proof = "with a certificate" if self.certificate is not None else "without a certificate"
@@ -157,8 +155,7 @@ class Unrealizable:
         return panel("bad", "Unrealizable", lines, failing_html(self.spec, failures))
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class Undecided:
+class Undecided(Struct, frozen=True):
     """A limit was met before there was an answer. `statistics` is what was known by then, if anything."""
 
     limit: str

@@ -8,7 +8,8 @@ state on the way into it, or in it, has to decide otherwise.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from tumato_symbolic.game import Alone, Evaluation, Evaluator, Layers
 from tumato_symbolic.semantics import ActionSet, State, duration, next_states, restored

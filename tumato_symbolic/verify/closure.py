@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from msgspec.structs import replace
 
 from tumato_symbolic.limits import Context
 from tumato_symbolic.semantics import is_valid, outcomes_in_turn

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tumato_symbolic.diagnostics.cubes import actions_text
 from tumato_symbolic.diagnostics.wording import count
@@ -43,8 +45,7 @@ def properties_of(spec: Spec) -> tuple[PropertyName, ...]:
     return tuple(name for name in PROPERTIES if name != "restoring" or spec.restores_stepwise)
 
 
-@dataclass(frozen=True, slots=True)
-class Departure:
+class Departure(Struct, frozen=True):
     """A state and what the policy does there, with an outcome that it does not decide."""
 
     state: State
@@ -52,8 +53,7 @@ class Departure:
     outcome: EffectSequence
 
 
-@dataclass(frozen=True, slots=True)
-class Refutation:
+class Refutation(Struct, frozen=True):
     """A state in which a property fails, what the policy does there, and the witness for it.
 
     `missing` comes with `departure`, the way from a decided state to this one, or is `closed`: no outcome of a decision
@@ -88,8 +88,7 @@ class Refutation:
     qualities: tuple[Quality | None, Quality] | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class PropertyResult:
+class PropertyResult(Struct, frozen=True):
     """The verdict on one property.
 
     `obligations` counts what had to be proved of all states and was; `proved_by` names the prover of a proved
@@ -105,8 +104,7 @@ class PropertyResult:
     seconds: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
-class CertificateUse:
+class CertificateUse(Struct, frozen=True):
     """What became of the policy's certificate, and why.
 
     `used`: it carried the proof. `incomplete`: it carried a part, other ranks were recomputed. `absent`: there is none.
@@ -118,8 +116,7 @@ class CertificateUse:
     reason: str | None = None
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class Verification:
+class Verification(Struct, frozen=True):
     """The answer of `verify`.
 
     It is about the valid states that the policy decides, and of how many is `decided_states`, out of `valid_states`;
@@ -137,7 +134,7 @@ class Verification:
     decided_states: int | None = None
     restoration: Restoration | None = None
     from_starts: bool = False
-    spec: Spec | None = field(default=None, repr=False, compare=False)
+    spec: Spec | None = None
 
     @property
     def decides_all(self) -> bool:
@@ -186,8 +183,7 @@ def _why(result: PropertyResult, spec: Spec | None) -> str:
     return result.reason or ""
 
 
-@dataclass(frozen=True, slots=True)
-class UnrealizabilityVerdict:
+class UnrealizabilityVerdict(Struct, frozen=True):
     """The answer of `verify_unrealizable`.
 
     `reason` tells which check failed, or why there is no verdict; `state` and `chosen` are the witness, where there is

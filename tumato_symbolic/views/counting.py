@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from tumato_symbolic.limits import Context
 from tumato_symbolic.policy import Policy
@@ -10,8 +10,7 @@ from tumato_symbolic.views.compared import states_changed
 from tumato_symbolic.views.placing import placed_together
 
 
-@dataclass(frozen=True, slots=True)
-class Counted:
+class Counted(Struct, frozen=True):
     """Numbers of states, of the names of both policies.
 
     `compared` are those that one of them decides, `changed` those with different decisions; of these, the old policy

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Literal, Protocol, TypeAlias
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Span
 from tumato_symbolic.spec import Action, Assignment, EffectSet, Goal, Rule, Spec, fold_goal
@@ -26,8 +27,7 @@ ElementKind: TypeAlias = Literal[
 ]
 
 
-@dataclass(frozen=True, slots=True)
-class Detail:
+class Detail(Struct, frozen=True):
     """One thing about an element that was `before` and is `after`; None where it was not, or is not, there."""
 
     what: str
@@ -35,8 +35,7 @@ class Detail:
     after: str | None
 
 
-@dataclass(frozen=True, slots=True)
-class Altered:
+class Altered(Struct, frozen=True):
     """An element that only one specification has, or that differs in `details`.
 
     `name` is that of a variable or action, or what a rule or goal says. `old` and `new` are where it stands.
@@ -200,8 +199,7 @@ def _goals(old: Spec, new: Spec) -> Iterator[Altered]:
         yield Altered("order of goals", "", _span(old.goals), _span(new.goals), "changed")
 
 
-@dataclass(frozen=True, slots=True)
-class _ListedGoal:
+class _ListedGoal(Struct, frozen=True):
     """A simple goal with the conditions on the way to it."""
 
     text: str

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tumato_symbolic.diagrams import NOTHING, Diagram, Reference, Sets, room_for
 from tumato_symbolic.limits import Context
@@ -14,8 +16,7 @@ Values = tuple[tuple[str, tuple[str, ...]], ...]
 """Variables, each with some of its values."""
 
 
-@dataclass(frozen=True, slots=True)
-class NamesChanged:
+class NamesChanged(Struct, frozen=True):
     """What only one of two vocabularies has. `values` are those of variables that both have."""
 
     added_variables: Values
@@ -89,8 +90,7 @@ def joint_order(policies: Sequence[Policy], vocabulary: Vocabulary) -> list[int]
     return [*found, *(number for number in range(len(numbers)) if number not in found)]
 
 
-@dataclass(frozen=True, slots=True)
-class Placed:
+class Placed(Struct, frozen=True):
     """A policy in the sets of both: the states of its own values, those that it decides, where it executes each action.
 
     `decided` and `executed` are parts of `known`.

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from heapq import heappop, heappush
 from typing import TypeAlias
+
+from msgspec import Struct
 
 from tumato_symbolic.diagrams import NOTHING, Reference, room_for
 from tumato_symbolic.views.joint import Joint
@@ -16,32 +17,28 @@ _SMALL = 1_500
 """Nodes of a function for which the best question is sought; of a larger one, the first variable is asked for."""
 
 
-@dataclass(frozen=True, slots=True)
-class Answer:
+class Answer(Struct, frozen=True):
     """What is done in so many states, all alike."""
 
     label: Label
     states: int
 
 
-@dataclass(frozen=True, slots=True)
-class Folded:
+class Folded(Struct, frozen=True):
     """So many states with so many different decisions, which are not shown one by one."""
 
     decisions: int
     states: int
 
 
-@dataclass(frozen=True, slots=True)
-class Branch:
+class Branch(Struct, frozen=True):
     """Some values of a variable, and what follows if it has one of them."""
 
     values: tuple[int, ...]
     tree: Tree
 
 
-@dataclass(frozen=True, slots=True)
-class Question:
+class Question(Struct, frozen=True):
     """Which value a variable has; values with which no state is looked at are in no branch."""
 
     variable: int
@@ -55,8 +52,7 @@ Condition: TypeAlias = tuple[tuple[int, tuple[int, ...]], ...]
 """Variables with the values that they may have, in the order in which they are asked for."""
 
 
-@dataclass(frozen=True, slots=True)
-class Row:
+class Row(Struct, frozen=True):
     """A leaf of a tree with the answers that lead there."""
 
     condition: Condition
@@ -78,8 +74,7 @@ def rows(tree: Tree) -> list[Row]:
     return found
 
 
-@dataclass(frozen=True, slots=True)
-class Box:
+class Box(Struct, frozen=True):
     """A function of a graph. `branches` lead to others, by reference; a leaf has none and is folded, or decided."""
 
     reference: Reference

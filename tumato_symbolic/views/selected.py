@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from tumato_symbolic.diagrams import LEAVES, NOTHING, Cube, Reference, Sets, room_for
 from tumato_symbolic.limits import Context
@@ -13,8 +14,7 @@ from tumato_symbolic.views.joint import Joint
 from tumato_symbolic.views.selection import Selection
 
 
-@dataclass(frozen=True, slots=True)
-class Label:
+class Label(Struct, frozen=True):
     """What is done in a state: a set of actions, by their numbers in order; None where nothing is decided.
 
     `other`: something else is done than what is selected.
@@ -31,8 +31,7 @@ OTHER = ""
 """Stands for an action where something else is done than what is selected; no action has that name."""
 
 
-@dataclass(frozen=True, slots=True)
-class Selected:
+class Selected(Struct, frozen=True):
     """What a policy does in some `states`; the sets of `executed`, one for each action, and `unsafe` are parts of them.
 
     Without a specification every state counts, and none is known to be unsafe. `others` have the same values, and do

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from typing import NoReturn
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.diagnostics.wording import listed, nearest, quoted
 from tumato_symbolic.policy import Vocabulary
 
 
-@dataclass(frozen=True, slots=True)
-class Selection:
+class Selection(Struct, frozen=True):
     """The states in which variables have one of the `values` given, by name, and all actions of `executing` start.
 
     Both come in the order of declaration; a variable that may have any of its values is not there.

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import TypeAlias
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.diagrams import (
@@ -39,8 +40,7 @@ _MANY = 20
 """More different changes are told apart only by the actions that are newly executed, or no longer."""
 
 
-@dataclass(frozen=True, slots=True)
-class Decided:
+class Decided(Struct, frozen=True):
     """What a policy says of a state: actions by name; None where it decides nothing. Not `known`: no such state.
 
     `whole`: these are all actions that it executes, and not only those that the other policy does not.
@@ -51,8 +51,7 @@ class Decided:
     whole: bool = True
 
 
-@dataclass(frozen=True, slots=True)
-class Change:
+class Change(Struct, frozen=True):
     """So many states in which `before` became `after`.
 
     `cubes` hold these and no other states that one of the policies decides; None where there are too many. `example` is
@@ -66,8 +65,7 @@ class Change:
     example: tuple[tuple[str, str], ...]
 
 
-@dataclass(frozen=True, slots=True)
-class ByAction:
+class ByAction(Struct, frozen=True):
     """In how many states an action is executed by the new policy only, and by the old one only."""
 
     action: str
@@ -75,8 +73,7 @@ class ByAction:
     stopped: int
 
 
-@dataclass(frozen=True, slots=True)
-class Difference:
+class Difference(Struct, frozen=True):
     """Where two policies decide otherwise, in the states of the names of both.
 
     `compared` counts the states that one of them decides, `changed` those with different decisions, `changes` has these
@@ -142,8 +139,7 @@ def _by_action(
             yield ByAction(name, started, stopped)
 
 
-@dataclass(frozen=True, slots=True)
-class _Describing:
+class _Describing(Struct, frozen=True):
     """Says which changes there are in the states `changed`, of those that are looked at, and where."""
 
     _sets: Sets

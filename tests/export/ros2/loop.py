@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import subprocess
-from dataclasses import dataclass, replace
 from pathlib import Path
 from types import TracebackType
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tests.export.c_compiler import compile_cpp
 from tests.export.policies import write
@@ -61,8 +63,7 @@ int main()
 STOPS = ("no", "undecided", "invalid", "stale", "no_result")
 
 
-@dataclass(frozen=True)
-class Limits:
+class Limits(Struct, frozen=True):
     """Milliseconds: see `Limits` of the loop."""
 
     state: int = 1_000_000_000
@@ -70,8 +71,7 @@ class Limits:
     halting: int = 1_000_000_000
 
 
-@dataclass(frozen=True)
-class Said:
+class Said(Struct, frozen=True):
     """What the loop does when it is told something."""
 
     started: tuple[int, ...]

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass
 from random import Random
+
+from msgspec import Struct
 
 from tests.export.ros2.loop import Loop, Said
 from tumato_symbolic.export.request import Request
@@ -19,8 +20,7 @@ def rows_of(made: Request) -> Mapping[State, ActionSet]:
     return made.policy.decisions.rows
 
 
-@dataclass
-class Question:
+class Question(Struct):
     """A question for the state: what the robot saw when it looked, and how much had happened until then."""
 
     number: int

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
+
+from msgspec.structs import replace
 
 from tumato_symbolic.cli import arguments
 from tumato_symbolic.cli.console import note
@@ -31,8 +32,7 @@ examples:
 """
 
 
-@dataclass(frozen=True, slots=True)
-class Options(CommandOptions):
+class Options(CommandOptions, frozen=True):
     """What may be typed after `check`."""
 
     specs: tuple[str, ...] = arguments.specs("+", "specifications, .tum files")

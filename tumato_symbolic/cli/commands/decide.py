@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from tumato_symbolic.cli import arguments
@@ -37,8 +36,7 @@ _LONGEST_LINE = 1_000_000
 """Bytes of one line on the standard input; a state needs a few hundred."""
 
 
-@dataclass(frozen=True, slots=True)
-class Options(CommandOptions):
+class Options(CommandOptions, frozen=True):
     """What may be typed after `decide`."""
 
     policy: str = arguments.policy()

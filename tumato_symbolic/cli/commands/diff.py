@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
+
+from msgspec.structs import replace
 
 from tumato_symbolic.cli import arguments
 from tumato_symbolic.cli.exits import NO, UNDECIDED, YES
@@ -36,8 +37,7 @@ examples:
 """
 
 
-@dataclass(frozen=True, slots=True)
-class Options(CommandOptions):
+class Options(CommandOptions, frozen=True):
     """What may be typed after `diff`."""
 
     old: str = argument(metavar="OLD", help="the old policy, or the old specification")

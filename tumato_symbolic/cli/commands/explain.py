@@ -5,9 +5,11 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tumato_symbolic.cli import arguments
 from tumato_symbolic.cli.console import note, wants_colour, write, writing
@@ -46,8 +48,7 @@ _BETWEEN = 0.5
 """Seconds between two records of what is known, where nothing is written."""
 
 
-@dataclass(frozen=True, slots=True)
-class Options(CommandOptions):
+class Options(CommandOptions, frozen=True):
     """What may be typed after `explain`."""
 
     specs: tuple[str, ...] = arguments.several_specs()
@@ -107,8 +108,7 @@ class Options(CommandOptions):
             yield Work(file, replace(self, specs=(file,), output_format="json"))
 
 
-@dataclass(frozen=True, slots=True)
-class _Known:
+class _Known(Struct, frozen=True):
     """What is known by now, how many pieces of its text are written, and when that was recorded."""
 
     done: Explained

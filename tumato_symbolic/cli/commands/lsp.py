@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import signal
 import sys
-from dataclasses import dataclass
 from typing import ClassVar, NoReturn
 
 from tumato_symbolic.cli.console import note
@@ -25,8 +24,7 @@ example:
 """
 
 
-@dataclass(frozen=True, slots=True)
-class Options(CommandOptions):
+class Options(CommandOptions, frozen=True):
     """What may be typed after `lsp`."""
 
     synthesis: float = argument(

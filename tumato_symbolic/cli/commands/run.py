@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+
+from msgspec.structs import replace
 
 from tumato_symbolic.cli import arguments
 from tumato_symbolic.cli.console import note, write, writing
@@ -47,8 +48,7 @@ examples:
 _STEPS = 1_000
 
 
-@dataclass(frozen=True, slots=True)
-class Options(CommandOptions):
+class Options(CommandOptions, frozen=True):
     """What may be typed after `run`."""
 
     policy: str = arguments.policy("the policy, a .json file, or a folder of them")

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, ClassVar, Literal
+
+from msgspec.structs import replace
 
 from tumato_symbolic.cli import arguments
 from tumato_symbolic.cli.console import note, write
@@ -49,8 +50,7 @@ _LINES = 100
 _BOXES = 60
 
 
-@dataclass(frozen=True, slots=True)
-class Options(CommandOptions):
+class Options(CommandOptions, frozen=True):
     """What may be typed after `show`."""
 
     policy: str = arguments.policy()

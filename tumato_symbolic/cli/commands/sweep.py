@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, ClassVar, Literal
 
@@ -42,8 +41,7 @@ examples:
 """
 
 
-@dataclass(frozen=True, slots=True)
-class Options(CommandOptions):
+class Options(CommandOptions, frozen=True):
     """What may be typed after `sweep`."""
 
     specs: tuple[str, ...] = arguments.specs()
@@ -132,7 +130,7 @@ def run(options: Options, context: Context) -> int:
 
 def stopped(known: Swept, why: str, options: Options) -> int:
     """Report what was found by then."""
-    from dataclasses import replace
+    from msgspec.structs import replace
 
     if options.results is not None:
         note(f"tumato-sym: {options.results} has what was found; the same command goes on from there")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from tumato_symbolic.cli import arguments
@@ -48,8 +47,7 @@ def _properties(text: str) -> tuple[str, ...]:
     return asked
 
 
-@dataclass(frozen=True, slots=True)
-class Options(CommandOptions):
+class Options(CommandOptions, frozen=True):
     """What may be typed after `verify`."""
 
     policy: str = arguments.policy("the policy or the proof that there is none, a .json file, or a folder of them")

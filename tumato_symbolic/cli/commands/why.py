@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from tumato_symbolic.cli import arguments
@@ -29,8 +28,7 @@ examples:
 """
 
 
-@dataclass(frozen=True, slots=True)
-class Options(CommandOptions):
+class Options(CommandOptions, frozen=True):
     """What may be typed after `why`."""
 
     policy: str = arguments.policy()

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
 from itertools import islice
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.diagrams import rebuild
@@ -102,8 +104,7 @@ def _certificate(policy: Policy, target: Vocabulary) -> tuple[Certificate | None
     return certificate, policy.certificate_problem
 
 
-@dataclass(frozen=True, slots=True)
-class Renumbering:
+class Renumbering(Struct, frozen=True):
     """`variables[old]` and `actions[old]` are new numbers; `values[old]` lists, for new value numbers, the old ones."""
 
     variables: tuple[int, ...]

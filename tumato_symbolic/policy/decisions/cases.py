@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from tumato_symbolic.diagrams import EVERYTHING, LEAVES, Reference, Sets, room_for
 from tumato_symbolic.policy.decisions.state_sets import StateSets

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from typing import TypeAlias
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Code, UserError
 from tumato_symbolic.diagrams import (
@@ -39,8 +40,7 @@ MANY_DECISIONS = 500
 """With more of them, they are listed from the rarest to the most common, and no shorter order is sought."""
 
 
-@dataclass(frozen=True, slots=True)
-class Rule:
+class Rule(Struct, frozen=True):
     """Where every variable of `condition` has one of the values given, and no earlier rule matches, do `actions`.
 
     Variables, values and actions come in the order of declaration. The last rule of a list has no condition.
@@ -50,8 +50,7 @@ class Rule:
     actions: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class RuleList:
+class RuleList(Struct, frozen=True):
     """Rules that decide like a policy, but for `left` states. `limit` is why these, or shorter lists, were left out."""
 
     rules: tuple[Rule, ...]

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from json import dumps as _json
 from typing import Any
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Code
 from tumato_symbolic.diagnostics.wording import count
@@ -31,8 +32,7 @@ NODES: Schema = {
 }
 
 
-@dataclass(frozen=True)
-class DiagramPart(Part):
+class DiagramPart(Struct, Part, frozen=True):
     """The diagram of a section; what is read after it may refer to it."""
 
     name: str

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from typing import Any, Generic, TypeAlias, TypeVar
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Code
 from tumato_symbolic.diagnostics.wording import count
@@ -90,8 +91,7 @@ class Names:
         return {variables[number][0]: value_of(variables[number][1][value]) for number, value in assignment}
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class Kind(Generic[Value]):
+class Kind(Struct, Generic[Value], frozen=True, eq=False):
     """A kind of value: from JSON (and what it is called in messages), to JSON, and its JSON Schema."""
 
     read: Callable[[object, str, Names], Value]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 from tumato_symbolic.diagnostics import Code, Source, UserError
@@ -105,8 +104,7 @@ CERTIFICATE = section(
 )
 
 
-@dataclass(frozen=True)
-class _CertificatePart(Field):
+class _CertificatePart(Field, frozen=True):
     """The certificate; one that cannot be read is set aside, and `certificate_problem` says why."""
 
     def read(self, section: dict[str, Any], place: Place, names: Names) -> dict[str, Any]:

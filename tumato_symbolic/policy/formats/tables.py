@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from json import dumps as _json
 from typing import Any, Generic, NamedTuple, TypeAlias
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Code
 from tumato_symbolic.policy.formats.kinds import Kind, Names, Schema, Value, one_of
@@ -53,12 +53,12 @@ def within(name: str, key: str) -> str:
     return f"`{key}` in {name}"
 
 
-class Part(ABC):
+class Part:
     """Some keys of an object, and what they say of a record."""
 
-    @abstractmethod
     def read(self, section: dict[str, Any], place: Place, names: Names) -> dict[str, Any]:
         """What the keys say, by attribute. Raises `UserError`."""
+        raise NotImplementedError
 
     def written(self, record: Attributes, names: Names) -> dict[str, Any]:
         """The keys with their values."""
@@ -69,13 +69,12 @@ class Part(ABC):
         for key, value in self.written(record, names).items():
             yield [f'{indent}"{key}": {_json(value)}']
 
-    @abstractmethod
     def describe(self) -> tuple[dict[str, Schema | bool], list[str]]:
         """The JSON Schema of every key, and the keys that must be there."""
+        raise NotImplementedError
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class Record(Generic[Value]):
+class Record(Struct, Generic[Value], frozen=True, eq=False):
     """An object of a file as a record.
 
     `view` gives what is written of a record. `first` are parts that are read before others, which count on them;
@@ -124,8 +123,7 @@ class Record(Generic[Value]):
         return properties | dict.fromkeys(self.without, False), [key for _, needed in each for key in needed]
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class Tagged(Generic[Value]):
+class Tagged(Struct, Generic[Value], frozen=True, eq=False):
     """Records of several kinds, told apart by the key `Kind` and the attribute `kind`, which may go without saying."""
 
     variants: Mapping[tuple[str, ...], Record[Any]]
@@ -164,8 +162,7 @@ def _variant_schema(variant: tuple[tuple[str, ...], Record[Any]]) -> Schema:
     return described(record.about, {**schema, "required": required} if required else schema)
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class Field(Part):
+class Field(Struct, Part, frozen=True, eq=False):
     """A key for an attribute, its `name` or that of the key; where that equals the default, the key is left out.
 
     Where the name is "", `kind` says what is written and checks what is read.
@@ -205,8 +202,7 @@ class Field(Part):
         return {self.key: described(self.about, self.kind.schema)}, [self.key] if self.default is NEEDED else []
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class Entries(Part):
+class Entries(Struct, Part, frozen=True, eq=False):
     """A list of records, on a line each; messages call them by a noun and a number, and so may the file (`counts`).
 
     `or_null`: null stands for None.

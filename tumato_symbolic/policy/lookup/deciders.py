@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Protocol
+
+from msgspec import Struct
 
 from tumato_symbolic.diagrams import Reference
 from tumato_symbolic.policy.lookup.states import check_state
@@ -38,8 +39,7 @@ def make_decider(vocabulary: Vocabulary, decisions: Table | DecisionDiagram) -> 
     return _DiagramDecider(vocabulary, decisions)
 
 
-@dataclass(frozen=True, slots=True)
-class _TableDecider:
+class _TableDecider(Struct, frozen=True):
     """Decisions by the row of a state."""
 
     vocabulary: Vocabulary
@@ -70,15 +70,13 @@ def _by_table(vocabulary: Vocabulary, table: Table) -> _TableDecider:
     return _TableDecider(vocabulary, tuple(name for name, _ in vocabulary.variables), answers)
 
 
-@dataclass(frozen=True, slots=True)
-class _Answer:
+class _Answer(Struct, frozen=True):
     """What is done in a state; None where the policy does not decide it."""
 
     actions: tuple[str, ...] | None
 
 
-@dataclass(frozen=True, slots=True)
-class _Question:
+class _Question(Struct, frozen=True):
     """Where the diagrams of a policy have come to together, and the variable that the first of them tests next."""
 
     variable: int

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from msgspec.structs import replace
 
 from tumato_symbolic.policy.decisions import Renumbering
 from tumato_symbolic.policy.records import Vocabulary

@@ -6,8 +6,10 @@ States, values and actions are numbers of the vocabulary; rules are named by the
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from typing import ClassVar, Literal, TypeAlias
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from tumato_symbolic.diagrams import Diagram, Reference
 from tumato_symbolic.policy.records import Drawing, RankedGoal, Vocabulary, rooted
@@ -30,8 +32,7 @@ ViolationKind: TypeAlias = Literal[
 ]
 
 
-@dataclass(frozen=True, slots=True)
-class Violation:
+class Violation(Struct, frozen=True):
     """The condition of `docs/semantics.md`, section 3, that no set of a cube meets.
 
     `precondition`: the executed action of `actions` has a precondition that is false. `resource`, `nominal-conflict`:
@@ -49,8 +50,7 @@ class Violation:
     outcome: tuple[ActionEffect, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Cube:
+class Cube(Struct, frozen=True):
     """All sets that contain `executed` and nothing of `idle`; the other actions are open."""
 
     executed: ActionSet
@@ -58,8 +58,7 @@ class Cube:
     violation: Violation
 
 
-@dataclass(frozen=True, slots=True)
-class NoAllowedSet:
+class NoAllowedSet(Struct, frozen=True):
     """No set is allowed in `state`: disjoint cubes cover all sets.
 
     Where there are too many, `cubes` is None, and *no set is allowed in this state* is left as an obligation.
@@ -70,8 +69,7 @@ class NoAllowedSet:
     cubes: tuple[Cube, ...] | None
 
 
-@dataclass(frozen=True, slots=True)
-class NoRestoration:
+class NoRestoration(Struct, frozen=True):
     """From `state` safety is never surely restored: `root` leads to a set that nothing surely leaves.
 
     Of the set only the valid states of the level of `state` count. Whatever may be executed in one of them has an
@@ -93,8 +91,7 @@ class NoRestoration:
         return NoRestoration(self.state, diagram, *roots)
 
 
-@dataclass(frozen=True, slots=True)
-class Layers:
+class Layers(Struct, frozen=True):
     """Sets of states that hold the runs from a state that have one residual goal (named as in `RankedGoal`).
 
     `roots` lead to the sets: the first holds every first successor; every allowed successor of a state in one is in it,
@@ -107,8 +104,7 @@ class Layers:
     roots: tuple[Reference, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class NoPlan:
+class NoPlan(Struct, frozen=True):
     """No run of allowed steps from `state` meets its residual goal: layers for every one that it can have."""
 
     kind: ClassVar = "no-plan"
@@ -128,8 +124,7 @@ class NoPlan:
         return NoPlan(self.state, diagram, tuple(goals))
 
 
-@dataclass(frozen=True, slots=True)
-class Choice:
+class Choice(Struct, frozen=True):
     """A state and everything that can be done in it: where each allowed set leads, and its residual goal.
 
     Where there are `outcomes`, they have for each option states to which, under `bounded`, its sets may lead as well.
@@ -140,8 +135,7 @@ class Choice:
     outcomes: tuple[tuple[State, ...], ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Cut:
+class Cut(Struct, frozen=True):
     """A run that misses its residual goal, which is number `goal`, as a claim about all policies.
 
     `path`: unless a state of the run turns off, to a state from which the goal is still near enough, the run comes to
@@ -158,8 +152,7 @@ class Cut:
     back: int | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Conflict:
+class Conflict(Struct, frozen=True):
     """No policy serves the states `starts` (numbers of choices) together: every one breaks a cut.
 
     `distances` bound from below how many allowed steps a safe state is away from each goal; None: there is no way, or
@@ -184,8 +177,7 @@ class Conflict:
         return replace(self, distances=diagram, goals=rooted(self.goals, roots))
 
 
-@dataclass(frozen=True, slots=True)
-class Removal:
+class Removal(Struct, frozen=True):
     """Valid states that no policy decides which decides none of those that were removed before.
 
     `root` leads to a number in them, and to None in others. `no-plan`: whatever is allowed in one of them leads where
@@ -208,16 +200,14 @@ class Removal:
         return replace(self, diagram=diagram, root=roots[0], goals=rooted(self.goals, roots[1:]))
 
 
-@dataclass(frozen=True, slots=True)
-class Case:
+class Case(Struct, frozen=True):
     """Without `state`, what is left has no policy, as the argument with the number `part` says."""
 
     state: State
     part: int
 
 
-@dataclass(frozen=True, slots=True)
-class StartRemoved:
+class StartRemoved(Struct, frozen=True):
     """States are removed, one set after the other, and the start `state` is among them."""
 
     kind: ClassVar = "start"
@@ -225,8 +215,7 @@ class StartRemoved:
     state: State
 
 
-@dataclass(frozen=True, slots=True)
-class Divided:
+class Divided(Struct, frozen=True):
     """States are removed, and goals conflict in what is left: a policy leaves out one of the states of the conflict.
 
     There is a case for each of these that is no start.
@@ -238,8 +227,7 @@ class Divided:
     cases: tuple[Case, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class NoPart:
+class NoPart(Struct, frozen=True):
     """No part of the valid states that has all starts has a policy.
 
     The first of the arguments in `parts` is about all valid states, every other one about a case of an earlier one.
@@ -252,8 +240,7 @@ class NoPart:
 Reason: TypeAlias = NoAllowedSet | NoRestoration | NoPlan | Conflict | NoPart
 
 
-@dataclass(frozen=True, slots=True)
-class Unrealizability:
+class Unrealizability(Struct, frozen=True):
     """The certificate that a specification, known by its digest, has no policy under an effect ordering.
 
     `restoration` is how safety was to be restored.

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.explain.explanation import Explanation
@@ -23,8 +24,7 @@ MOST_RULES = 500
 """A page lists so many rules."""
 
 
-@dataclass(frozen=True, slots=True)
-class PolicyPage:
+class PolicyPage(Struct, frozen=True):
     """A policy in the vocabulary of its specification, and what is known of it.
 
     `proof` is None where nothing was proved; where there are no `rules`, they are why.
@@ -39,8 +39,7 @@ class PolicyPage:
     rules: RuleList | str
 
 
-@dataclass(frozen=True, slots=True)
-class NoPolicyPage:
+class NoPolicyPage(Struct, frozen=True):
     """A specification without a policy, with the certificate of that (`name` is its file) and why it is so."""
 
     source: Source

@@ -5,9 +5,10 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Hashable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import partial
 from typing import Any, TypeVar
+
+from msgspec import Struct
 
 from tumato_symbolic.limits import Budget
 from tumato_symbolic.verify.by_diagrams.functions import TOO_LARGE, BudgetError, FullError, given_up
@@ -18,8 +19,7 @@ from tumato_symbolic.verify.workers import Lost, in_workers
 Found = TypeVar("Found")
 
 
-@dataclass(frozen=True, slots=True)
-class Task:
+class Task(Struct, frozen=True):
     """A part of the proof of a property. `key` names it and all that its answer depends on, beside the policy.
 
     `prepare` is what it has in common with others, and is done before the processes part.

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import cached_property
+
+from msgspec import Struct
 
 from tumato_symbolic.semantics import ActionSet, Quality
 from tumato_symbolic.spec import Spec
@@ -14,8 +15,7 @@ from tumato_symbolic.verify.by_states.runs import Runs
 from tumato_symbolic.verify.by_states.steps import Steps
 
 
-@dataclass(frozen=True, slots=True)
-class Rival:
+class Rival(Struct, frozen=True):
     """A set that would restore an unsafe state better and whose own run would reach its goal.
 
     `misses` is a state that the policy leads to its goal, and would not if it were changed to that set; None where

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import z3
+from msgspec import Struct
 
 from tumato_symbolic.semantics import Effort
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.verify.by_z3.terms import Context, Number, Term
 
 
-@dataclass(frozen=True, slots=True)
-class EffortCodes:
+class EffortCodes(Struct, frozen=True):
     """Durations above steps, so that codes add and compare as efforts do; an infinite effort has a bit of its own.
 
     One step more than `largest`, by component, does not overflow.

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from tumato_symbolic.semantics import Residual
 from tumato_symbolic.spec import Spec, active_bodies, executing_atoms
@@ -11,8 +12,7 @@ from tumato_symbolic.verify.by_z3.encoding import TERMS, Place, formula_term, sa
 from tumato_symbolic.verify.by_z3.terms import Term, conjunction, disjunction, negation
 
 
-@dataclass(frozen=True, slots=True)
-class GoalTerms:
+class GoalTerms(Struct, frozen=True):
     """`active[b]`: goal body `b` is active. Bodies that are not listed are never active."""
 
     spec: Spec

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import TypeAlias
 
 import z3
+from msgspec import Struct
 
 from tumato_symbolic.diagrams import Diagram, Reference
 from tumato_symbolic.semantics import Residual, State
@@ -39,8 +39,7 @@ def below(bound: float) -> Callable[[Rank], bool]:
     return lambda rank: rank is not None and rank < bound
 
 
-@dataclass(frozen=True, slots=True)
-class RankFunction:
+class RankFunction(Struct, frozen=True):
     """`N_c` of one residual goal: a rank or None for every state.
 
     A *claimed* one comes with the policy; it covers safe states, or all valid ones (`of_unsafe`). A *recomputed*

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import z3
+from msgspec import Struct
 
 from tumato_symbolic.verify.by_z3.terms import Context, Number, Term, conjunction, negation
 
 
-@dataclass(frozen=True, slots=True)
-class StepCounts:
+class StepCounts(Struct, frozen=True):
     """The numbers from 0 to `largest`, and never, which has a bit of its own.
 
     So never equals no number, not even one more than the largest, and one more than any of them does not overflow.

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import Any
+
+from msgspec import Struct
 
 from tumato_symbolic.semantics import ActionSet, Objection, State, objections
 from tumato_symbolic.spec import Ordering
@@ -16,8 +17,7 @@ from tumato_symbolic.verify.by_z3.terms import Term, at_most_one, conjunction, d
 from tumato_symbolic.verify.result import PropertyResult, Refutation
 
 
-@dataclass(frozen=True, slots=True)
-class Obligation:
+class Obligation(Struct, frozen=True):
     """A claim about every decided state, and what it takes to violate it.
 
     `explain` reads the objection from a model; without it, it is the first one that `semantics` finds.

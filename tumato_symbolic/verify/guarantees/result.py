@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, TypeAlias
+
+from msgspec import Struct
 
 from tumato_symbolic.semantics import Guarantee, Shortcoming
 
@@ -14,8 +15,7 @@ StateCube: TypeAlias = tuple[tuple[int, ...], ...]
 """For every variable the values that it may have, ascending; all of them where it does not matter."""
 
 
-@dataclass(frozen=True, slots=True)
-class Level:
+class Level(Struct, frozen=True):
     """The valid states with one guarantee; where they are guaranteed, `guarantee.steps` is the worst of them.
 
     `cubes` hold these states and no other valid one; None where that takes too many. `shortcoming` shows of one of the
@@ -28,8 +28,7 @@ class Level:
     shortcoming: Shortcoming | None
 
 
-@dataclass(frozen=True, slots=True)
-class Guarantees:
+class Guarantees(Struct, frozen=True):
     """The levels of all valid states, the strongest first.
 
     `unproved`: the policy's own properties are not proved, so that nothing was looked at. `undecided`: a limit was met,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from msgspec.structs import replace
 
 from tumato_symbolic.limits import Budget, Context, LimitReachedError, need_z3
 from tumato_symbolic.policy.unrealizability import (
