@@ -4,7 +4,8 @@ import { Editor } from "./editor.mjs";
 import { Python } from "./python.mjs";
 import { fragmentOf, textIn } from "./sharing.mjs";
 
-const PAUSE = 120; // milliseconds after the last key before a text is checked
+// Milliseconds after the last key before a text is checked.
+const PAUSE = 120;
 const FIRST = "amr";
 
 const [solve, cancel, share, menu, status] =

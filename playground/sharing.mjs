@@ -1,5 +1,6 @@
 // A text in the fragment of an address, which browsers send to no server: deflated, in the base64 of addresses.
 
+// Bytes of a deflated text that is read from an address.
 const LONGEST = 1_000_000;
 
 async function through(bytes, stream) {

@@ -53,7 +53,8 @@ Residual = tuple[frozenset[Formula], ActionSet]  # goal bodies, and those of the
 Required = tuple[int, ...]  # the numbers of the state rules that a step has to keep
 Effort = tuple[int, int]  # the duration and the number of steps of what it takes to restore safety
 
-LARGEST = 2_000_000  # so many states, sets or outcomes in one state, assignments of one set of effects are looked at
+LARGEST = 2_000_000
+"""So many states, sets or outcomes in one state, and assignments of one set of effects are looked at."""
 
 # Limits of specifications (docs/language.md) and of the files beside them (docs/policy.md).
 MOST_BYTES, MOST_FILE_BYTES, MOST_DIGITS, MOST_LEVELS = 2_000_000, 256 * 2**20, 18, 100

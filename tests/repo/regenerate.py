@@ -1,7 +1,7 @@
 """Write everything that is generated and committed: `make regenerate`.
 
-The parse table of the grammar, the JSON Schemas, the proofs of the examples, the table of examples, the golden outputs,
-and the output shown in documents. Look at the difference before committing it.
+The parse table of the grammar, the JSON Schemas, the index of the map, the proofs of the examples, the table of
+examples, the golden outputs, and the output shown in documents. Look at the difference before committing it.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from tests.repo.examples import (
     proof_text,
     with_table,
 )
+from tests.repo.index import MAP, with_index
 from tests.repo.schemas import schemas
 from tests.repo.test_documents import DOCUMENTS
 from tumato_symbolic.syntax.compiling import compile_table
@@ -33,6 +34,7 @@ def main() -> None:
     TABLE_PATH.write_text(written(compile_table(grammar), grammar), encoding="utf-8")
     for path, schema in schemas():
         path.write_text(schema, encoding="utf-8")
+    MAP.write_text(with_index(MAP.read_text(encoding="utf-8")), encoding="utf-8")
     for example in EXAMPLES:
         for path, text in (
             (proof_path(example), proof_text(example)),

@@ -7,13 +7,14 @@ from pathlib import Path
 
 import pytest
 
+from tests.repo.index import MAP, about, constants, files, first_sentence, name_of, with_index
 from tumato_symbolic.cli import commands
 from tumato_symbolic.cli.main import main
 
 ROOT = Path(__file__).parents[2]
 PACKAGE = ROOT / "tumato_symbolic"
 DECISIONS = ROOT / "docs" / "decisions"
-TEXT = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+TEXT = MAP.read_text(encoding="utf-8")
 NAMED = re.findall(r"`([\w./-]+)`", TEXT)
 TRUSTED = TEXT[TEXT.index("## What has to be trusted") : TEXT.index("## Glossary")]
 KERNELS = re.findall(r"^\| (`.*?`) \| (\d+) \|", TRUSTED, re.MULTILINE)
@@ -109,6 +110,35 @@ def test_every_change_has_one_row_that_says_where_to_begin() -> None:
     assert len({change for change, *_ in rows}) == len(rows)
 
 
+def test_the_index_is_up_to_date() -> None:
+    """Every file and every limit, as the sources describe them: `make regenerate`."""
+    assert with_index(TEXT) == TEXT
+
+
+def test_every_file_says_what_it_is() -> None:
+    """In a sentence, and no two say the same."""
+    said = [about(path) for path in files()]
+    assert len(said) > 350
+    assert [name_of(path) for path in files() if not about(path).endswith(".")] == []
+    assert len(set(said)) == len(said)
+
+
+def test_every_limit_says_what_it_limits() -> None:
+    """Where it is defined."""
+    assert len(constants()) > 300
+    assert [constant.line() for constant in constants() if not constant.about] == []
+
+
+def test_a_first_sentence_ends_where_the_next_begins() -> None:
+    """Not at a point inside of a name or a number; without another one, the text is the sentence."""
+    assert (
+        first_sentence("A tree for BehaviorTree.CPP 4\n(2.1.0). `Rules` nest.")
+        == "A tree for BehaviorTree.CPP 4 (2.1.0)."
+    )
+    assert first_sentence("See `files.py`, and so on.") == "See `files.py`, and so on."
+    assert first_sentence("No point") == "No point"
+
+
 def test_the_worked_example_works(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -158,7 +188,10 @@ def _rows(text: str) -> Iterator[list[str]]:
 
 
 def _defines(code: str, name: str) -> bool:
-    return re.search(rf"^\s*(?:(?:class|def) {name}\b|{name}(?:: | = ))", code, re.MULTILINE) is not None
+    return (
+        re.search(rf"^\s*(?:(?:class|def) {name}\b|(?:(?:export )?const )?{name}(?:: | = ))", code, re.MULTILINE)
+        is not None
+    )
 
 
 def _size(name: str) -> int:

@@ -30,6 +30,7 @@ BROKEN_PIPE: Final = 141
 """The reader of the output has gone (128 + SIGPIPE)."""
 
 _WORST_FIRST: Final = (BUG, USAGE, NO, UNDECIDED, YES)
+"""Of several answers of one command the first of these is its exit code."""
 
 
 def worst(codes: Iterable[int]) -> int:

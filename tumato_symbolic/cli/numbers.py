@@ -14,6 +14,7 @@ MOST = 1_000_000_000
 
 _DECIMAL = re.compile(r"\+?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.ASCII | re.IGNORECASE)
 _LONGEST = 50
+"""Characters of a number; one with more is none."""
 
 
 def whole(least: int, what: str = "") -> Callable[[str], int]:

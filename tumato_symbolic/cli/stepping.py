@@ -32,6 +32,7 @@ _LISTED = 20
 """So many outcomes are shown and can be chosen."""
 
 _LONGEST_LINE = 100_000
+"""Characters of one command on the standard input."""
 
 _HELP = """\
   Enter            all effects are nominal

@@ -9,7 +9,10 @@ from typing import TypeAlias
 from tumato_symbolic.diagrams.diagram import Diagram, Leaf, Reference, UniqueTable, rebuild
 
 NOTHING: Reference = 0
+"""The empty set."""
+
 EVERYTHING: Reference = 1
+"""The set of all states."""
 
 LEAVES = {False: NOTHING, True: EVERYTHING}
 

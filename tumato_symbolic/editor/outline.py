@@ -20,6 +20,7 @@ _KINDS: dict[type, EntryKind] = {
     ast.ActionDeclaration: "action",
 }
 _LONGEST = 60
+"""Characters of an entry in the outline; more are cut off."""
 
 
 class Entry(NamedTuple):

@@ -35,6 +35,8 @@ MOST_ADDED = 5
 """A repair that adds more is of no practical use."""
 
 PAIR = 2
+"""Additions that need no more than so many are taken as they are found."""
+
 MOST_PAIRED = 5
 """Where additions that are found one by one are none, or more than two, every two of so many actions are tried."""
 
@@ -46,6 +48,7 @@ _SETTINGS: dict[Restoration, tuple[Setting, ...]] = {
     "bounded": (Setting("fair"),),
     "fair": (),
 }
+"""By the setting of a specification, the other ones that are tried in its place, the stronger first."""
 
 
 def settings(spec: Spec) -> tuple[Setting, ...]:

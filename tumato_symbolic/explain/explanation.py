@@ -111,6 +111,7 @@ Stage: TypeAlias = Literal["states", "part", "reasons", "near", "repairs"]
 """What an explanation consists of after the verdict, in this order."""
 
 STAGES: Final[tuple[Stage, ...]] = ("states", "part", "reasons", "near", "repairs")
+"""The stages of an explanation, in the order in which they run."""
 
 
 class FailingGroup(Struct, frozen=True):

@@ -8,6 +8,7 @@ from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.syntax import ast, parse
 
 _WIDTH = 120
+"""Columns of a line that is added to a text."""
 
 
 def with_assumption(source: Source, predicate: str) -> str:

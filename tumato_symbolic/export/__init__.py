@@ -1,1 +1,1 @@
-"""Policies in the formats of other tools: one target, one file, and a line in `targets.py`."""
+"""Policies in the formats of other tools: one target, one file, and a line in `export/targets.py`."""

@@ -1,4 +1,4 @@
-"""A specification as a record of the theory in `proofs/coq`, in the order of `Semantics.v`."""
+"""A specification as a record of the theory in `proofs/coq`, in the order of `proofs/coq/Semantics.v`."""
 
 from __future__ import annotations
 

@@ -15,6 +15,7 @@ _MOST_STATES = 2_000
 """So many states of a kind are put into groups; of more, the first ones."""
 
 _MOST_GROUPS = 8
+"""So many groups of states are shown, the largest first."""
 
 _Cube: TypeAlias = tuple[tuple[int, ...], ...]
 

@@ -10,6 +10,8 @@ from tumato_symbolic.notebook.markup import panel, table
 from tumato_symbolic.policy import Policy, count_defined, find_rules
 
 _MOST_RULES = 40
+"""So many rules are shown."""
+
 _SECONDS = 2.0
 """How long rules are looked for while someone waits for the output of a cell."""
 

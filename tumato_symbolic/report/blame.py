@@ -21,10 +21,19 @@ from tumato_symbolic.semantics import Objection, State, goals_as_written
 from tumato_symbolic.spec import Rule, Spec, variables_of
 
 _REASONS_IN_FULL = 3
+"""So many reasons are told with their states and lines."""
+
 _REASONS_IN_SHORT = 12
+"""So many more are told in two lines each; the rest is counted."""
+
 _CUBES = 3
+"""So many groups of failing states are told of each reason."""
+
 _LINES = 8
+"""So many lines to blame are named in one sentence."""
+
 _STATES_TOGETHER = 6
+"""So many states of a conflict are shown."""
 
 
 def group_lines(place: Place, group: FailingGroup, every_cube: bool) -> Iterator[str]:

@@ -14,6 +14,7 @@ from tumato_symbolic.semantics import Quality, Run, State, action_names, in_json
 from tumato_symbolic.spec import Spec
 
 _LISTED = 6
+"""So many other sets of actions are told, with why they were not chosen."""
 
 
 class Decided(Struct, frozen=True):

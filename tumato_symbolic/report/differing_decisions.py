@@ -11,7 +11,10 @@ from tumato_symbolic.spec import value_of
 from tumato_symbolic.views import Change, Decided, Difference
 
 _CHANGES = 20
+"""So many changed decisions are told."""
+
 _CUBES = 4
+"""So many groups of states are told of each."""
 
 
 def difference_lines(title: str, found: Difference, noun: str) -> Iterator[str]:

@@ -21,8 +21,13 @@ FAILURE_CODES: Final[dict[FailureKind, Code]] = {
 }
 
 _STATES_IN_JSON = 100
+"""So many failing states of a kind are listed in JSON; all are counted."""
+
 _STATES_IN_TEXT = 8
+"""So many states of a conflict are listed in the text."""
+
 _NAMES = 5
+"""So many variables are named in a sentence."""
 
 
 def failure_text(place: Place, failure: Failure, ordering: Ordering) -> str:

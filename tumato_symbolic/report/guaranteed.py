@@ -13,7 +13,10 @@ from tumato_symbolic.spec import Spec
 from tumato_symbolic.verify.guarantees.result import Guarantees, Level
 
 _CUBES = 3
+"""So many groups of states are told of each level."""
+
 _MOVES = 12
+"""So many steps of an example are told, and its last one."""
 
 
 def guarantee_text(guarantee: Guarantee) -> str:

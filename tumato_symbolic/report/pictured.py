@@ -12,8 +12,13 @@ if TYPE_CHECKING:
     from tumato_symbolic.views import Tree
 
 _PICTURED_STATES = 10_000
+"""Policies of more states are not drawn."""
+
 _PICTURED_LINES = 30
+"""Nor those whose tree has more lines."""
+
 _NAMES = 5
+"""So many actions that are never executed are named."""
 
 
 def drawn(spec: Spec, policy: Policy, show: str, *, restores: bool) -> str:

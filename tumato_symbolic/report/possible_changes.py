@@ -15,8 +15,13 @@ from tumato_symbolic.report.objections import Place
 from tumato_symbolic.spec import Is, Spec, canonical_text
 
 _LONGEST_ASSUMPTION = 1_500
+"""Characters of an assumption that is shown; the rest is cut off."""
+
 _LONGEST_CONDITION = 80
+"""Characters of a condition about the environment that is told."""
+
 _MOST_CHANGES = 6
+"""So many changed lines of a repair are shown."""
 
 
 def repair_pieces(place: Place, found: Explanation) -> Iterator[str]:

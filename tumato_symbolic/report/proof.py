@@ -46,6 +46,7 @@ _HOW: Final[dict[Restoration | None, str]] = {
 }
 
 _STEPS_SHOWN = 12
+"""So many steps of a counterexample are shown."""
 
 
 def proof_text(verification: Verification, valid: int, took: float, paint: Paint) -> str:

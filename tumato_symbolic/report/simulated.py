@@ -13,6 +13,8 @@ from tumato_symbolic.semantics import End, Trace, duration
 from tumato_symbolic.simulation import Faults, Spread, Summary
 
 _EVENTS = 12
+"""So many events of an execution are shown."""
+
 _ENDS: dict[End, str] = {
     "goal": "met the goal",
     "bound": "did not meet it within the number of steps",

@@ -13,6 +13,7 @@ Effort: TypeAlias = tuple[int, int]
 """(duration, steps) of several steps: added by component, compared by duration, then by steps."""
 
 AT_ONCE: Effort = (0, 0)
+"""The effort of what is safe already."""
 
 Quality: TypeAlias = tuple[int, Effort]
 """How well a set restores safety, the smaller the better; see `Restorations.quality`."""

@@ -19,6 +19,7 @@ MAX_EFFECT_WORK = 2_000_000
 """How many terms are looked at, for all actions together, to find the assignments that effects denote."""
 
 _SHOWN = 5
+"""So many assignments are shown of effects that have several."""
 
 
 class Effects:

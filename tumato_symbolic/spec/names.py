@@ -15,7 +15,10 @@ from tumato_symbolic.spec.values import declared_values
 from tumato_symbolic.syntax import ast
 
 MAX_VARIABLES = 1_000
+"""The most state variables."""
+
 MAX_ACTIONS = 10_000
+"""The most actions."""
 
 Kind: TypeAlias = Literal["state variable", "alias", "resource", "action", "named list"]
 

@@ -18,6 +18,7 @@ SHARE_OF_HUBS = 0.5
 """A variable that more than this share of the actions reads or writes is a hub."""
 
 MOST_ROUNDS = 100
+"""So often variables are moved towards those that they are read and written with."""
 
 
 def variable_order(spec: Spec) -> tuple[int, ...]:

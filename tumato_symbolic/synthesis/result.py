@@ -96,6 +96,7 @@ class Failure(Struct, frozen=True):
 
 
 STATES_LISTED = 10_000
+"""So many states of a failure are listed at most; all are counted."""
 
 
 class Realizable(Struct, frozen=True):

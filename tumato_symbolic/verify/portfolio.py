@@ -163,6 +163,7 @@ class _Pair:
 
 
 _WORST_FIRST = ("wrong", "set aside", "stale", "absent", "incomplete", "used", "unneeded")
+"""What is said of a certificate as a whole: the first of these that is said for a property."""
 
 
 class _Both(_Pair):

@@ -46,6 +46,7 @@ examples:
 """
 
 _STEPS = 1_000
+"""So many steps a run has at most, unless another number is asked for."""
 
 
 class Options(CommandOptions, frozen=True):

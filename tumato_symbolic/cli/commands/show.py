@@ -47,7 +47,10 @@ examples:
 """
 
 _LINES = 100
+"""A tree or a table has so many lines at most, unless another number is asked for."""
+
 _BOXES = 60
+"""So many boxes a graph has."""
 
 
 class Options(CommandOptions, frozen=True):

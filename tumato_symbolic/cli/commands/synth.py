@@ -40,6 +40,7 @@ examples:
 """
 
 _POLICY = "policy.json"
+"""Where the policy is written, unless another file is named."""
 
 
 class Options(CommandOptions, frozen=True):

@@ -9,9 +9,13 @@ import { faultText } from "./state.mjs";
 import { agree, successor } from "./steps.mjs";
 import { counted, grouped, stateText } from "./words.mjs";
 
+// Up to so many states, the decisions in all of them are looked at.
 const MOST_CHECKED = 400_000;
+// Of more states, so many are drawn by chance at a time.
 const DRAWN = 2_000;
+// So many wrong decisions are listed.
 const MOST_WRONG = 10;
+// So many sets of actions are looked at for one decision, to find better ones.
 const MOST_LOOKED_AT = 20_000;
 
 export function checkView(app) {

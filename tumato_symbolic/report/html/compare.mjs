@@ -5,10 +5,15 @@ import { decided, decisionsOfFile, differing, merged } from "./policy.mjs";
 import { everyState } from "./spec.mjs";
 import { actionsText, conditionsOf, counted, grouped } from "./words.mjs";
 
+// Up to so many states, the decisions in all of them are compared.
 const MOST_COMPARED = 400_000;
+// Of more states, so many are drawn by chance.
 const DRAWN_STATES = 20_000;
+// So many groups of states with other decisions are looked for.
 const MOST_CUBES = 3_000;
+// So many changes are listed.
 const MOST_CHANGES = 20;
+// So many groups of states are listed of each change.
 const MOST_WHERE = 4;
 
 export function compareView(app) {

@@ -6,6 +6,7 @@ import { faultText, goalsIn, others, section } from "./state.mjs";
 import { agree, duration, isSafe, level, objection, outcomes, successor } from "./steps.mjs";
 import { actionsText, changeText, counted, ENDS, otherwise } from "./words.mjs";
 
+// So many outcomes of a decision are listed beside the nominal one.
 const MOST_OUTCOMES = 40;
 
 export function decisionIn(app, state) {

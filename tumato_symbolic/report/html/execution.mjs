@@ -7,7 +7,9 @@ import { agree, applied, isSafe, isValid, outcomes, successor } from "./steps.mj
 import { upTo, valuesOf } from "./spec.mjs";
 import { actionsText, changeText, counted, ENDS, grouped, otherwise, stateText, wayText } from "./words.mjs";
 
+// So many executions are made when many are asked for.
 const RUNS = 1_000;
+// So many events each of them has at most.
 const LONGEST = 1_000;
 
 export function executionView(app) {

@@ -3,9 +3,13 @@ import { h, redraw, svg } from "./dom.mjs";
 import { upTo } from "./spec.mjs";
 import { actionsText, counted, grouped } from "./words.mjs";
 
+// So many decisions are drawn; of more, those near the chosen one.
 const MOST_BOXES = 20;
+// So many boxes stand below each other.
 const MOST_BELOW = 7;
+// The width of a box.
 const WIDTH = 180;
+// The height of a line in it.
 const LINE = 17;
 const GAP = { across: 64, down: 18 };
 

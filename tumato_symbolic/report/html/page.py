@@ -66,7 +66,7 @@ def sources(kind: type[PolicyPage | NoPolicyPage]) -> dict[str, str]:
 def bundle(kind: type[PolicyPage | NoPolicyPage]) -> str:
     """The program of a kind of page as one module."""
     texts = ((_FOLDER / f"{name}.mjs").read_text(encoding="utf-8") for name in MODULES[kind])
-    return "".join(_tight(_plain(_joined(_alone(text)))) for text in texts)
+    return "".join(_tight(_joined(_plain(_alone(text)))) for text in texts)
 
 
 def data_text(record: Mapping[str, object]) -> str:
@@ -82,12 +82,12 @@ def _alone(text: str) -> str:
     return re.sub(r"^export ", "", re.sub(r"^import [^;]*;\n", "", text, flags=re.MULTILINE), flags=re.MULTILINE)
 
 
-_DECLARATIONS: Final = re.compile(r"^( *)(const|let) ([^\n]*);\n(\1\2 [^\n]*;\n)+", re.MULTILINE)
+_DECLARATIONS: Final = re.compile(r"^(const|let) ([^\n]*);\n(\1 [^\n]*;\n)+", re.MULTILINE)
 
 
 def _joined(text: str) -> str:
     """Declarations that follow each other, each on a line of its own, as one."""
-    return _DECLARATIONS.sub(lambda found: re.sub(rf";\n *{found[2]} ", ",\n", found[0]), text)
+    return _DECLARATIONS.sub(lambda found: re.sub(rf";\n{found[1]} ", ",\n", found[0]), text)
 
 
 def _plain(text: str) -> str:

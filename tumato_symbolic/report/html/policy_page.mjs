@@ -13,6 +13,7 @@ import { everyState } from "./spec.mjs";
 import { isSafe } from "./steps.mjs";
 import { tableView } from "./table.mjs";
 
+// So many states are looked at for one to begin with.
 const MOST_TRIED = 5_000;
 
 const app = readApp();

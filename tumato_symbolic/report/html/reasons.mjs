@@ -12,7 +12,9 @@ const KINDS = {
   conflict: "each of these states has a plan, but no policy serves them all",
 };
 
+// So many groups of states, or sets of actions, are listed.
 const MOST_SHOWN = 12;
+// So many sets of actions are looked at for those that come near to being allowed.
 const MOST_SETS = 2_000;
 
 const firstFailure = ({ no }) => no.failures[0] ?? no.groups[0];

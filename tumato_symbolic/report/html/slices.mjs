@@ -1,5 +1,7 @@
 // Work that takes long, done a little at a time, so that the page can be used meanwhile.
+// Milliseconds of work before the page is served.
 const SLICE = 14;
+// Milliseconds after which what was found by then is drawn.
 const BETWEEN = 250;
 
 // `draw` shows now and then how far the generator `work` has come, and at the end; then comes `finished`.

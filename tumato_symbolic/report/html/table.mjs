@@ -5,9 +5,13 @@ import { inside, upTo } from "./spec.mjs";
 import { isSafe } from "./steps.mjs";
 import { actionsText, shortText, conditionsOf, counted, grouped } from "./words.mjs";
 
+// So many groups of states are listed; the rest is left out.
 const MOST_GROUPS = 3_000;
+// Up to so many states can be listed state by state.
 const MOST_LINES = 10_000;
+// So many rows a page of the table has.
 const ROWS = 60;
+// So many decisions are offered to choose from, those of most states first.
 const MOST_DECISIONS = 12;
 const UNDECIDED = "-";
 

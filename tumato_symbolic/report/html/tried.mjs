@@ -6,10 +6,15 @@ import { inside, specFrom } from "./spec.mjs";
 import { isValid } from "./steps.mjs";
 import { counted, grouped, stateText } from "./words.mjs";
 
+// So many states are tried of each reason or conflict.
 const MOST_STATES = 1_000;
+// So many sets of actions are tried for each of them.
 const MOST_TRIED = 10_000;
+// So many sets of actions are tried to find the states that are lost whatever a policy does.
 const MOST_IN_PART = 1_000_000;
+// After so many states of which nothing was found out, no more are tried.
 const MOST_UNKNOWN = 20;
+// So many states are listed that do not fail as is said.
 const MOST_WRONG = 10;
 
 export const stateOf = (app, named) => app.spec.names.map((name, n) => app.spec.values[n].indexOf(String(named[name])));

@@ -18,7 +18,10 @@ Found = TypeVar("Found")
 Part = TypeVar("Part")
 
 FALSE: Function = 0
+"""The function that is 0 everywhere: what never holds."""
+
 TRUE: Function = 1
+"""The function that is 1 everywhere: what always holds."""
 
 MOST_STEPS = 3_000_000
 """How many results are remembered at most, up to 1 GB; a proof that needs more is given up."""

@@ -1,9 +1,9 @@
-"""The walk: operations on functions as ordered diagrams (`functions.py`), so that a proof is a comparison.
+"""The walk: operations on functions as ordered diagrams, so that a proof is a comparison.
 
-A violation is impossible exactly when it is `FALSE`. All that is computed comes from four walks over diagrams, each
-remembering what it has done: `select` (cases), `apply` (any operation on two functions), `compose` (functions for
-variables; an effect is a constant for each variable that it writes) and `cofactor_where` (values for variables where a
-predicate holds).
+The functions are those of `functions.py`. A violation is impossible exactly when it is `FALSE`. All that is computed
+comes from four walks over diagrams, each remembering what it has done: `select` (cases), `apply` (any operation on two
+functions), `compose` (functions for variables; an effect is a constant for each variable that it writes) and
+`cofactor_where` (values for variables where a predicate holds).
 """
 
 from __future__ import annotations

@@ -29,6 +29,7 @@ from tumato_symbolic.verify.by_z3.terms import Number, Term, conjunction, disjun
 from tumato_symbolic.verify.ways_back import MOST_OUTCOMES
 
 LEMMAS_AT_ONCE = 20
+"""So many lemmas are added for one state that was found."""
 
 
 class Efforts:

@@ -38,6 +38,7 @@ from tumato_symbolic.verify.by_z3.tier_terms import Tiers
 LISTED_ACTIONS = 6
 """Of up to so many actions all outcomes are listed."""
 OBJECTIONS_AT_ONCE = 20
+"""So many objections are listed to one set of actions that was found."""
 
 
 class AnyOutcome:

@@ -12,6 +12,7 @@ from tumato_symbolic.verify.by_diagrams.functions import FALSE, TRUE, Function
 from tumato_symbolic.verify.by_diagrams.goals import WalkGoals
 
 NO_RANK = -1
+"""In place of a number of steps: there is none."""
 
 
 class WalkProspects:
