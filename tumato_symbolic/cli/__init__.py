@@ -1,1 +1,1 @@
-"""The command line."""
+"""The command line: what may be typed, what is printed, and the exit codes."""

@@ -1,4 +1,4 @@
-"""Reading the command line, and showing help."""
+"""Reading the command line: help, version, unknown words and what may be meant by them."""
 
 from __future__ import annotations
 

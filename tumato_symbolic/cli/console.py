@@ -1,4 +1,4 @@
-"""The terminal: streams that do not fail on names, output that is written whole, colour, and progress of long work."""
+"""The terminal: streams that do not fail on names, output that is written whole, colour, and the line of progress."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The rim of the program: every way in and every way out, with its exit code."""
+"""The rim of the program: every way in and out, exceptions, Ctrl-C and limits, each with its exit code."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A command for many files: for each, what it does for one, by several processes."""
+"""A command for many files: which files, those of folders too, several processes, and a row of the table for each."""
 
 from __future__ import annotations
 

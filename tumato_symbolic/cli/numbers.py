@@ -1,4 +1,4 @@
-"""Numbers on the command line, and what is wrong with those that are not."""
+"""Numbers on the command line, such as limits and probabilities, and what is wrong with those that are not."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The options of a command: a record whose fields say how they are typed."""
+"""The options of a command: a record whose fields say how they are typed, and which files it writes."""
 
 from __future__ import annotations
 

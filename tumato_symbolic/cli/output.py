@@ -1,4 +1,4 @@
-"""The report of a command, and where its time went."""
+"""The report of a command, printed in the format that was asked for, and where its time went (`--profile`)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a command for many things tells while it goes on, whichever of them is done first."""
+"""What a command for many things tells while it goes on: lines in their order, whichever is done first."""
 
 from __future__ import annotations
 

@@ -19,10 +19,10 @@ if TYPE_CHECKING:
     from tumato_symbolic.spec import Ordering, Spec
 
 RULES_SECONDS = 20.0
-"""How long a short list of rules is looked for."""
+"""Seconds in which a short list of rules is looked for, for a page."""
 
 EXPLAIN_SECONDS = 30.0
-"""How long it is looked for why there is no policy."""
+"""Seconds in which it is looked for why there is no policy, for a page."""
 
 
 def rules_of(policy: Policy, context: Context) -> RuleList | str:

@@ -1,4 +1,4 @@
-"""A policy executed step by step, by commands from the standard input."""
+"""A policy executed step by step: the prompt, and the commands from the standard input."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A specification is solved, its answer proved and written: what `synth` does."""
+"""What `synth` does with one file: a specification is solved, its answer proved and written."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where a command writes: found out before the work that it can, and that it loses neither an input nor an output."""
+"""Where a command writes: checked before the work, so that neither an input nor an output is lost."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A claim, a policy or that there is none, against its specification: what `verify` does with one file."""
+"""What `verify` does with one file: a policy, or a claim that there is none, against its specification; `--strict`."""
 
 from __future__ import annotations
 

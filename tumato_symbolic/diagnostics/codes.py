@@ -1,7 +1,7 @@
-"""The closed table of codes. A code never changes its meaning and is never used again.
+"""The closed table of codes, each with its severity.
 
-TUM1xx input and syntax, TUM2xx names, TUM3xx what a specification says, TUM4xx why there is no policy,
-TUM5xx policies and their certificates.
+A code never changes its meaning and is never used again. TUM1xx input and syntax, TUM2xx names, TUM3xx what a
+specification says, TUM4xx why there is no policy, TUM5xx policies and their certificates.
 """
 
 from __future__ import annotations

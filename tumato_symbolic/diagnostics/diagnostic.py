@@ -1,4 +1,4 @@
-"""What a user is told: a coded message at a place in a source text."""
+"""What a user is told: a coded message at a place in a source text, with notes and a way out."""
 
 from __future__ import annotations
 

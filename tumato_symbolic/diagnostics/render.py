@@ -1,4 +1,4 @@
-"""Diagnostics as text for a person."""
+"""Diagnostics as text for a person: the line, what is underlined in it, notes, the way out, colours."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Pieces of sentences for users."""
+"""Pieces of sentences for users: quoting, counting, listing, and the name that was probably meant."""
 
 from __future__ import annotations
 

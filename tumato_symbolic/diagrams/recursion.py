@@ -1,4 +1,4 @@
-"""Recursion over the levels of a diagram, however many variables there are."""
+"""How deep Python may recurse for a diagram, however many variables there are."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What synthesis says of a text that was saved: counts at the blocks they are about, failures, and repairs."""
+"""What synthesis says of a text on saving: counts behind the headings of blocks (inlay hints), failures, repairs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is wrong with a text, while it is being written."""
+"""Mistakes and warnings in a text while it is written, and fixes for them, each of which was tried."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What may stand at a place in a text."""
+"""Completion: which names and keywords may stand at a place in a text, and in which order they are offered."""
 
 from __future__ import annotations
 

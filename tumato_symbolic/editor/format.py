@@ -1,4 +1,7 @@
-"""One layout for all texts: white space and ends of lines change, and nothing else. Comments stay where they are."""
+"""One layout for all texts: spaces, blank lines and the width of lines change, and nothing else.
+
+Comments stay where they are.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What there is to say about a name, as Markdown."""
+"""What an editor shows about a name (hover), as Markdown."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Every name in a specification: what it stands for, and what is done with that there."""
+"""Every name in a specification: what it stands for, where it is declared, and what is done with it where."""
 
 from __future__ import annotations
 

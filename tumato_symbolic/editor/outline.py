@@ -1,4 +1,4 @@
-"""The blocks of a text, and what is declared in them."""
+"""The outline of a text: its blocks, and what is declared in them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Giving something another name, everywhere."""
+"""Giving something another name, everywhere: what may be renamed, and how."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Repairs as edits of the text that a user has before them."""
+"""Repairs as edits of the text that a user has before them: which are offered, and where lines are added."""
 
 from __future__ import annotations
 

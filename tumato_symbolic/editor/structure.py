@@ -1,4 +1,4 @@
-"""Where the lines of a well-formed text begin, and how far they are indented."""
+"""Which tokens begin a line of a well-formed text, and how far lines are indented."""
 
 from __future__ import annotations
 

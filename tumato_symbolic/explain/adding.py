@@ -1,4 +1,4 @@
-"""What could be added so that there is a policy: settings, actions that are missing, goals that give way."""
+"""Which additions are tried, alone and together: settings, actions that are missing, goals that give way."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Why a policy decides as it does in one state: goals, the run, and what else could be done. No solver takes part."""
+"""Why a policy decides as it does in one state (`why`): goals, the run, and what else could be done.
+
+No solver takes part.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which lines to drop so that there is a policy: every minimal way, the smallest first, each one tried."""
+"""Which lines are dropped so that there is a policy: the fewest, and which kind of line rather than another."""
 
 from __future__ import annotations
 

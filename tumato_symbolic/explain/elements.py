@@ -1,4 +1,4 @@
-"""Elements of a specification: what can be dropped from it, one by one (`docs/semantics.md`, section 7)."""
+"""What can be dropped, one by one, and which kind is blamed first (`docs/semantics.md`, section 7: elements)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From a specification to the explanation why it has no policy: the pipeline."""
+"""The pipeline of an explanation why there is no policy, and which part of the time each stage may take."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ from tumato_symbolic.symbolic import Backend, available_backend
 from tumato_symbolic.synthesis import Realizable, Undecided, Unrealizable, synthesize
 
 MAX_CUBES = 1_000
-"""So many cubes are listed where nothing else is asked for."""
+"""So many cubes of failing states are listed where nothing else is asked for."""
 
 NEAR_MISSES = 3
 """So many sets that come near to being allowed are told of each reason."""

@@ -1,4 +1,4 @@
-"""What there is to say about a specification without a policy: plain records, without an engine behind them."""
+"""What is found of a specification without a policy: plain records, and the order of the stages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The stage that finds reasons: cores, and all failing states that have them in common."""
+"""The stage that finds reasons, the larger first: cores, and all failing states that have them in common."""
 
 from __future__ import annotations
 

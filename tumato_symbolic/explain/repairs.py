@@ -1,4 +1,4 @@
-"""What to change so that there is a policy, each way tried; what gives up safety comes last."""
+"""In which order kinds of repairs are looked for, and when there are enough: state rules are given up last."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a long core comes to: that nothing changes a variable as it would have to be."""
+"""A long core in one sentence: that nothing changes a variable as it would have to be."""
 
 from __future__ import annotations
 

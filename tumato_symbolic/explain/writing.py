@@ -1,4 +1,4 @@
-"""A specification's text with one more assumption, or other starts."""
+"""The text that `explain --write` writes: a specification with one more assumption, or other starts."""
 
 from __future__ import annotations
 

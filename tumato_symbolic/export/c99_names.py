@@ -1,4 +1,4 @@
-"""What variables, values and actions are called in C."""
+"""What variables, values and actions are called in C, and which words are no names there."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A policy at work, as guarded commands over named values: decide, let effects happen, halt, decide again.
+"""The closed loop of a policy as guarded commands: decide, let effects happen, halt, decide again.
 
 From every valid state, or with starts from every one that is decided, whenever nothing is being executed, the policy
 chooses a set of actions. Then, under `any`, the actions that have not taken effect take one of their effects each, in

@@ -1,4 +1,4 @@
-"""A closed loop with identifiers: what targets for model checkers print."""
+"""What targets for model checkers share: a closed loop with identifiers, and what is claimed of it (`Claims`)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What every target is given."""
+"""What every target is given, and the comment at its top: what is guaranteed, what the robot's code must do."""
 
 from __future__ import annotations
 

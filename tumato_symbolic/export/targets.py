@@ -1,4 +1,4 @@
-"""The table of targets: what `tumato-sym export` can write."""
+"""The table of targets: what `tumato-sym export` can write, with the endings of files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How well a policy solves a problem."""
+"""How well a policy solves a problem: which states it serves, and in how many steps."""
 
 from __future__ import annotations
 

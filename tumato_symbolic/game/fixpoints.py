@@ -1,4 +1,4 @@
-"""Where steps lead, and the fixpoints over them."""
+"""Where steps lead, and the fixpoints over them: attractors, distances, closed loops."""
 
 from __future__ import annotations
 

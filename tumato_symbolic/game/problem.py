@@ -1,4 +1,4 @@
-"""The synthesis problem of one specification."""
+"""The synthesis problem of one specification: steps, regions and targets."""
 
 from __future__ import annotations
 

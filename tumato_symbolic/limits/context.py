@@ -1,4 +1,4 @@
-"""The context of a long piece of work: its limits, its progress, and what it has found so far."""
+"""Limits, progress, and what is known so far: the context that every stage of a long piece of work is handed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A text that is open in an editor."""
+"""A text that is open in an editor, and what was found out about this version of it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The server: what editors ask, answered by the functions of `editor`."""
+"""The methods of the server, and when a text is checked or synthesized; the functions of `editor` answer."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Records of `editor` as messages of the protocol."""
+"""Records of `editor` as messages of the protocol: positions, severities, kinds of names."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""HTML for the output of a cell.
+"""HTML for the output of a cell: tables, and the colours of the bar at the side.
 
 Text has the colour of the notebook, light or dark; only the bar at the side has its own.
 """

@@ -1,4 +1,4 @@
-"""What `verify` is given."""
+"""What `verify` is given: a policy, or a certificate that there is none, as the file says."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Policy files."""
+"""Policy files: a policy is loaded and saved."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A policy."""
+"""`Policy`, with the methods that users call."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ MOST_ROWS = 100_000
 """A table of a policy has so many rows at most, unless more are asked for."""
 
 MOST_NODES = 10_000
-"""So has a graph nodes that the policy decides."""
+"""A graph has so many nodes that the policy decides at most, unless more are asked for."""
 
 
 class Policy(Struct, frozen=True, dict=True):

@@ -1,4 +1,4 @@
-"""Which states fail, and why, for a person."""
+"""Which states fail, and why, for a person: how many reasons, groups of states and lines are told."""
 
 from __future__ import annotations
 

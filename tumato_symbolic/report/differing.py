@@ -18,7 +18,7 @@ from tumato_symbolic.views import Altered, Difference
 Verdict: TypeAlias = Literal["same", "different", "undecided"]
 
 _ANNOTATED = 8
-"""GitHub shows ten annotations of a kind."""
+"""So many differences are annotated: GitHub shows ten annotations of a kind."""
 
 
 class PoliciesDiffer(Struct, frozen=True):

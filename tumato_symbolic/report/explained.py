@@ -1,4 +1,4 @@
-"""Why there is no policy, for a person: short first, detail after."""
+"""Why there is no policy (`explain`), for a person: which parts the report has, in which order."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Small pieces of text that all reports share."""
+"""Small pieces of text that all reports share: times, enumerations, colours."""
 
 from __future__ import annotations
 

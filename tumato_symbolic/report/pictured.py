@@ -15,7 +15,7 @@ _PICTURED_STATES = 10_000
 """Policies of more states are not drawn."""
 
 _PICTURED_LINES = 30
-"""Nor those whose tree has more lines."""
+"""Policies whose tree has more lines are not drawn."""
 
 _NAMES = 5
 """So many actions that are never executed are named."""

@@ -1,4 +1,4 @@
-"""What was proved and by whom, or a step-by-step counterexample: shared by `synth` and `verify`."""
+"""What was proved and by whom, or a counterexample step by step: in the reports of `synth` and `verify`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What `sweep` found, for a person and at its places."""
+"""What `sweep` found: a table for each kind of variants, what matters in it, and findings at their places."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What many executions came to."""
+"""What many executions came to, counted: how they ended, and what happened in all of them."""
 
 from __future__ import annotations
 

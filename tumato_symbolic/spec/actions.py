@@ -1,4 +1,4 @@
-"""Actions with their fields resolved."""
+"""Actions with their fields resolved: duration, resources, preconditions, effects."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Texts and digests that depend on the meaning only, not on how it is written down."""
+"""The digest of a specification, and canonical texts: they depend on the meaning only."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where the stages of resolution put what they find."""
+"""Where the stages of resolution put what they find, how much of it is kept, and which names are suggested."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What was probably forgotten: variables and values that nothing speaks of, and what belongs to the environment."""
+"""Warnings about a text: variables and values that nothing mentions, changes or leaves; the environment's."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ MAX_WORK = 500_000
 """How many terms are looked at to find out which values actions leave; what is open then is taken for left."""
 
 MAX_DECIDED = 10_000
-"""The most assignments to the variables of preconditions with which that is decided."""
+"""The most assignments to the variables of preconditions with which it is decided which values actions leave."""
 
 
 def forgotten(spec: Spec, used_variables: Set[int]) -> Iterator[Diagnostic]:

@@ -1,4 +1,4 @@
-"""Warnings for what is legal but surely unmeant, as far as it shows without the state space."""
+"""Warnings about a text: what always or never holds, resources and aliases that nothing uses, what is missing."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From a source text to a specification, with everything there is to say about it."""
+"""From a source text to a specification, with all diagnostics in the order of the text."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Every declaration of a specification, found and numbered."""
+"""Every declaration of a specification, found and numbered; names that are declared twice or reserved."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Values that are whole numbers."""
+"""Values that are whole numbers, and ranges of them: how they are written, and what is wrong with them."""
 
 from __future__ import annotations
 

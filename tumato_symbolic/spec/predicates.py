@@ -1,4 +1,4 @@
-"""Predicates with names resolved and aliases expanded."""
+"""Predicates with names resolved and aliases expanded, and how large they may be."""
 
 from __future__ import annotations
 

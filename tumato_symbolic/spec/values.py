@@ -1,4 +1,4 @@
-"""The values that declarations of state variables list."""
+"""The values that declarations of state variables list, and how many there may be."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One text solved and its answer proved, as `synth` does it, and compared with the policy of another text."""
+"""The columns of a sweep: one text solved and its answer proved, compared with the policy of another text."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What may be written by mistake in the place of a predicate or an effect."""
+"""Mistakes that `--mutate` makes inside of a predicate or an effect."""
 
 from __future__ import annotations
 

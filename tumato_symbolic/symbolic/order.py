@@ -1,4 +1,4 @@
-"""In which order state variables are tested: what depends on each other stands close together.
+"""The order of variables in BDDs: hubs on top, and what depends on each other close together.
 
 Measured on the families of `benchmarks/` (`docs/performance.md`, "The order of the variables"). The order changes what
 sets cost and how diagrams are written, never a decision.

@@ -75,4 +75,4 @@ BOUNDS: tuple[Callable[[Situation], Diagnostic | None], ...] = (
     _unclosed_block,
     _block_title,
 )
-"""What is tried, one after the other."""
+"""What is tried where blocks begin and end, one after the other."""

@@ -273,4 +273,4 @@ ENTRIES: tuple[Callable[[Situation], Diagnostic | None], ...] = (
     _list,
     _entry,
 )
-"""What is tried, one after the other."""
+"""What is tried around predicates, one after the other."""

@@ -264,4 +264,4 @@ PREDICATES: tuple[Callable[[Situation], Diagnostic | None], ...] = (
     _verb,
     _called,
 )
-"""What is tried, one after the other."""
+"""What is tried in and between predicates, one after the other."""

@@ -67,4 +67,4 @@ def _copies(here: Situation) -> Diagnostic | None:
 
 
 LISTS: tuple[Callable[[Situation], Diagnostic | None], ...] = (_copies, _goal_type, _conditional_goal)
-"""What is tried, one after the other."""
+"""What is tried in lists of goals and in copies, one after the other."""

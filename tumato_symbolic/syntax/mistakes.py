@@ -284,3 +284,4 @@ _DETECTORS: tuple[Callable[[Situation], Diagnostic | None], ...] = (
     _missing_is,
     function,
 )
+"""Who is asked, one after the other, what is wrong where a token does not fit: the first that knows tells it."""

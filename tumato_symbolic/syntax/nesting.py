@@ -1,4 +1,4 @@
-"""A bound on depth, so that everything after the parser may recurse over trees."""
+"""How deep a text may nest, so that everything after the parser may recurse over trees."""
 
 from __future__ import annotations
 

@@ -177,4 +177,4 @@ OPERATORS: tuple[Callable[[Situation], Diagnostic | None], ...] = (
     _arithmetic,
     _of_time,
 )
-"""What is tried, one after the other."""
+"""What is tried where operators of other languages stand, one after the other."""

@@ -1,4 +1,4 @@
-"""A file, or standard input, to a source text."""
+"""How a specification is read from a file, a pipe or standard input, and how large it may be."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which terminal of the grammar a token is.
+"""Which terminal of the grammar a token is: where a word is a keyword, and where a name.
 
 Keywords are soft: whether a word is one is decided by what the parser can take next, and by the words after it.
 """

@@ -15,7 +15,7 @@ from tumato_symbolic.symbolic import Bdd, Encoding
 Value = TypeVar("Value")
 
 TRIES = 2_000
-"""So many changed policies are evaluated."""
+"""So many changed policies are evaluated to restore safety better after a repair."""
 
 
 class Improving:

@@ -18,10 +18,10 @@ from tumato_symbolic.synthesis.parts import Part, Search
 from tumato_symbolic.synthesis.result import Unrealizable
 
 MOST_CASES = 200
-"""With more cases there is no certificate."""
+"""With more cases there is no certificate that no part has a policy."""
 
 MOST_GOALS = 500
-"""Nor with more residual goals in one removal."""
+"""With more residual goals in one removal there is none either."""
 
 
 class _TooMuchError(Exception):

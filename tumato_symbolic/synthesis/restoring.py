@@ -1,4 +1,4 @@
-"""Restoring sets of proved minimal duration (`docs/semantics.md`, sections 5 and 6)."""
+"""Restoring sets of proved minimal duration, in one step (`docs/semantics.md`, sections 5 and 6)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What synthesis answers: always one of three records, never None."""
+"""What synthesis answers, with its statistics: always one of three records, never None."""
 
 from __future__ import annotations
 

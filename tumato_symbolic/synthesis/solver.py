@@ -1,4 +1,4 @@
-"""Everything that synthesis asks of Z3."""
+"""Everything that synthesis asks of Z3: cheapest sets, choices under clauses, smallest hitting sets."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From a specification to a policy: the pipeline."""
+"""From a specification to a policy: the pipeline, what is counted, and the format of the policy."""
 
 from __future__ import annotations
 

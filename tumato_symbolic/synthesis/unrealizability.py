@@ -48,7 +48,7 @@ MOST_CUBES = 2_000
 """A certificate with more cubes leaves the claim to a prover."""
 
 MOST_OUTCOMES = 3_000_000
-"""So does one that would have to look at a set with more outcomes than that."""
+"""A certificate that would have to look at a set with more outcomes leaves it, too."""
 
 FEW_NODES = 1000
 """Layers with so few nodes are taken as they are: Z3 is quick with them."""

@@ -11,7 +11,7 @@ from tumato_symbolic.verify.decisions import Decisions
 from tumato_symbolic.verify.result import Departure, Refutation
 
 MOST_OUTCOMES = 200_000
-"""After so many outcomes it is left open."""
+"""After so many outcomes it is left open whether decisions are closed."""
 
 
 def with_departure(

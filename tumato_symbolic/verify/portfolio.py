@@ -1,4 +1,4 @@
-"""Which prover is asked, and in which order: Z3, the walk, explicit-state checking (`docs/certificate.md`)."""
+"""Which prover is asked, in which order, and for how long: Z3, the walk, explicit-state checking."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""When provers give up, and what they raise then."""
+"""How long a prover may think about one obligation, and what it raises when it gives up."""
 
 from __future__ import annotations
 

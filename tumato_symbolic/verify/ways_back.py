@@ -31,7 +31,7 @@ MOST_STATES = 2_000
 """How many unsafe states are looked at for a witness."""
 
 MOST_OUTCOMES = 20_000
-"""How many outcomes of one decision are looked at for it."""
+"""How many outcomes of one decision are looked at for a witness."""
 
 
 class TooFarError(Exception):

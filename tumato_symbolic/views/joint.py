@@ -14,7 +14,7 @@ MOST_LABELS = 10_000
 """Functions with more different labels are given up."""
 
 MOST_PLACES = 500_000
-"""So are those whose sets come together in more different ways."""
+"""Functions whose sets come together in more different ways are given up, too."""
 
 Label = TypeVar("Label", bound=Hashable)
 

@@ -1,4 +1,4 @@
-"""Two policies over the names of both."""
+"""Two policies over the names of both: names that were added or removed, and one order of variables."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A policy as a tree of questions about the state, as far as some lines or boxes go."""
+"""A policy as a tree of questions about the state: what is asked first, and what is folded for lack of lines."""
 
 from __future__ import annotations
 

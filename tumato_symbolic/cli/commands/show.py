@@ -50,7 +50,7 @@ _LINES = 100
 """A tree or a table has so many lines at most, unless another number is asked for."""
 
 _BOXES = 60
-"""So many boxes a graph has."""
+"""A graph has so many boxes at most, unless another number is asked for."""
 
 
 class Options(CommandOptions, frozen=True):

@@ -1,4 +1,4 @@
-"""A policy in the numbers of a specification."""
+"""A policy in the numbers of a specification, and what does not fit there: names, ordering, restoration."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From tables to diagrams and back, and how many states are decided."""
+"""From tables to diagrams and back; how many states are decided, and which actions are never executed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tables: a row for every state that is decided."""
+"""Tables in policy files: a row for every state that is decided, and what is wrong with one."""
 
 from __future__ import annotations
 

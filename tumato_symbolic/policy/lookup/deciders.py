@@ -1,4 +1,4 @@
-"""What a policy decides in one state."""
+"""How `decide` looks a state up in a table or a diagram, and how much it remembers."""
 
 from __future__ import annotations
 

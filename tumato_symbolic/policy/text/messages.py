@@ -1,4 +1,4 @@
-"""How this room says what is wrong with a policy or a state."""
+"""Mistakes in a policy or a state in words, and how many of them are told at once."""
 
 from __future__ import annotations
 

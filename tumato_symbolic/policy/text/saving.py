@@ -1,4 +1,7 @@
-"""Texts to files. A file is either the old one or the new one, never half of one."""
+"""Texts to files, all or nothing.
+
+A file is either the old one or the new one, never half of one.
+"""
 
 from __future__ import annotations
 

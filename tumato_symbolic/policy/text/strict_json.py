@@ -1,4 +1,7 @@
-"""JSON text to plain values, strictly, and the checks of their shape. Every mistake is a `UserError`."""
+"""JSON text to plain values, strictly: how large and how deep it may be, and the checks of its shape.
+
+Every mistake is a `UserError`.
+"""
 
 from __future__ import annotations
 

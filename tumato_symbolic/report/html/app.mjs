@@ -1,4 +1,4 @@
-// What the page carries, read; its parts are made, and drawn again when something changes.
+// The page at work: what it carries is read, its parts are made, and drawn again when something changes.
 import { h } from "./dom.mjs";
 import { decisionsFrom } from "./policy.mjs";
 import { specFrom } from "./spec.mjs";

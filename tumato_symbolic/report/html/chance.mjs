@@ -1,4 +1,4 @@
-// Executions by chance (docs/run.md): which effects happen, in which order, and what the environment does.
+// Executions by chance (docs/run.md): random numbers, which effects happen in which order, what the environment does.
 import { agree, applied, effectsIn, isValid, successor } from "./steps.mjs";
 import { reached, residual } from "./runs.mjs";
 

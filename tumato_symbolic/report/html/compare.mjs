@@ -1,4 +1,4 @@
-// What another policy decides otherwise.
+// Another policy that the reader opens, compared with this one: where it decides otherwise.
 import { dice } from "./chance.mjs";
 import { conditions, h, link, redraw } from "./dom.mjs";
 import { decided, decisionsOfFile, differing, merged } from "./policy.mjs";

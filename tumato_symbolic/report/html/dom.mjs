@@ -1,4 +1,4 @@
-// Elements, and what is drawn again when something changes.
+// Elements of the page (buttons, links, tables, pages of rows), and what is drawn again when something changes.
 
 const present = (each) => each !== null && each !== undefined && each !== false;
 

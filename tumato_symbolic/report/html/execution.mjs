@@ -1,4 +1,4 @@
-// The policy executed: by hand, by chance, many times.
+// Executions on the page: by hand, to the goal, many by chance; and as a file (ITF).
 import { dice, execution, randomMove } from "./chance.mjs";
 import { button, h, redraw, save } from "./dom.mjs";
 import { decided } from "./policy.mjs";

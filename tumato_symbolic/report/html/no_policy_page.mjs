@@ -1,4 +1,4 @@
-// The page of a specification without a policy.
+// The page of a specification without a policy: which parts it has.
 import { readApp, start } from "./app.mjs";
 import { listingView } from "./listing.mjs";
 import { h } from "./dom.mjs";

@@ -1,4 +1,7 @@
-"""A page in one file: its frame, style, program and data put together. It asks nothing of anybody else."""
+"""A page in one file: which parts of the program it has, in which order, with style and data, made small.
+
+It asks nothing of anybody else.
+"""
 
 from __future__ import annotations
 

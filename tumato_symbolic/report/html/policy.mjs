@@ -1,4 +1,4 @@
-// What is decided where: decision diagrams, and policy files that the reader opens.
+// What is decided where: decision diagrams, cubes of states, and policy files that the reader opens.
 import { upTo } from "./spec.mjs";
 
 // Reference r is a leaf below 2 (0 is false, 1 is true), else node r - 2: [level, [reference, …]].

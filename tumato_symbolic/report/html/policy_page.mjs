@@ -1,4 +1,4 @@
-// The page of a policy.
+// The page of a policy: which parts it has, and the state that it begins with.
 import { readApp, start } from "./app.mjs";
 import { checkView } from "./checking.mjs";
 import { compareView } from "./compare.mjs";

@@ -1,4 +1,4 @@
-// One state: what holds in it, and why things are not done in it.
+// One state: what holds in it, which goals are active, and why other things are not done in it.
 import { button, h, lineLink, redraw, ruleText } from "./dom.mjs";
 import { smaller } from "./restoring.mjs";
 import { run, writtenGoals } from "./runs.mjs";

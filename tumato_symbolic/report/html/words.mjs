@@ -1,4 +1,4 @@
-// What is said of actions, effects and objections.
+// How the page words numbers, actions, effects, states and objections.
 
 export const grouped = (number) => BigInt(number).toLocaleString("en-US");
 

@@ -14,7 +14,7 @@ from tumato_symbolic.verify.by_diagrams.walk import Walk
 from tumato_symbolic.verify.guarantees.result import StateCube
 
 MOST_CUBES = 200
-"""A longer list helps no reader."""
+"""So many cubes of a set are listed: a longer list helps no reader."""
 
 
 class StateSets:

@@ -19,7 +19,7 @@ MANY_NODES = 1000
 """Layers with more nodes tend to count, and then Z3 takes long."""
 
 SOON = 5.0
-"""How many seconds Z3 may think about fewer before the walk is tried."""
+"""How many seconds Z3 may think about layers with fewer nodes before the walk is tried."""
 
 _HELD = "the next layers hold all successors of a layer"
 
