@@ -15,7 +15,7 @@ from pathlib import Path
 
 from msgspec import Struct
 
-COMMAND = (sys.executable, "-c", "from tumato_symbolic.cli.main import entry; entry()")
+COMMAND = (sys.executable, "-c", "from tumato_symbolic.__main__ import entry; entry()")
 """What the console script `tumato-sym` runs."""
 
 UNIT = (sys.executable, "-c", "import z3, lark, dd.cudd")

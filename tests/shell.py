@@ -20,7 +20,7 @@ from unittest.mock import patch
 
 from tumato_symbolic.cli.main import main
 
-ENTRY = "from tumato_symbolic.cli.main import entry; entry()"
+ENTRY = "from tumato_symbolic.__main__ import entry; entry()"
 PROGRAM = (sys.executable, "-c", ENTRY)
 """`tumato-sym` as a process, wherever it is installed."""
 

@@ -1,6 +1,7 @@
 """Exit codes, streams, and no file but a whole one."""
 
 import json
+import os
 import re
 import shlex
 import subprocess
@@ -11,6 +12,7 @@ import pytest
 
 from tests.cli.conftest import Cli
 from tests.cli.inputs import state
+from tests.repo.documents import ROOT
 from tumato_symbolic.cli.commands import COMMANDS, load
 from tumato_symbolic.verify import prove
 
@@ -36,6 +38,23 @@ def test_the_package_is_the_command(tmp_path: Path) -> None:
     )
     assert done.returncode == 2
     assert "TUM301" in done.stdout
+
+
+def test_without_the_package_that_every_command_needs(tmp_path: Path) -> None:
+    """It says which, and exits with 3: a traceback exits with 1, which says that there is no policy."""
+    (tmp_path / "msgspec.py").write_text("raise ImportError('_core.so: wrong architecture')")
+    done = subprocess.run(
+        [sys.executable, "-m", "tumato_symbolic", "synth", "amr.tum"],
+        env={**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), str(ROOT)])},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stdout) == (3, "")
+    assert done.stderr == (
+        "tumato-sym: msgspec is needed by every command, and cannot be imported here; "
+        "install it with `pip install msgspec`\n"
+    )
 
 
 def test_no_policy_is_1_and_leaves_the_old_file_alone(cli: Cli, tmp_path: Path) -> None:

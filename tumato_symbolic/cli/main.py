@@ -26,7 +26,7 @@ _OBJECTS_BETWEEN_COLLECTIONS = 100_000
 
 
 def entry() -> None:
-    """The console script `tumato-sym`.
+    """What the console script `tumato-sym` does once it has what it needs (`tumato_symbolic/__main__.py`).
 
     It ends without tearing down the interpreter and the solvers in it, which would take as long as a small synthesis.
     """
