@@ -36,6 +36,9 @@ from tumato_symbolic.synthesis import Realizable, Undecided, Unrealizable, synth
 MAX_CUBES = 1_000
 """So many cubes of failing states are listed where nothing else is asked for."""
 
+REPAIRS = 3
+"""So many ways to change lines are looked for where nothing else is asked for."""
+
 NEAR_MISSES = 3
 """So many sets that come near to being allowed are told of each reason."""
 
@@ -52,7 +55,7 @@ def explain(
     *,
     max_cubes: int = MAX_CUBES,
     cores: int = 1,
-    wanted_repairs: Wanted = 3,
+    wanted_repairs: Wanted = REPAIRS,
     backend: Backend | None = None,
     context: Context | None = None,
 ) -> Found:
@@ -79,7 +82,7 @@ def explained(
     *,
     max_cubes: int = MAX_CUBES,
     cores: int = 1,
-    wanted_repairs: Wanted = 3,
+    wanted_repairs: Wanted = REPAIRS,
     backend: Backend | None = None,
     context: Context | None = None,
 ) -> Iterator[Found]:

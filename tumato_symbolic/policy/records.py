@@ -1,4 +1,4 @@
-"""What policies and certificates are made of, independent of any specification."""
+"""The fields of policies and of their certificates, independent of any specification."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Why a policy decides as it does, for a person and a program."""
+"""What `why` says, for a person and a program: goals, the run, other sets and what speaks against them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What `synth` found, for a person and for programs."""
+"""The report of `synth`: counts, the verdict, failures, commands to go on with; JSON and findings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What `verify` found, for a person and for programs."""
+"""The report of `verify`: the verdict on each property, the certificate, guarantees; JSON and findings."""
 
 from __future__ import annotations
 

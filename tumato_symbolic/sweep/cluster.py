@@ -1,7 +1,8 @@
-"""Workers of a Dask cluster. The only module that knows `distributed`.
+"""Workers of a Dask cluster: how long they are waited for, and how large a batch is.
 
-What is sent there are batches as texts; what comes back are texts. A worker solves them in child processes, as this
-machine would, so that one that takes all memory does not take the worker with it.
+The only module that knows `distributed`. What is sent there are batches as texts; what comes back are texts. A worker
+solves them in child processes, as this machine would, so that one that takes all memory does not take the worker with
+it.
 """
 
 from __future__ import annotations

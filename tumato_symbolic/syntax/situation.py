@@ -1,4 +1,4 @@
-"""What surrounds a token that does not fit."""
+"""What surrounds a token that does not fit: open blocks, what was expected, and what was probably meant."""
 
 from __future__ import annotations
 

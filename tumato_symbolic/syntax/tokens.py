@@ -1,4 +1,4 @@
-"""Text to tokens.
+"""Text to tokens: words, numbers, symbols and comments, and which words are keywords everywhere.
 
 Whether a word is a keyword depends on where it stands, so the parser decides that; here a word is a word.
 """

@@ -1,4 +1,4 @@
-"""The certificate of unrealizability (`docs/certificate.md`)."""
+"""The certificate that there is no policy: cubes, layers, runs that fail (`docs/certificate.md`)."""
 
 from __future__ import annotations
 

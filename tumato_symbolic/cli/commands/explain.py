@@ -47,6 +47,12 @@ examples:
 _BETWEEN = 0.5
 """Seconds between two records of what is known, where nothing is written."""
 
+_REPAIRS = 3
+"""So many ways to change lines are looked for, unless another number is asked for."""
+
+_SECONDS = 58.0
+"""How long one specification may take, unless another limit is given: a minute, with what comes before and after."""
+
 
 class Options(CommandOptions, frozen=True):
     """What may be typed after `explain`."""
@@ -64,9 +70,9 @@ class Options(CommandOptions, frozen=True):
     repairs: Wanted = argument(
         "--repairs",
         type=whole_or_all(0),
-        default=3,
+        default=_REPAIRS,
         metavar="N",
-        help="look for N ways to change lines (default: 3), or for `all`, also those that give up safety",
+        help=f"look for N ways to change lines (default: {_REPAIRS}), or for `all`, also those that give up safety",
     )
     write: str | None = argument(
         "--write",
@@ -88,7 +94,7 @@ class Options(CommandOptions, frozen=True):
     @property
     def own_seconds(self) -> float | None:
         """A minute for each specification."""
-        return None if self.is_many else 58.0
+        return None if self.is_many else _SECONDS
 
     def mistake(self) -> str | None:
         """What is written is written for one specification."""

@@ -23,6 +23,9 @@ example:
   tumato-sym lsp --synthesis 5     # editors start it; synthesis may take five seconds
 """
 
+_SECONDS = 20.0
+"""How long synthesis on saving may take, repairs included, unless another limit is given."""
+
 
 class Options(CommandOptions, frozen=True):
     """What may be typed after `lsp`."""
@@ -31,8 +34,8 @@ class Options(CommandOptions, frozen=True):
         "--synthesis",
         type=seconds,
         metavar="SECONDS",
-        default=20.0,
-        help="how long synthesis of a specification that is saved may take, repairs included (default: 20)",
+        default=_SECONDS,
+        help=f"how long synthesis of a specification that is saved may take, repairs included (default: {_SECONDS:g})",
     )
     synthesize: bool = argument("--no-synthesis", action="store_false", help="do not synthesize what is saved")
 

@@ -52,6 +52,9 @@ _LINES = 100
 _BOXES = 60
 """A graph has so many boxes at most, unless another number is asked for."""
 
+_SECONDS = 58.0
+"""How long it may take, unless another limit is given: a minute, with what comes before and after."""
+
 
 class Options(CommandOptions, frozen=True):
     """What may be typed after `show`."""
@@ -85,7 +88,7 @@ class Options(CommandOptions, frozen=True):
     memory: int | None = arguments.memory()
     output_format: OutputFormat = arguments.output_format("json")
 
-    own_seconds: ClassVar[float | None] = 58.0
+    own_seconds: ClassVar[float | None] = _SECONDS
 
     @property
     def specs(self) -> tuple[str, ...]:

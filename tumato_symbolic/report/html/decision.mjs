@@ -8,6 +8,8 @@ import { actionsText, changeText, counted, ENDS, otherwise } from "./words.mjs";
 
 // So many outcomes of a decision are listed beside the nominal one.
 const MOST_OUTCOMES = 40;
+// So many steps of the way back to safety are listed.
+const MOST_BACK = 30;
 
 export function decisionIn(app, state) {
   const { model, spec } = app;
@@ -61,7 +63,7 @@ function wayToSafety(app, state, chosen) {
   const words = `${most ? "Whatever happens" : "If effects are as intended"}, ${better} after ${most}${counted(steps, "step")}, which take ${most}${lasting} in all.`;
   const list = [];
   let here = state;
-  while (!isSafe(model, here) && list.length < 30) {
+  while (!isSafe(model, here) && list.length < MOST_BACK) {
     const does = model.decide(here);
     if (does === null || !agree(spec, here, does)) break;
     const next = successor(spec, here, does);

@@ -11,6 +11,10 @@ import { actionsText, changeText, counted, ENDS, grouped, otherwise, stateText, 
 const RUNS = 1_000;
 // So many events each of them has at most.
 const LONGEST = 1_000;
+// So many steps are made at once to the goal.
+const STEPS_TO_GOAL = 100;
+// So many outcomes beside the nominal one are offered to choose from.
+const MOST_OTHERS = 30;
 
 export function executionView(app) {
   const element = h("div");
@@ -44,7 +48,7 @@ export function executionView(app) {
 function goOn(app, here, add) {
   const { model, spec } = app;
   let goal = null;
-  for (let n = 0; n < 100; n++) {
+  for (let n = 0; n < STEPS_TO_GOAL; n++) {
     const state = here();
     const chosen = model.decide(state);
     if (chosen === null || !agree(spec, state, chosen)) return;
@@ -76,7 +80,7 @@ function choices(app, state, add, chance) {
   return [h("p", "The policy does ", h("b", actionsText(spec, chosen)), ". It goes"),
     h("p.choices",
       button(`as intended: ${changeText(spec, state, nominal)}`, () => add({ state: nominal, chosen, way: null }), { key: "nominal", class: "main" }),
-      rest.slice(0, 30).map((each, n) => button(`or instead: ${otherwise(spec, state, chosen, each)}`, () => add({ state: each.state, chosen, way: each.way }), { key: `way${n}` })),
+      rest.slice(0, MOST_OTHERS).map((each, n) => button(`or instead: ${otherwise(spec, state, chosen, each)}`, () => add({ state: each.state, chosen, way: each.way }), { key: `way${n}` })),
       rest.length ? button("by chance", () => add({ ...randomMove(spec, state, chosen, chance), chosen }), { key: "chance" }) : null)];
 }
 

@@ -1,4 +1,4 @@
-"""Z3 with scopes, definitions and deadlines."""
+"""Z3 as the prover asks it: scopes, definitions and deadlines."""
 
 from __future__ import annotations
 
