@@ -1,4 +1,4 @@
-// The side of the answer: the verdict, files to keep, and the report in a frame of its own.
+// The side of the answer: shows the verdict that `playground/session.py` words, files to keep, and the report in a frame of its own.
 import { element } from "./editor.mjs";
 
 const TONES = { realizable: "good", unrealizable: "bad", undecided: "doubt", mistakes: "bad" };

@@ -1,4 +1,4 @@
-"""Names of a specification as identifiers of other languages: never a word of the language, never two alike."""
+"""Names and values as identifiers of other languages (`-3`: `m3`): never a word of the language, never two alike."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Limits, progress, and what is known so far: the context that every stage of a long piece of work is handed."""
+"""Limits, how they are worded, progress, what is known so far: the context that stages of long work are handed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What would restore the unsafe states that cannot be restored as asked (`docs/semantics.md`, section 9.8)."""
+"""What would restore unsafe states that cannot be as asked: settings, joint actions (`docs/semantics.md`, 9.8)."""
 
 from __future__ import annotations
 

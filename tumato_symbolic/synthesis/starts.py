@@ -1,4 +1,4 @@
-"""Policies from the starts: the part of the valid states that is decided (`docs/semantics.md`, section 12).
+"""Policies from the starts: the part that is decided, and the warning of what may lead out (`docs/semantics.md`, 12).
 
 A part is *closed* when no step leaves it. The greatest part in which no state fails holds every other one that a policy
 may decide. Where goals conflict in it, each of these leaves out a state of the conflict: the larger ones are tried

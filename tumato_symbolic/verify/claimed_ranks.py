@@ -1,4 +1,4 @@
-"""Ranks claimed by a policy, unverified until they are checked (`docs/certificate.md`)."""
+"""Ranks claimed by a policy, unverified until checked, and why its certificate is not used (`docs/certificate.md`)."""
 
 from __future__ import annotations
 

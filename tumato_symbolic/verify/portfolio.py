@@ -1,4 +1,4 @@
-"""Which prover is asked, in which order, and for how long: Z3, the walk, explicit-state checking."""
+"""Which prover is asked, in which order, for how long (Z3, the walk, explicit-state checking); if none decides, why."""
 
 from __future__ import annotations
 
@@ -33,6 +33,9 @@ LITTLE = 20_000_000
 
 FIRST_TURN = (SOON_REMEMBERED // 3, LITTLE // 50)
 """Where few states are decided, results of the walk, then outcomes, before the walk may remember so many."""
+
+REASONS_TOLD = 3
+"""Where no prover decides a property, the reasons of so many attempts are told, the last ones."""
 
 MANY_CASES = 100
 """With more cases than this, formulas and diagrams of all of them take longer than a look at each state."""
@@ -211,7 +214,7 @@ class _Auto(_Pair):
             if result.verdict != "undecided":
                 return result
             reasons.append(result.reason)
-        return PropertyResult(name, "undecided", reason="; ".join(dict.fromkeys(filter(None, reasons[-3:]))))
+        return PropertyResult(name, "undecided", reason="; ".join(dict.fromkeys(filter(None, reasons[-REASONS_TOLD:]))))
 
     def _attempts(self, name: PropertyName) -> Iterator[Callable[[], PropertyResult]]:
         """Who is asked, one after the other."""

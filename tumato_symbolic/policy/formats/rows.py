@@ -1,4 +1,4 @@
-"""Tables in policy files: a row for every state that is decided, and what is wrong with one."""
+"""Tables in policy files: a row for every state that is decided, rows that are wrong or contradict."""
 
 from __future__ import annotations
 
