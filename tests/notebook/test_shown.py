@@ -56,6 +56,15 @@ def test_results_in_one_line() -> None:
     assert repr(Undecided("no time", found.statistics)) == "<Undecided: no time; 32 valid states>"
 
 
+def test_rich_shows_the_same_line() -> None:
+    """And not every row and every failing state, of which there are thousands."""
+    rich = pytest.importorskip("rich.pretty", reason="it comes with import-linter")
+    found, failing = example("amr.tum"), example("two_robots.tum")
+    proved = verify(found.policy, parse((ROOT / "examples" / "amr.tum").read_text()))
+    for each in (found, found.policy, failing, failing.failures[0], proved, Undecided("no time", found.statistics)):
+        assert rich.pretty_repr(each, max_width=1_000) == repr(each)
+
+
 def test_a_proof_says_by_whom() -> None:
     """Each property with its prover, by name."""
     spec = parse((ROOT / "examples" / "amr.tum").read_text())

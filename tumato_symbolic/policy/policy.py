@@ -7,8 +7,7 @@ from collections.abc import Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from msgspec import Struct
-
+from tumato_symbolic.diagnostics.one_line import InOneLine
 from tumato_symbolic.diagnostics.wording import count
 from tumato_symbolic.policy.formats import policy_fields
 from tumato_symbolic.policy.records import Certificate, DecisionDiagram, PolicyFields, Table, Vocabulary
@@ -28,7 +27,7 @@ MOST_NODES = 10_000
 """A graph has so many nodes that the policy decides at most, unless more are asked for."""
 
 
-class Policy(Struct, frozen=True, dict=True):
+class Policy(InOneLine, frozen=True, dict=True):
     """What to do in every valid state.
 
     `digest` identifies the meaning of the specification that the policy was made for; it, the effect ordering and

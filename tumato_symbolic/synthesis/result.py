@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Diagnostic
+from tumato_symbolic.diagnostics.one_line import InOneLine
 from tumato_symbolic.diagnostics.wording import count
 from tumato_symbolic.policy import Policy
 from tumato_symbolic.semantics import State
@@ -77,7 +78,7 @@ class RestoredIn(Struct, frozen=True):
     levels: tuple[int, ...]
 
 
-class Failure(Struct, frozen=True):
+class Failure(InOneLine, frozen=True):
     """States that fail for one reason (`docs/semantics.md`, section 7).
 
     `count` is exact. `states` holds them in the order of declaration, up to `STATES_LISTED`; of a conflict it is the
@@ -99,7 +100,7 @@ STATES_LISTED = 10_000
 """So many states of a failure are listed at most; all are counted."""
 
 
-class Realizable(Struct, frozen=True):
+class Realizable(InOneLine, frozen=True):
     """There is a policy, and this is it, with its certificate."""
 
     policy: Policy
@@ -125,7 +126,7 @@ class Realizable(Struct, frozen=True):
         return f"a policy for {count(states, 'valid state')}, {states - unsafe:,} of them safe{run}"
 
 
-class Unrealizable(Struct, frozen=True):
+class Unrealizable(InOneLine, frozen=True):
     """There is no policy: these states fail, or these goals conflict; `certificate` proves it.
 
     It is None where `limit` was met before it was made. `restorability` tells what would restore the states that
@@ -156,7 +157,7 @@ class Unrealizable(Struct, frozen=True):
         return panel("bad", "Unrealizable", lines, failing_html(self.spec, failures))
 
 
-class Undecided(Struct, frozen=True):
+class Undecided(InOneLine, frozen=True):
     """A limit was met before there was an answer. `statistics` is what was known by then, if anything."""
 
     limit: str

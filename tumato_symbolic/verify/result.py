@@ -8,6 +8,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from tumato_symbolic.diagnostics.cubes import actions_text
+from tumato_symbolic.diagnostics.one_line import InOneLine
 from tumato_symbolic.diagnostics.wording import count
 from tumato_symbolic.semantics import (
     ActionSet,
@@ -116,7 +117,7 @@ class CertificateUse(Struct, frozen=True):
     reason: str | None = None
 
 
-class Verification(Struct, frozen=True):
+class Verification(InOneLine, frozen=True):
     """The answer of `verify`.
 
     It is about the valid states that the policy decides, and of how many is `decided_states`, out of `valid_states`;
