@@ -11,7 +11,7 @@ from pathlib import Path
 from random import Random
 
 from tests.repo.documents import ROOT
-from tumato_symbolic.diagnostics import Source
+from tumato_symbolic.diagnostics import Code, Diagnostic, Source, UserError
 from tumato_symbolic.sweep import Plan, Task, dropped, kept, sweep
 from tumato_symbolic.sweep.portions import Hired, LostError, Workers
 from tumato_symbolic.sweep.solving import solved
@@ -22,8 +22,11 @@ COIN = Source("coin.tum", (ROOT / "examples" / "coin.tum").read_text())
 PLAN = Plan("drop", COIN, dropped(COIN), {"some": "option"})
 
 
-class GoneError(Exception):
+class GoneError(UserError):
     """Nobody works any more."""
+
+    def __init__(self) -> None:
+        super().__init__((Diagnostic(Code.TUM119, "the connection was lost"),))
 
 
 def shuffling(
@@ -60,7 +63,7 @@ def shuffling(
                 batch = Batch.read(text)
                 return executor.submit(later, batch, random.random() / 500, random.randint(1, len(batch.texts)))
 
-            yield Workers(submit, 2, 1.0)
+            yield Workers(submit, lambda: 2, 1.0)
 
     return hired
 

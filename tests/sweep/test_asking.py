@@ -162,6 +162,15 @@ def test_children_end_at_once(children: Children) -> None:
         asked(children, QUICK)
 
 
+def test_a_reply_that_is_not_wanted_any_more(children: Children) -> None:
+    """The child is ended at once, and another one takes the next text."""
+    until = time.monotonic() + 0.3
+    with pytest.raises(asking.EndedError):
+        children.ask(Batch(LONG, (LONG.text,), 60.0).written(), lambda: time.monotonic() < until)
+    assert not children._all
+    assert asked(children, QUICK) == (FOUND,)
+
+
 def test_nothing_is_imported_from_the_folder(
     children: Children, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -15,8 +15,9 @@ import pytest
 from tests.cli.conftest import Cli
 from tests.repo.documents import ROOT
 from tests.shell import ENTRY, HEEDING, PROGRAM
-from tests.sweep.here import AMR
+from tests.sweep.here import AMR, shuffling
 from tumato_symbolic.limits.processes import descendants
+from tumato_symbolic.sweep import cluster
 
 SCHEMA = json.loads((ROOT / "tumato_symbolic" / "report" / "sweep.schema.json").read_text())
 
@@ -110,6 +111,24 @@ def test_a_cluster_needs_a_package(cli: Cli, monkeypatch: pytest.MonkeyPatch) ->
     monkeypatch.setitem(sys.modules, "distributed", None)
     ran = cli("sweep", "amr.tum", "--drop", "each", "--scheduler", "127.0.0.1:9")
     assert (ran.code, "pip install 'tumato-symbolic[cluster]'" in ran.out) == (3, True)
+
+
+@pytest.mark.parametrize("words", [(), ("-o", "r.jsonl")])
+def test_a_cluster_that_is_lost(
+    words: tuple[str, ...], cli: Cli, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Exit 2, after what was found by then; with a file, the same command goes on."""
+    pytest.importorskip("distributed", reason="distributed is not installed (make tools)")
+    monkeypatch.setattr(cluster, "cluster", lambda _: shuffling(0, {}, most=8)())
+    command = ("sweep", "amr.tum", "--mutate", "12", "--no-verify", *words)
+    ran = cli(*command, "--scheduler", "127.0.0.1:9")
+    assert ran.code == 2
+    assert re.search(r"\n\d+ of 12 variants were not solved: the connection was lost\.\n", ran.out)
+    assert "error[TUM119]: the connection was lost" in ran.err
+    if words:
+        assert 2 <= len(lines((tmp_path / "r.jsonl").read_text())) <= 9
+        assert cli(*command).code == 1
+        assert len(lines((tmp_path / "r.jsonl").read_text())) == 14
 
 
 def test_a_kill_loses_nothing(cli: Cli, tmp_path: Path) -> None:

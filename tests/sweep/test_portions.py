@@ -17,7 +17,7 @@ WHOLE = run(None, shuffling(0, KNOWN))
 
 def portions_of(number: int, hands: int = 2, seconds: float = 1.0) -> Portions:
     """So many variants for so many who work."""
-    return Portions(map(Variant, range(number)), Workers(lambda _: Future(), hands, seconds))
+    return Portions(map(Variant, range(number)), Workers(lambda _: Future(), lambda: hands, seconds))
 
 
 def reply(answers: int, seconds: float) -> Reply:

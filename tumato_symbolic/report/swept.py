@@ -59,8 +59,9 @@ def as_text(done: Swept, colour: bool) -> str:
         case "mutate":
             lines += ["", *_mutated(done)]
     if done.limit is not None:
-        left = len(done.plan.variants) - len(done.lines)
-        lines += ["", f"{left:,} of {count(len(done.plan.variants), 'variant')} were not solved: {done.limit}."]
+        total = len(done.plan.variants) - 1  # the first is the specification itself
+        left = total - len(done.variants)
+        lines += ["", f"{left:,} of {count(total, 'variant')} were not solved: {done.limit}."]
     return "\n".join(lines)
 
 

@@ -15,7 +15,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from pathlib import Path
 from typing import Any, Final
@@ -60,14 +60,18 @@ class Children:
         for child in [self._taken() for _ in range(number)]:
             self._give_back(child)
 
-    def ask(self, batch: str) -> str:
+    def ask(self, batch: str, wanted: Callable[[], bool] = lambda: True) -> str:
         """The reply to a batch, both as JSON.
 
-        A child that is ended, by a limit or by the system, has not decided: that is its last answer.
+        A child that is ended, by a limit or by the system, has not decided: that is its last answer. Raises
+        `EndedError` once the reply is not `wanted` any more.
         """
         child = self._taken()
         try:
-            return _asked(child, Batch.read(batch)).written()
+            return _asked(child, Batch.read(batch), wanted).written()
+        except EndedError:
+            child.end()
+            raise
         finally:
             self._give_back(child)
 
@@ -107,9 +111,9 @@ class Children:
 _HERE: Final = Children()
 
 
-def ask(batch: str) -> str:
-    """The reply of a child of this process, which is a worker of a cluster."""
-    return _HERE.ask(batch)
+def ask(batch: str, wanted: Callable[[], bool]) -> str:
+    """The reply of a child of this process, which is a worker of a cluster; `EndedError` once it is not wanted."""
+    return _HERE.ask(batch, wanted)
 
 
 def start(number: int) -> None:
@@ -117,26 +121,26 @@ def start(number: int) -> None:
     _HERE.start(number)
 
 
-def _asked(child: _Child, batch: Batch) -> Reply:
+def _asked(child: _Child, batch: Batch, wanted: Callable[[], bool]) -> Reply:
     started = time.monotonic()
     child.send(batch.written())
-    found = list(_lines(child, batch.common.limits))
+    found = list(_lines(child, batch.common.limits, wanted))
     bug = found.pop()["bug"] if "bug" in found[-1] else None
     return Reply(tuple(Answer(**each) for each in found), time.monotonic() - started, bug)
 
 
-def _lines(child: _Child, limits: Limits) -> Iterator[dict[str, Any]]:
+def _lines(child: _Child, limits: Limits, wanted: Callable[[], bool]) -> Iterator[dict[str, Any]]:
     """What a child says of a batch. It is ended where it meets a limit, or has grown."""
     then: Then = "more"
     while then == "more":
-        found = _next(child, limits)
+        found = _next(child, limits, wanted)
         then = found.pop("then")
         if then == "end":
             child.end()
         yield found
 
 
-def _next(child: _Child, limits: Limits) -> dict[str, Any]:
+def _next(child: _Child, limits: Limits, wanted: Callable[[], bool]) -> dict[str, Any]:
     """What a child says of the next text, or why it says nothing."""
     context = Context(limits)
     context.enter("solving it")
@@ -144,6 +148,8 @@ def _next(child: _Child, limits: Limits) -> dict[str, Any]:
         with suppress(queue.Empty):
             line = child.lines.get(timeout=_TICK)
             return dict(json.loads(line)) if line else _nothing(child.why_ended())
+        if not wanted():
+            raise EndedError
         why = _limit(context, child)
         if why is not None:
             return _nothing(why)

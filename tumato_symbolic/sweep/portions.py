@@ -22,14 +22,15 @@ _LEAST: Final = 0.1
 
 
 class Workers(Struct, frozen=True):
-    """Who works: `submit` takes a batch, of which `hands` are worked on at a time.
+    """Who works: `submit` takes a batch, of which `hands()` are worked on at a time, as far as is known now.
 
     A batch should take so many `seconds`, which is much longer than handing it over takes. Its future raises
-    `LostError` where there is no reply.
+    `LostError` where there is no reply. `hands` is asked while there is none, and raises `UserError` where nobody is
+    left who could reply.
     """
 
     submit: Callable[[str], Future[str]]
-    hands: int
+    hands: Callable[[], int]
     seconds: float
 
     @property
@@ -70,7 +71,7 @@ class Portions:
     def next(self, under_way: int) -> Portion | None:
         """The next portion, where so many are under way; None where nothing can be done but wait, or all is done."""
         if self._waiting:
-            if under_way < _AHEAD * self._workers.hands:
+            if under_way < _AHEAD * self._workers.hands():
                 return Portion([self._waiting.popleft() for _ in range(self._size())])
         elif self._suspects and not under_way:
             return Portion([self._suspects.popleft()], alone=True)
@@ -87,5 +88,5 @@ class Portions:
 
     def _size(self) -> int:
         wanted = self._pace * self._workers.seconds
-        share = ceil(len(self._waiting) / (2 * self._workers.hands))
+        share = ceil(len(self._waiting) / (2 * self._workers.hands()))
         return min(len(self._waiting), max(1, int(_LEAST * wanted), min(int(wanted), share)))

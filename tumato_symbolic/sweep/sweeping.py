@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from functools import partial
@@ -20,6 +20,9 @@ from tumato_symbolic.sweep.variants import Plan
 _SECONDS: Final = 0.2
 """How long a batch should take on this machine: what is found is recorded that often."""
 
+_LOOK: Final = 1.0
+"""Seconds without a reply after which it is asked who works."""
+
 
 class SolverError(Exception):
     """An exception in a process that solves variants: a bug, with its traceback."""
@@ -36,7 +39,7 @@ def processes(jobs: int) -> Iterator[Workers]:
 
         try:
             children.start(jobs)
-            yield Workers(submit, jobs, _SECONDS)
+            yield Workers(submit, lambda: jobs, _SECONDS)
         finally:
             executor.shutdown(wait=False, cancel_futures=True)
             children.end()
@@ -46,7 +49,7 @@ def sweep(plan: Plan, common: Task, hired: Callable[[], Hired], results: Results
     """Add to `results` what is not there; `heard` is told when there is more.
 
     `common` is what all tasks share. The specification itself is solved first, since the others are compared with it.
-    Raises `UserError` where nobody works.
+    Raises `UserError` where nobody works, or nobody is left who does.
     """
     todo = [each for each in plan.variants if each.number not in results.lines]
     if not todo:
@@ -55,35 +58,41 @@ def sweep(plan: Plan, common: Task, hired: Callable[[], Hired], results: Results
     with hired() as workers:
         submit = partial(_submit, workers, plan)
         base = Portion(plan.variants[:1], alone=True)
-        reply = _reply(submit(base, replace(common, policy=True)), base)
+        (future,) = _first([submit(base, replace(common, policy=True))], workers)
+        reply = _reply(future, base)
         _add(results, base, reply)
         heard()
         portions = Portions([each for each in todo if each.number], workers)
         portions.replied(base, reply)
         common = replace(common, against=reply.answers[0].policy)
-        _solve(portions, lambda portion: submit(portion, common), results, heard)
+        running: dict[Future[str], Portion] = {}
+        while True:
+            while (portion := portions.next(len(running))) is not None:
+                running[submit(portion, common)] = portion
+            if not running:
+                return
+            for future in sorted(_first(running, workers), key=_fails):
+                if _settle(future, running.pop(future), portions, results):
+                    heard()
 
 
-def _solve(
-    portions: Portions, submit: Callable[[Portion], Future[str]], results: Results, heard: Callable[[], None]
-) -> None:
-    """Add what is found of all portions."""
-    running: dict[Future[str], Portion] = {}
-    while True:
-        while (portion := portions.next(len(running))) is not None:
-            running[submit(portion)] = portion
-        if not running:
-            return
-        for future in sorted(wait(running, return_when=FIRST_COMPLETED).done, key=_fails):
-            portion = running.pop(future)
-            try:
-                reply = _reply(future, portion)
-            except LostError:
-                portions.lost(portion)
-            else:
-                portions.replied(portion, reply)
-                _add(results, portion, reply)
-                heard()
+def _first(running: Iterable[Future[str]], workers: Workers) -> set[Future[str]]:
+    """Those that are done first. Raises `UserError` where none will be, since nobody works."""
+    while not (done := wait(running, _LOOK, FIRST_COMPLETED).done):
+        workers.hands()
+    return done
+
+
+def _settle(future: Future[str], portion: Portion, portions: Portions, results: Results) -> bool:
+    """Add what is found of a portion; False where it is lost."""
+    try:
+        reply = _reply(future, portion)
+    except LostError:
+        portions.lost(portion)
+        return False
+    portions.replied(portion, reply)
+    _add(results, portion, reply)
+    return True
 
 
 def _fails(future: Future[str]) -> bool:

@@ -104,6 +104,7 @@ class Options(CommandOptions, frozen=True):
 def run(options: Options, context: Context) -> int:
     """Exit with 0 where every variant has a policy; of --drop and --mutate, where each makes a difference."""
     from tumato_symbolic.cli.inputs import read_spec, show_warnings
+    from tumato_symbolic.diagnostics import UserError
     from tumato_symbolic.report.swept import Swept
     from tumato_symbolic.sweep import kept, sweep
 
@@ -120,10 +121,15 @@ def run(options: Options, context: Context) -> int:
             progress.more(f"solving variants, {len(results.lines):,} of {len(plan.variants):,} done")
 
         heard()
+        before = len(results.lines)
         try:
             sweep(plan, _common(options), _hired(plan, options), results, heard=heard)
         except KeyboardInterrupt:
             progress.record()
+            raise
+        except UserError as error:
+            if len(results.lines) > before:
+                _report(Swept(plan, results.in_order(), error.diagnostics[0].message), options)
             raise
     return _report(Swept(plan, results.in_order()), options)
 
