@@ -67,7 +67,6 @@ def completed(
     tell("routing through solved states")
     undecided = steps.safe & ~steps.states_of(policy)
     policy = route(problem, policy, undecided, steps.safe, problem.targets)
-    statistics = replace(statistics, routed=count_decided(problem, policy) - statistics.own_region)
     undecided = steps.safe & ~steps.states_of(policy)
     policy = policy | shortest_decisions(problem, apart, undecided, steps.allowed)
     found = evaluator.evaluate(policy)

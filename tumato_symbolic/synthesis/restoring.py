@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from tumato_symbolic.synthesis.solver import CheapestSet
 
 
-def restoring_policy(problem: Problem, ranks: Sequence[Layers]) -> tuple[Bdd, tuple[int, ...]]:
-    """Decisions for all unsafe states, and the distinct durations that they take.
+def restoring_policy(problem: Problem, ranks: Sequence[Layers]) -> Bdd:
+    """Decisions for all unsafe states, each of which takes the smallest duration.
 
     `ranks` are those of the policy in safe states. A whole region at a time: the smallest duration of any serving set
     in any remaining state is found, by Z3 where there is one, and proved to be the smallest; every state where a set of
@@ -23,23 +23,21 @@ def restoring_policy(problem: Problem, ranks: Sequence[Layers]) -> tuple[Bdd, tu
     manager, steps = problem.encoding.manager, problem.steps
     pairs = steps.allowed & steps.unsafe
     if pairs == problem.false:
-        return problem.false, ()
+        return problem.false
     serving = manager.union(
         pairs & target.pending & problem.own(target, steps.before(manager.union(layers)))
         for target, layers in zip(problem.targets, ranks, strict=True)
     )
-    policy, durations = problem.false, []
     if serving == problem.false:
-        return policy, ()
-    cheapest = _cheapest(problem.encoding, serving)
+        return problem.false
+    policy, cheapest = problem.false, _cheapest(problem.encoding, serving)
     while (duration := cheapest.minimum()) is not None:
-        durations.append(duration)
         cheap = serving & lasting(problem.encoding, duration)
         restored = steps.states_of(cheap)
         policy = policy | shortest_decisions(problem, ranks, restored, cheap)
         serving = serving & ~restored
         cheapest.exclude(restored)
-    return policy, tuple(durations)
+    return policy
 
 
 class CheapestByDiagram:

@@ -23,9 +23,8 @@ FailureKind: TypeAlias = Literal["no-allowed-set", "no-restoration", "no-plan", 
 class Statistics(Struct, frozen=True):
     """Exact counts of states, and how the answer was found.
 
-    `longest_run` is None where there is no policy. `own_region` and `routed` count the safe states that were
-    decided by staying where their goals are active and by passing through solved states, `changed` those whose decision
-    then had to deviate because goals interact. `restoring_durations` counts the distinct minimal durations, `restored`
+    `longest_run` is None where there is no policy. `own_region` counts the safe states that were decided by staying
+    where their goals are active, `changed` those whose decision then had to deviate because goals interact. `restored`
     is there where safety may take several steps to restore, and does.
     """
 
@@ -37,9 +36,7 @@ class Statistics(Struct, frozen=True):
     backend: str
     ordering: Ordering
     own_region: int = 0
-    routed: int = 0
     changed: int = 0
-    restoring_durations: int = 0
     restored: RestoredIn | None = None
     part: DecidedPart | None = None
     one_at_a_time: bool = False

@@ -206,8 +206,7 @@ def _finish(
     ranks = found.ranks if restoration is None else restoration.ranks
     tell("choosing restoring sets")
     if restoration is None:
-        restoring, durations = restoring_policy(problem, in_time(problem, ranks))
-        statistics = replace(statistics, restoring_durations=len(durations))
+        restoring = restoring_policy(problem, in_time(problem, ranks))
     else:
         restoring = restoration.policy
         statistics = replace(statistics, restored=restored_in(problem, restoration))
