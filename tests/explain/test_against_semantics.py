@@ -6,16 +6,15 @@ from tests.explain.campaign import examine
 from tumato_symbolic.spec import Ordering
 
 CHOSEN = (
-    *(("mixed", seed) for seed in range(5)),
-    *(("interacting", seed) for seed in range(5)),
-    *(("restoring", seed) for seed in range(4)),
-    *(("concurrent", seed) for seed in range(4)),
+    *(("mixed", seed) for seed in range(1, 4)),
+    *(("interacting", seed) for seed in range(1, 4)),
+    *(("restoring", seed) for seed in range(2, 4)),
+    *(("concurrent", seed) for seed in range(2, 4)),
 )
 
 CONFLICTS = (
     ("interacting", 101314, "any"),
     ("interacting", 102349, "first"),
-    ("interacting", 103597, "first"),
     ("mixed", 101684, "any"),
 )
 

@@ -7,7 +7,7 @@ from tests.explain.variants import VARIANTS
 from tumato_symbolic import parse
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.explain.explain import explain, explained
-from tumato_symbolic.explain.explanation import STAGES, Explanation, Found, Unexplained, stopped
+from tumato_symbolic.explain.explanation import STAGES, Explanation, Found, Unexplained, Wanted, stopped
 from tumato_symbolic.limits import Context, LimitReachedError, Limits
 from tumato_symbolic.report.explained import Explained, pieces
 from tumato_symbolic.report.explained_data import as_json, findings
@@ -35,13 +35,14 @@ def _done(found: Found, text: str = BROKEN) -> Explained:
 
 def test_the_text_only_grows() -> None:
     """Every version of the report begins with the one before, up to the last, which is that of `explain`."""
-    for text in (BROKEN, TWO_ROBOTS.read_text(), CONFLICT):
+    wanted: Wanted
+    for text, wanted in ((BROKEN, 3), (TWO_ROBOTS.read_text(), 0), (CONFLICT, 3)):
         before: list[str] = []
-        for found in explained(parse(text)):
+        for found in explained(parse(text), wanted_repairs=wanted):
             now = pieces(_done(found, text), False)
             assert now[: len(before)] == before
             before = now
-        assert before == pieces(_done(explain(parse(text)), text), False)
+        assert before == pieces(_done(explain(parse(text), wanted_repairs=wanted), text), False)
         assert isinstance(found, Explanation)
         assert found.finished == STAGES
 

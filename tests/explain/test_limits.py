@@ -51,17 +51,17 @@ def test_a_policy_leaves_nothing_to_explain() -> None:
 
 def test_the_same_explanation_twice() -> None:
     """Explanations are deterministic."""
-    assert _explained(TWO_ROBOTS.read_text()) == _explained(TWO_ROBOTS.read_text())
+    assert _explained(CONFLICT) == _explained(CONFLICT)
 
 
 def test_both_backends_give_the_same_explanation() -> None:
     """Nothing depends on how a backend enumerates."""
-    for seed in range(6):
-        spec = random_spec(seed)
-        first, second = (explain(spec, "any", backend=backend) for backend in BACKENDS)
-        if isinstance(first, Explanation) and isinstance(second, Explanation):
-            second = replace(second, statistics=first.statistics)
-            assert first == second
+    for seed in (2, 4, 6):
+        first, second = (explain(random_spec(seed), "any", backend=backend) for backend in BACKENDS)
+        assert isinstance(first, Explanation)
+        assert isinstance(second, Explanation)
+        assert first.repairs
+        assert first == replace(second, statistics=first.statistics)
 
 
 def test_many_goals_are_told_where_a_limit_is_met() -> None:

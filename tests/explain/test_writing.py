@@ -1,11 +1,15 @@
 """Tests of writing an assumption into a specification."""
 
+import re
+
 import pytest
 
+from tests.cli.golden import CASES, golden_path
 from tests.repo.documents import ROOT
 from tumato_symbolic import Realizable, parse, synthesize
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.explain.writing import with_assumption
+from tumato_symbolic.semantics import all_states, is_valid
 
 TEXT = "BEGIN STATE VECTOR state S can be a, b, c END STATE VECTOR BEGIN ACTIONS END ACTIONS"
 
@@ -29,14 +33,11 @@ def test_the_assumption_is_added(block: str) -> None:
 
 
 def test_the_grid_with_its_assumption_is_realizable() -> None:
-    """The paper's grid of five by five cells: a cross of five cells around the goal is what remains."""
-    from tumato_symbolic.explain.explain import explain
-    from tumato_symbolic.explain.explanation import Explanation
-
-    text = (ROOT / "examples" / "grid5.tum").read_text()
-    found = explain(parse(text), wanted_repairs=0)
-    assert isinstance(found, Explanation)
-    assert found.part is not None
-    assert (found.part.states, found.part.given_up, found.part.unique) == (5, 20, True)
-    outcome = synthesize(parse(with_assumption(Source("grid5.tum", text), found.part.text)))
-    assert isinstance(outcome, Realizable)
+    """The paper's grid of five by five cells: a cross of five cells around the goal is what `explain` says remains."""
+    case = next(case for case in CASES if case.name == "explain-grid5")
+    told = re.search(r"part: (\d+) of 25 valid states, .*:\n  assume: (.*)", golden_path(case).read_text())
+    assert told is not None
+    states, assumption = told.groups()
+    spec = parse(with_assumption(Source("grid5.tum", (ROOT / "examples" / "grid5.tum").read_text()), assumption))
+    assert sum(is_valid(spec, state) for state in all_states(spec)) == int(states) == 5
+    assert isinstance(synthesize(spec), Realizable)

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from random import Random
+from typing import Any
 
 from msgspec.structs import replace
 
 from tests.checker.stepwise import policies, stepwise_spec, ways
 from tests.differential import changed_policies
-from tests.export.compiler import Case
+from tests.export.compiler import Case, Library
 from tests.generate import random_spec
 from tests.oracle import World, decide_world
 from tests.profiles import ALL_PROFILES
@@ -74,6 +75,17 @@ def _near(spec: Spec) -> Iterator[Spec]:
     yield replace(spec, reaction_rules=(), max_plan_length=2)
     yield replace(spec, preconditions="at_start" if spec.preconditions == "throughout" else "throughout")
     yield replace(spec, actions=tuple(replace(action, duration=2 * n + 1) for n, action in enumerate(spec.actions)))
+
+
+def agrees(cases: Mapping[Any, Sequence[Case]], library: Library) -> None:
+    """Coq and the explicit meaning say the same of each case; of every kind some are right, and some are not.
+
+    It is asked once, about all of them: to start it takes as long as a hundred answers.
+    """
+    expected = {kind: [is_right(case) for case in some] for kind, some in cases.items()}
+    assert all(any(each) and not all(each) for each in expected.values())
+    answers = iter(library.checks([case for some in cases.values() for case in some]))
+    assert {kind: [next(answers) for _ in some] for kind, some in cases.items()} == expected
 
 
 def is_right(case: Case) -> bool:

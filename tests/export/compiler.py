@@ -68,7 +68,10 @@ class Library(Struct, frozen=True):
                 unfinished = folder.with_suffix(".unfinished")
                 shutil.rmtree(unfinished, ignore_errors=True)
                 unfinished.mkdir()
-                built = cls.copy_to(unfinished).build(target)
+                library = cls.copy_to(unfinished)
+                for compiled in KEPT.glob(f"coq-*-{digest[:16]}"):  # for another target
+                    shutil.copytree(compiled, unfinished, dirs_exist_ok=True)
+                built = library.build(target)
                 assert built.returncode == 0, built.stderr
                 unfinished.rename(folder)
         return cls(folder)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import chain, islice
 from pathlib import Path
 
 import pytest
@@ -94,9 +93,9 @@ def test_changed_policies_of_the_robot(target: str, verdicts: Verdicts, tmp_path
 @by_each
 @pytest.mark.parametrize("profile", ALL_PROFILES)
 def test_generated_policies(target: str, verdicts: Verdicts, profile: str, tmp_path: Path) -> None:
-    """Right and wrong ones, under both orderings."""
-    realizable = (found for seed in range(160, 220) if (found := generated(profile, seed, 4)))
-    right, _ = _compare(target, verdicts, list(chain.from_iterable(islice(realizable, 2))), tmp_path)
+    """Right and wrong ones, under both orderings. Of more: `python -m tests.export.trial nusmv`, `storm` and `tla`."""
+    cases = next(found for seed in range(160, 220) if (found := generated(profile, seed, 4)))
+    right, _ = _compare(target, verdicts, cases, tmp_path)
     assert right > 0
 
 

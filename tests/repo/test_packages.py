@@ -43,7 +43,7 @@ def test_the_wheel_installs_and_runs_outside_the_checkout(built: Path, tmp_path:
     subprocess.run([sys.executable, "-m", "venv", "--without-pip", str(environment)], check=True, timeout=120)
     python = str(environment / "bin" / "python")
     pip = [sys.executable, "-m", "pip", "--python", python]
-    install = [*pip, "install", "--quiet", "--no-index", "--no-deps", str(wheel)]
+    install = [*pip, "install", "--quiet", "--no-index", "--no-deps", "--no-compile", str(wheel)]
     subprocess.run(install, check=True, timeout=120)
     # Dependencies come from here, so that the test needs no network; our own editable install does not come along.
     packages = sysconfig.get_path("purelib", vars={"base": str(environment), "platbase": str(environment)})

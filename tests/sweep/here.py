@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
+from functools import cache
 from itertools import count, islice
 from pathlib import Path
 from random import Random
@@ -66,6 +67,16 @@ def shuffling(
             yield Workers(submit, lambda: 2, 1.0)
 
     return hired
+
+
+KNOWN: dict[Task, Answer] = {}
+"""What was answered in tests of `PLAN`, so that it is solved once."""
+
+
+@cache
+def whole() -> str:
+    """All results of `PLAN` as text."""
+    return run(None, shuffling(0, KNOWN))
 
 
 def run(path: Path | None, hired: Callable[[], Hired], plan: Plan = PLAN) -> str:

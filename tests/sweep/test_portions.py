@@ -5,14 +5,10 @@ from concurrent.futures import Future
 
 import pytest
 
-from tests.sweep.here import PLAN, run, shuffling
-from tumato_symbolic.sweep import Task
+from tests.sweep.here import KNOWN, PLAN, run, shuffling, whole
 from tumato_symbolic.sweep.portions import Portion, Portions, Workers
 from tumato_symbolic.sweep.tasks import NOTHING, Answer, Reply
 from tumato_symbolic.sweep.variants import Variant
-
-KNOWN: dict[Task, Answer] = {}
-WHOLE = run(None, shuffling(0, KNOWN))
 
 
 def portions_of(number: int, hands: int = 2, seconds: float = 1.0) -> Portions:
@@ -106,9 +102,9 @@ def test_only_one_that_kills_is_lost(seed: int) -> None:
     guilty = PLAN.variants[5]
     text = guilty.text(PLAN.source)
     found = run(None, shuffling(seed, KNOWN, deadly=lambda task: task.text == text)).splitlines()
-    whole = WHOLE.splitlines()
+    others = whole().splitlines()
     place = guilty.number + 1
-    assert found[:place] + found[place + 1 :] == whole[:place] + whole[place + 1 :]
+    assert found[:place] + found[place + 1 :] == others[:place] + others[place + 1 :]
     line = json.loads(found[place])
     assert (line["verdict"], line["limit"], line["differs"]) == ("undecided", "it was killed", None)
 

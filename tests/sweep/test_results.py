@@ -5,13 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from tests.sweep.here import COIN, PLAN, GoneError, run, shuffling
+from tests.sweep.here import COIN, KNOWN, PLAN, GoneError, run, shuffling, whole
 from tumato_symbolic.diagnostics import UserError
 from tumato_symbolic.sweep import Plan, Task, dropped, kept
 from tumato_symbolic.sweep.tasks import Answer
-
-KNOWN: dict[Task, Answer] = {}
-WHOLE = run(None, shuffling(0, KNOWN))
 
 
 def refused(path: Path, plan: Plan = PLAN, version: str = "0") -> str:
@@ -26,9 +23,9 @@ def refused(path: Path, plan: Plan = PLAN, version: str = "0") -> str:
 @pytest.mark.parametrize("seed", range(5))
 def test_the_order_of_answers_does_not_matter(seed: int, tmp_path: Path) -> None:
     """In the file and on the output, the lines stand in the order of the variants."""
-    assert run(tmp_path / "results.jsonl", shuffling(seed, KNOWN)) == WHOLE
-    assert (tmp_path / "results.jsonl").read_text() == WHOLE
-    numbers = [json.loads(line)["variant"] for line in WHOLE.splitlines()[1:]]
+    assert run(tmp_path / "results.jsonl", shuffling(seed, KNOWN)) == whole()
+    assert (tmp_path / "results.jsonl").read_text() == whole()
+    numbers = [json.loads(line)["variant"] for line in whole().splitlines()[1:]]
     assert numbers == list(range(len(PLAN.variants)))
 
 
@@ -41,37 +38,37 @@ def test_a_sweep_that_stops_goes_on(most: int, tmp_path: Path) -> None:
     there = [json.loads(line)["variant"] for line in path.read_text().splitlines()[1:]]
     assert len(there) <= most
     asked: dict[Task, Answer] = {}
-    assert run(path, shuffling(7, asked)) == WHOLE
+    assert run(path, shuffling(7, asked)) == whole()
     assert len(asked) == len(PLAN.variants) - len(there) + (
         len(there) > 0
     )  # and the specification, with which others are compared
-    assert path.read_text() == WHOLE
+    assert path.read_text() == whole()
 
 
 def test_a_file_cut_anywhere_is_completed(tmp_path: Path) -> None:
     """By a kill in the middle of a line, or of the header."""
     path = tmp_path / "results.jsonl"
-    for length in [*range(0, 60, 7), *range(60, len(WHOLE), 211), len(WHOLE) - 1, len(WHOLE)]:
-        path.write_text(WHOLE[:length])
-        assert run(path, shuffling(length, KNOWN)) == WHOLE, length
-        assert path.read_text() == WHOLE, length
+    for length in [*range(0, 60, 7), *range(60, len(whole()), 211), len(whole()) - 1, len(whole())]:
+        path.write_text(whole()[:length])
+        assert run(path, shuffling(length, KNOWN)) == whole(), length
+        assert path.read_text() == whole(), length
 
 
 def test_a_line_cut_in_two_spoils_no_other(tmp_path: Path) -> None:
     """Also where the next run is killed too: each line of the file is one result, and none stands there twice."""
     path = tmp_path / "results.jsonl"
-    path.write_text(WHOLE[: len(WHOLE) // 3])
+    path.write_text(whole()[: len(whole()) // 3])
     with pytest.raises(GoneError):
         run(path, shuffling(0, KNOWN, 5))
     numbers = [json.loads(line)["variant"] for line in path.read_text().splitlines()[1:]]
     assert len(numbers) == len(set(numbers))
-    assert run(path, shuffling(1, KNOWN)) == WHOLE
+    assert run(path, shuffling(1, KNOWN)) == whole()
 
 
 def test_a_file_of_another_sweep_is_refused(tmp_path: Path) -> None:
     """The message says what is otherwise."""
     path = tmp_path / "results.jsonl"
-    path.write_text(WHOLE)
+    path.write_text(whole())
     other = Plan("drop", COIN, dropped(COIN), {"some": "thing"})
     assert "the options are others: some option there, thing here" in refused(path, other)
     assert "another version of tumato-symbolic" in refused(path, version="1")
@@ -86,12 +83,13 @@ def test_a_file_of_something_else_is_refused(text: str, tmp_path: Path) -> None:
     assert "TUM120" in refused(path)
 
 
-@pytest.mark.parametrize("line", ["no", "{}", "3", '{"variant": 1}', WHOLE.splitlines()[2].replace(": 1,", ": 99,", 1)])
+@pytest.mark.parametrize("line", ["no", "{}", "3", '{"variant": 1}', "the one that is there, as number 99"])
 def test_a_line_that_is_no_result_is_named(line: str, tmp_path: Path) -> None:
     """Not guessed at, and not passed over."""
     path = tmp_path / "results.jsonl"
-    header, first, *rest = WHOLE.splitlines()
-    path.write_text("\n".join([header, first, line, *rest, ""]))
+    header, first, second, *rest = whole().splitlines()
+    line = second.replace(": 1,", ": 99,", 1) if line.endswith("99") else line
+    path.write_text("\n".join([header, first, line, second, *rest, ""]))
     assert "line 3 of" in refused(path)
 
 

@@ -1,5 +1,6 @@
 """*No plan*: any layers that hold the runs and avoid the goal are a proof, whoever made or checks them."""
 
+from functools import lru_cache
 from itertools import pairwise
 from random import Random
 
@@ -26,9 +27,15 @@ TARGETS = tuple(f"t{number}" for number in range(14))
 Sets = dict[Residual, list[set[State]]]
 
 
+@lru_cache(maxsize=1)
+def some_certificate(spec: Spec, ordering: Ordering) -> Unrealizability | None:
+    """One for a specification of which several tests in a row put another reason into it."""
+    return certified(spec, ordering)
+
+
 def certificate_of(spec: Spec, ordering: Ordering, state: State, sets: Sets) -> Unrealizability:
     """A certificate with these sets of states as layers."""
-    certificate, vocabulary = certified(spec, ordering), Vocabulary.of(spec)
+    certificate, vocabulary = some_certificate(spec, ordering), Vocabulary.of(spec)
     assert certificate is not None
     builder = DiagramBuilder(range(len(vocabulary.sizes)), (False, True))
     goals = [
