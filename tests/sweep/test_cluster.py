@@ -273,7 +273,7 @@ def test_a_worker_that_joins_late(started: Started) -> None:
 def test_who_gives_up_leaves_workers_free(started: Started) -> None:
     """What they were at is ended, though it would take long; else the next sweep would wait for it."""
     started.worker()
-    for text, within in ((loads(25, realizable=True), 1), (COIN.text, 60)):
+    for text, within in ((loads(100, realizable=True), 1), (COIN.text, 60)):
         with cluster.cluster(started.address) as workers:
             reply = workers.submit(Batch(TASK, (text,), 1.0).written())
             wait([reply], within)
