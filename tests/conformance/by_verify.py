@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Sequence
 from functools import cache, cached_property, lru_cache
 from typing import TYPE_CHECKING
@@ -167,12 +168,13 @@ class Walk(Prover):
         efforts = WalkEfforts(model, world.ordering)
         largest = sum(action.duration for action in world.spec.actions) * len(rows)
         number_of = {efforts.number((d, k)): (d, k) for d in range(largest + 1) for k in range(len(rows) + 1)}
-        parts = model.walk.parts(efforts.exact_worst())
+        walk, worst = model.walk, efforts.exact_worst()
         return {
             state: number_of[number]
-            for number, where in parts.items()
+            for number in walk.values_of(worst)
             for state in rows
-            if number in number_of and model.holds(where, state, frozenset())
+            if number in number_of
+            and model.holds(walk.apply(operator.eq, worst, walk.constant(number)), state, frozenset())
         }
 
     def guarantees(self, world: World, rows: Rows) -> dict[State, Guarantee | None]:

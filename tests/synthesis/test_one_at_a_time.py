@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 
@@ -153,6 +154,20 @@ def test_sets_that_are_too_many_are_left_alone(monkeypatch: pytest.MonkeyPatch, 
     assert table is not None
     assert max(map(len, table.rows.values())) == 1
     assert ask(tmp_path, dumps(outcome.policy), responders(2, True)).code == 0
+
+
+def test_which_machine_helps_whom_takes_little_to_prove(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One machine acts at a time, so the proof looks at each action by itself, and not at all machines together."""
+    monkeypatch.setattr(pipeline, "MOST_NODES", 20_000)
+    spec = parse(responders(3, True))
+    outcome = synthesize(spec)
+    assert isinstance(outcome, Realizable)
+    assert remarks(outcome)
+    steps = import_module("tumato_symbolic.verify.by_diagrams.steps")
+    monkeypatch.setattr(steps, "Walk", partial(steps.Walk, most_steps=20_000))
+    answer = verify(outcome.policy, spec, prover="walk")
+    assert answer.verdict == "proved"
+    assert answer.certificate.status == "used"
 
 
 def test_both_backends_give_up_alike(monkeypatch: pytest.MonkeyPatch) -> None:

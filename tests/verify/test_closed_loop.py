@@ -38,7 +38,7 @@ from tumato_symbolic.verify.by_diagrams.functions import FALSE, TRUE, BudgetErro
 from tumato_symbolic.verify.by_diagrams.goals import WalkGoals
 from tumato_symbolic.verify.by_diagrams.order import walk_order
 from tumato_symbolic.verify.by_diagrams.parallel import ParallelProofs, Task
-from tumato_symbolic.verify.by_diagrams.walk import Walk
+from tumato_symbolic.verify.by_diagrams.walk import UNASKED, Walk
 from tumato_symbolic.verify.by_diagrams.witnesses import Witnesses
 from tumato_symbolic.verify.by_states.packed import Packing
 from tumato_symbolic.verify.by_states.runs import Runs
@@ -198,7 +198,7 @@ REMEMBERED: dict[str, Callable[[Walk, int, int], object]] = {
     "compose": lambda walk, one, other: walk.compose(one, {3: other, 5: TRUE}),
     "substitute a value": lambda walk, one, _: walk.compose(one, {5: TRUE}),
     "cofactor_where": lambda walk, one, other: walk.cofactor_where(one, {4: 1}, other, one),
-    "parts": lambda walk, one, _: walk.parts(one),
+    "holds_where": lambda walk, one, other: walk.holds_where(one, {4: 1}, operator.ge, other, FALSE),
 }
 
 
@@ -219,10 +219,7 @@ def test_every_operation_counts_what_it_remembers(name: str) -> None:
     used = walk.remembered - before
     assert used >= 4, "one for each node at least"
     REMEMBERED[name](walk, one, other)
-    if name != "parts":
-        assert walk.remembered - before <= used + (used if name == "cofactor_where" else 0), (
-            "what is known is not made again"
-        )
+    assert walk.remembered - before == used, "what is known is not made again"
     walk, one, other = made(used)
     REMEMBERED[name](walk, one, other)
     assert not walk.is_full
@@ -388,7 +385,7 @@ def test_the_next_state_by_cases_and_by_variables(actions: int, monkeypatch: pyt
     states = literal.states(spec)
     rows = {state: frozenset(n for n in range(actions) if (state[n] + sum(state)) % 2 == 0) for state in states}
     for most in (0, 128):
-        monkeypatch.setattr(import_module("tumato_symbolic.verify.by_diagrams.closed_loop"), "MOST_CASES", most)
+        monkeypatch.setattr(import_module("tumato_symbolic.verify.by_diagrams.cases"), "MOST_CASES", most)
         model = ClosedLoop(spec, as_diagram(policy_from_rows(spec, rows)), "any")
         for variable in range(actions):
             after = model.next(model.walk.variable(variable))
@@ -416,7 +413,7 @@ def _some_rows(spec: Spec, random: Random) -> dict[State, ActionSet]:
 @pytest.mark.parametrize("most", [0, 3, 128])
 def test_the_next_state_where_some_groups_are_taken_apart(most: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """Constants by one group, or by all, beside the next values of other variables: δ all the same."""
-    monkeypatch.setattr(import_module("tumato_symbolic.verify.by_diagrams.closed_loop"), "MOST_CASES", most)
+    monkeypatch.setattr(import_module("tumato_symbolic.verify.by_diagrams.cases"), "MOST_CASES", most)
     build = Build({"x": "abc", "y": "abc", "z": "ab"}, resources="R")
     for effect in ("x=a", "x=b y=a", "y=a", "x=c"):
         build.action(effect, needs="R")
@@ -435,6 +432,13 @@ def test_the_next_state_where_some_groups_are_taken_apart(most: int, monkeypatch
         after = model.next(function)
         for state, chosen_set in rows.items():
             assert _value(model, after, state, frozenset()) == table[literal.successor(spec, state, chosen_set)]
+        assert model.steps_hold(operator.eq, function, after)
+        for state in rows:
+            wrong = walk.select(model.is_state(state), (after, walk.apply(operator.add, after, walk.constant(1))))
+            assert not model.steps_hold(operator.eq, function, wrong)
+            assert model.steps_hold(operator.lt, function, wrong) == (len(rows) == 1)
+            asked = walk.select(model.is_state(state), (walk.constant(UNASKED), wrong))
+            assert model.steps_hold(operator.lt, function, asked)
 
 
 def test_why_a_walk_is_given_up() -> None:

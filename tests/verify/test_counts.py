@@ -425,7 +425,7 @@ def test_nothing_asked_is_an_error_of_the_caller() -> None:
 @pytest.mark.parametrize("cases", [0, 128])
 def test_a_run_ends_where_nominal_effects_disagree(prover: Name, cases: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """Whatever one of the two would lead to: there is no next state, and a run that comes there misses its goal."""
-    monkeypatch.setattr(import_module("tumato_symbolic.verify.by_diagrams.closed_loop"), "MOST_CASES", cases)
+    monkeypatch.setattr(import_module("tumato_symbolic.verify.by_diagrams.cases"), "MOST_CASES", cases)
     build = Build({"x": "abcd"})
     first = build.action("x=b", when=[build.atom("x=a")])
     one, two = build.action("x=c"), build.action("x=d")

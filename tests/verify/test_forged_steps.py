@@ -145,3 +145,30 @@ def test_a_rival_of_two_actions_that_go_wrong_together(is_allowed: bool, orderin
     policy = policy_from_rows(spec, {build.state("uaa"): frozenset((2,))})
     answer = verify(policy, spec, ordering=ordering, prover=prover, properties=["safe", "minimal"])
     assert [result.verdict for result in answer.properties] == ["proved", "refuted" if is_allowed else "proved"]
+
+
+@pytest.mark.parametrize("ordering", ORDERINGS)
+def test_outcomes_in_states_of_which_some_actions_say_nothing(ordering: Ordering) -> None:
+    """Whether all outcomes are in a set of states, also where it is told by variables that only some actions write."""
+    build = Build({"x": "abc", "y": "ab", "z": "ab"}, ["arm"])
+    for nominal, alternatives, needs in (
+        ("x=b", ["x=c"], []),
+        ("x=b", ["x=a y=b"], ["arm"]),
+        ("y=b", [], []),
+        ("", ["z=b"], ["arm"]),
+        ("z=b", ["y=a"], []),
+    ):
+        build.action(nominal, alternatives, needs=needs)
+    spec = build.spec()
+    model = ClosedLoop(spec, as_diagram(policy_from_rows(spec, {})), ordering)
+    wanted: list[Formula] = [Not(Is(0, 2)), Or((Is(0, 0), Is(0, 1))), Is(1, 1), Not(Is(2, 1)), Or((Is(0, 0), Is(2, 0)))]
+    sets = [frozenset[int](), *(frozenset({each}) for each in range(len(spec.actions))), *compatible(spec)]
+    met = set()
+    for formula in [*wanted, And(()), Or(())]:
+        within = model.outcomes_in(model.formula(formula))
+        for state, chosen in product(literal.states(spec), sets):
+            ends = literal.outcomes(spec, state, chosen, ordering)
+            expected = all(literal.true(formula, end) for end in ends)
+            assert model.holds(within, state, chosen) == expected, (formula, state, chosen)
+            met.add(expected)
+    assert met == {True, False}

@@ -72,10 +72,6 @@ def test_operations_do_what_they_say(order: tuple[int, ...]) -> None:
         assert _table(walk, written) == {
             point: cases[0][1][point[0], 2, point[2], 0] if one[1][point] else numbers[point] for point in POINTS
         }
-        parts = walk.parts(number)
-        assert list(parts) == walk.values_of(number)
-        for value, where in parts.items():
-            assert _table(walk, where) == {point: int(numbers[point] == value) for point in POINTS}
         small = _table(walk, walk.within(one[0], cases[0][0]))
         assert all(small[point] == cases[0][1][point] for point in POINTS if one[1][point])
         both, either = walk.all_of((one[0], other[0])), walk.any_of((one[0], other[0]))
@@ -91,8 +87,8 @@ def test_what_a_function_is_elsewhere_may_make_it_small() -> None:
     random = Random(0)
     for _ in range(20):
         function, table = _function(walk, random, 3)
-        for value, where in walk.parts(function).items():
-            assert walk.within(where, function) == walk.constant(value)
+        for value in map(walk.constant, walk.values_of(function)):
+            assert walk.within(walk.apply(operator.eq, function, value), function) == value
         assert walk.within(TRUE, function) == function
         assert set(_table(walk, walk.within(FALSE, function)).values()) <= set(table.values())
 
@@ -147,14 +143,14 @@ def test_the_walk_judges_as_the_explicit_meaning_does(
 
     So it is where the nominal step is taken variable by variable, and where it is taken case by case.
     """
-    met, closed_loop = set(), import_module("tumato_symbolic.verify.by_diagrams.closed_loop")
+    met, cases = set(), import_module("tumato_symbolic.verify.by_diagrams.cases")
     for seed in range(300, 308):
         spec, random = random_spec(seed, ALL_PROFILES[profile]), Random(seed)
         for rows in near_policies(spec, ordering, random):
             judged = judge(spec, rows, ordering)
             wrong = (judged.missing, judged.not_allowed, judged.goal_missed, judged.not_minimal)
             for most_cases in (0, 128):
-                monkeypatch.setattr(closed_loop, "MOST_CASES", most_cases)
+                monkeypatch.setattr(cases, "MOST_CASES", most_cases)
                 answer = _walked(spec, rows, ordering, random)
                 assert list(_verdicts(answer).values()) == ["refuted" if each else "proved" for each in wrong]
             for result in answer.properties:

@@ -3,29 +3,15 @@
 from __future__ import annotations
 
 import operator
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property
-from typing import NamedTuple
 
 from tumato_symbolic.policy import DecisionDiagram
 from tumato_symbolic.semantics import contested_values
 from tumato_symbolic.spec import Ordering, Spec
-from tumato_symbolic.verify.by_diagrams.functions import FALSE, Function
+from tumato_symbolic.verify.by_diagrams.cases import Case, Cases
+from tumato_symbolic.verify.by_diagrams.functions import FALSE, TRUE, Function
 from tumato_symbolic.verify.by_diagrams.steps import Steps
-
-MOST_CASES = 128
-"""So many different things that several groups of actions nominally write are looked at apart."""
-
-
-class _Case(NamedTuple):
-    """Acting states in which the policy nominally writes the same constants.
-
-    `changed` has the next values of other variables there, where these depend on the state.
-    """
-
-    where: Function
-    writes: Mapping[int, int]
-    changed: Mapping[int, Function]
 
 
 class ClosedLoop(Steps):
@@ -42,6 +28,7 @@ class ClosedLoop(Steps):
         self.policy = [taken[root] for root in decisions.roots]
         self.defined = taken[decisions.defined]
         self.decided = self.walk.all_of((self.valid, self.defined))
+        self._nodes = len(decisions.diagram.nodes)
         self._next: dict[Function, Function] = {}
 
     @cached_property
@@ -57,47 +44,16 @@ class ClosedLoop(Steps):
         return self.walk.all_of((self.acting, outcomes, self.next(target)))
 
     @cached_property
-    def _cases(self) -> list[_Case]:
-        """The acting states by what the policy nominally writes there.
+    def cases(self) -> list[Case]:
+        """The acting states by what the policy nominally writes there: the largest groups of actions first."""
+        groups = [self._executed(group) for group in sorted(self.groups, key=len, reverse=True)]
+        return Cases(self.spec, self.walk, self.acting, groups).apart(self._nodes)
 
-        By the largest group of actions, and by others while there are few cases.
-        """
-        walk, number = self.walk, FALSE
-        pairs = sorted({pair for action in self.spec.actions for pair in action.nominal})
-        bit = {pair: 1 << place for place, pair in enumerate(pairs)}
-        first, *groups = sorted(self.groups, key=len, reverse=True) or [()]
-        number = together = self._written(first, bit)
-        for group in groups:
-            together = walk.apply(operator.or_, together, self._written(group, bit))
-            if len(walk.values_of(together)) > MOST_CASES:
-                break
-        else:
-            number, groups = together, []
-        others = [action for group in groups for action in group]
-        cases = walk.parts(walk.select(self.acting, (walk.constant(-1), number)))
-        return [
-            self._case(where, dict(pair for pair in pairs if mask & bit[pair]), others)
-            for mask, where in cases.items()
-            if mask >= 0
-        ]
-
-    def _written(self, group: Sequence[int], bit: Mapping[tuple[int, int], int]) -> Function:
-        """What the actions of a group nominally write where the policy acts, a bit for every variable and value."""
-        walk, masks = self.walk, [sum(bit[pair] for pair in self.spec.actions[action].nominal) for action in group]
-        where = (walk.all_of((self.acting, self.policy[action])) for action in group)
-        parts = [walk.select(each, (FALSE, walk.constant(mask))) for each, mask in zip(where, masks, strict=True)]
-        return walk.apply_all(operator.or_, [FALSE, *parts])
-
-    def _case(self, where: Function, writes: dict[int, int], others: Sequence[int]) -> _Case:
-        """Some acting states in which these constants are written, and whatever `others` write there."""
-        walk, changed = self.walk, dict[int, Function]()
-        for action in others:
-            executed = walk.all_of((where, self.policy[action]))
-            for variable, value in self.spec.actions[action].nominal if executed != FALSE else ():
-                if variable not in writes:
-                    stays = changed.get(variable, walk.variable(variable))
-                    changed[variable] = walk.select(walk.within(where, executed), (stays, walk.constant(value)))
-        return _Case(where, writes, changed)
+    def _executed(self, group: Sequence[int]) -> dict[int, Function]:
+        """Where the policy acts by which actions of a group that nominally write something."""
+        writing = (action for action in group if self.spec.actions[action].nominal)
+        each = ((action, self.walk.all_of((self.acting, self.policy[action]))) for action in writing)
+        return {action: where for action, where in each if where != FALSE}
 
     def next(self, function: Function) -> Function:
         """`function` in `δ(s, π(s))` where the policy acts; elsewhere it means nothing."""
@@ -106,15 +62,32 @@ class ClosedLoop(Steps):
         return self._next[function]
 
     def _after_step(self, function: Function) -> Function:
+        if function in (FALSE, TRUE):
+            return function
         found = FALSE
-        for case in self._cases:
+        for case in self.cases:
             if case.changed:
-                constants = {variable: self.walk.constant(value) for variable, value in case.writes.items()}
-                after = self.walk.compose(function, {**case.changed, **constants})
-                found = self.walk.select(case.where, (found, after))
+                found = self.walk.select(case.where, (found, self._after(case, function)))
             else:
                 found = self.walk.cofactor_where(case.where, case.writes, function, found)
         return found
+
+    def _after(self, case: Case, function: Function) -> Function:
+        """`function` in `δ(s, π(s))` in the states of a case, where what is written depends on the state."""
+        constants = {variable: self.walk.constant(value) for variable, value in case.writes.items()}
+        return self.walk.compose(function, {**case.changed, **constants})
+
+    def steps_hold(self, relation: Callable[[int, int], bool], after: Function, here: Function) -> bool:
+        """Whether `relation` is true of `after(δ(s, π(s)))` and `here(s)` wherever the policy acts.
+
+        Nothing is asked where `here` is `UNASKED`. Case by case: what is after all steps at once may be far larger than
+        what is after one of them.
+        """
+        for case in self.cases:
+            writes, function = ({}, self._after(case, after)) if case.changed else (case.writes, after)
+            if not self.walk.holds_where(case.where, writes, relation, function, here):
+                return False
+        return True
 
     def obligations(self) -> Iterator[tuple[str, Function]]:
         """What makes a decision allowed: claims, each with the decided states that violate it."""

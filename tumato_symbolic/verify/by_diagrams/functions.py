@@ -116,24 +116,6 @@ class Functions:
                 pending += fresh
         return sorted({self._levels[each] for each in seen if each not in self._values})
 
-    def parts(self, function: Function) -> dict[int, Function]:
-        """Where a function has which of its values, in ascending order."""
-        known: dict[Function, dict[int, Function]] = {}
-
-        def visit(here: Function) -> dict[int, Function]:
-            if here in self._values:
-                return {self._values[here]: TRUE}
-            if here not in known:
-                below = [visit(part) for part in self._below[here]]
-                found = {
-                    value: self._node(self._levels[here], tuple([part.get(value, FALSE) for part in below]))
-                    for value in sorted(set[int]().union(*below))
-                }
-                self._remember(known, here, found)
-            return known[here]
-
-        return visit(function)
-
     def fold(self, function: Function, leaf: Callable[[int], Part], node: Callable[[int, list[Part]], Part]) -> Part:
         """A function handed on: what `leaf` makes of its values, and `node` of a variable and a part for each value."""
         variables = {level: variable for variable, level in self.level_of.items()}

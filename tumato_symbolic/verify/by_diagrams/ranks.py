@@ -11,12 +11,13 @@ from tumato_symbolic.semantics import Residual
 from tumato_symbolic.verify.by_diagrams.closed_loop import ClosedLoop
 from tumato_symbolic.verify.by_diagrams.functions import FALSE, Function
 from tumato_symbolic.verify.by_diagrams.goals import Aim, WalkGoals
+from tumato_symbolic.verify.by_diagrams.walk import UNASKED
 from tumato_symbolic.verify.claimed_ranks import UNNEEDED, ClaimedRanks
 
 
-def at_most_one_more(one: int, other: int) -> int:
-    """`one ≤ other + 1`."""
-    return int(one <= other + 1)
+def one_less_at_least(after: int, here: int) -> bool:
+    """`after ≥ here - 1`."""
+    return after >= here - 1
 
 
 class WalkRanks(ClaimedRanks):
@@ -67,7 +68,7 @@ class WalkRanks(ClaimedRanks):
     def prepare(self) -> None:
         """Compute what claimed ranks have in common, whatever their goals."""
         if self.roots:
-            self._imported, self._covered_after  # noqa: B018 - cached
+            self._imported, self._covered_after, self._model.cases  # noqa: B018 - cached
 
     def check_claimed(self, decreases: Callable[[Residual], bool]) -> bool:
         """Whether there is a certificate all of whose ranks decrease; a false one is set aside."""
@@ -120,23 +121,26 @@ class WalkRanks(ClaimedRanks):
     def decreases(self, goal: Residual) -> bool:
         """`N = 0` only where the goal is met, and from `N = j > 0` a step to a state with a smaller rank."""
         model, walk = self._model, self._model.walk
-        here = self._claimed(goal)
-        after = model.next(here)
-        known = walk.apply(operator.lt, here, walk.constant(self._never))
-        at_goal = walk.apply(operator.eq, here, walk.constant(0))
-        goes_down = walk.all_of((model.acting, self._covered_after, walk.apply(operator.lt, after, here)))
-        right = walk.select(at_goal, (goes_down, self._goals.reached(goal)))
-        return walk.without(walk.all_of((self._covered, known)), right) == FALSE
+        here, never = self._claimed(goal), walk.constant(self._never)
+        known = walk.all_of((self._covered, walk.apply(operator.lt, here, never)))
+        moves = walk.all_of((known, walk.apply(operator.ne, here, walk.constant(0))))
+        if walk.without(known, walk.any_of((moves, self._goals.reached(goal)))) != FALSE:
+            return False
+        if walk.without(moves, walk.all_of((model.acting, self._covered_after))) != FALSE:
+            return False
+        return model.steps_hold(operator.lt, here, walk.select(moves, (walk.constant(UNASKED), here)))
 
     def _is_lower_bound(self, goal: Residual) -> bool:
         """`N = 0` where the goal is met, and nowhere more than one above the next state's, which has a rank."""
         model, walk = self._model, self._model.walk
-        here = self._claimed(goal)
-        after = model.next(here)
-        follows = walk.all_of((self._covered_after, walk.apply(at_most_one_more, here, after)))
+        here, reached = self._claimed(goal), self._goals.reached(goal)
         at_goal = walk.apply(operator.eq, here, walk.constant(0))
-        wrong = walk.select(self._goals.reached(goal), (walk.without(model.acting, follows), walk.negation(at_goal)))
-        return walk.all_of((self._covered, wrong)) == FALSE
+        moves = walk.without(self._covered, reached)
+        if walk.without(self._covered, walk.any_of((moves, at_goal))) != FALSE:
+            return False
+        if walk.without(walk.all_of((moves, model.acting)), self._covered_after) != FALSE:
+            return False
+        return model.steps_hold(one_less_at_least, here, walk.select(moves, (walk.constant(UNASKED), here)))
 
     @property
     def _covered(self) -> Function:

@@ -187,12 +187,31 @@ class Steps:
         may speak of `A` as well.
         """
         walk, before = self.walk, FALSE
-        found = walk.all_of((target, self.compatible))
+        concerned = self._concerned(target)
+        found = walk.all_of((target, self._compatible_among(concerned)))
         while found != before:
             before = found
-            for action, chosen in enumerate(self.chosen):
-                found = walk.all_of((found, walk.select(chosen, (TRUE, self.after(action, found)))))
+            for action in concerned:
+                found = walk.all_of((found, walk.select(self.chosen[action], (TRUE, self.after(action, found)))))
         return found
+
+    def _concerned(self, target: Function) -> list[int]:
+        """The actions that may lead out of `target`: they write what it tests, or it speaks of them."""
+        tested, level_of = set(self.walk.levels_of(target)), self.walk.level_of
+        return [
+            number
+            for number, action in enumerate(self.spec.actions)
+            if level_of[self.group_variable(number)] in tested
+            or any(level_of[variable] in tested for effect in action.effects for variable, _ in effect)
+        ]
+
+    def _compatible_among(self, actions: Sequence[int]) -> Function:
+        """No two of these actions, if they are in `A`, exclude each other."""
+        if len(actions) == len(self.chosen):
+            return self.compatible
+        among = set(actions)
+        executed = [each if number in among else FALSE for number, each in enumerate(self.chosen)]
+        return self.walk.negation(self.conflict(executed))
 
     @cached_property
     def outcomes_safe(self) -> Function:
@@ -210,10 +229,16 @@ class Steps:
 
     def _outcomes_in(self, target: Function, then: Function) -> Function:
         """Every outcome of `A` in `s` is in `target`, where `then` has to hold after each effect."""
-        walk = self.walk
-        actions = [(action, self.chosen[action]) for action, each in enumerate(self.spec.actions) if each.effects]
-        effects = (walk.select(chosen, (TRUE, self.after(action, then))) for action, chosen in actions)
-        return walk.all_of((walk.any_of((*(chosen for _, chosen in actions), target)), *effects))
+        walk, concerned = self.walk, set(self._concerned(then))
+        acting = [action for action, each in enumerate(self.spec.actions) if each.effects]
+        others = walk.any_of(self.chosen[action] for action in acting if action not in concerned)
+        effects = (
+            walk.select(self.chosen[action], (TRUE, self.after(action, then)))
+            for action in acting
+            if action in concerned
+        )
+        ends_here = walk.any_of((*(self.chosen[action] for action in acting), target))
+        return walk.all_of((ends_here, walk.select(others, (TRUE, then)), *effects))
 
     def successor(self, executed: Sequence[Function]) -> dict[int, Function]:
         """`δ`: the next value of every variable that may change, where the nominal effects agree."""

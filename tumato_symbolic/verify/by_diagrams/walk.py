@@ -1,9 +1,9 @@
 """The walk: operations on functions as ordered diagrams, so that a proof is a comparison.
 
 The functions are those of `functions.py`. A violation is impossible exactly when it is `FALSE`. All that is computed
-comes from four walks over diagrams, each remembering what it has done: `select` (cases), `apply` (any operation on two
-functions), `compose` (functions for variables; an effect is a constant for each variable that it writes) and
-`cofactor_where` (values for variables where a predicate holds).
+comes from five walks over diagrams, each remembering what it has done: `select` (cases), `apply` (any operation on two
+functions), `compose` (functions for variables; an effect is a constant for each variable that it writes),
+`cofactor_where` (values for variables where a predicate holds) and `holds_where` (whether what that gives compares).
 """
 
 from __future__ import annotations
@@ -17,6 +17,12 @@ from tumato_symbolic.verify.by_diagrams.functions import FALSE, MOST_STEPS, TRUE
 Composition: TypeAlias = tuple[tuple[int, Function], ...]
 """Functions for variables, sorted by variable; every other variable stays."""
 
+Values: TypeAlias = tuple[tuple[int, int], ...]
+Triple: TypeAlias = tuple[Function, Function, Function]
+
+UNASKED = -1
+"""What a function is where nothing is asked of it."""
+
 
 class Walk(Functions):
     """Operations on functions, each of which remembers what it has done."""
@@ -24,9 +30,11 @@ class Walk(Functions):
     def __init__(self, order: Sequence[int], sizes: Sequence[int], most_steps: int = MOST_STEPS) -> None:
         super().__init__(order, sizes, most_steps)
         self._selected: dict[tuple[Function, tuple[Function, ...]], Function] = {}
-        self._chosen: dict[tuple[Function, Function, Function], Function] = {}
+        self._chosen: dict[Triple, Function] = {}
         self._applied: dict[Callable[[int, int], int], dict[tuple[Function, Function], Function]] = {}
         self._composed: dict[Composition, dict[Function, Function]] = {}
+        self._cofactors: dict[Values, dict[Triple, Function]] = {}
+        self._related: dict[tuple[Callable[[int, int], bool], Values], dict[Triple, bool]] = {}
 
     def make_room(self) -> None:
         """Forget results, and no functions, where half as many are remembered as may be."""
@@ -35,6 +43,8 @@ class Walk(Functions):
             self._chosen.clear()
             self._applied.clear()
             self._composed.clear()
+            self._cofactors.clear()
+            self._related.clear()
             self.remembered = 0
 
     def variable(self, variable: int) -> Function:
@@ -156,7 +166,7 @@ class Walk(Functions):
         """Where a predicate holds, `function` with `values` for some of its variables; elsewhere `otherwise`."""
         fixed = {self.level_of[variable]: value for variable, value in values.items()}
         everywhere = self._composition({variable: self.constant(value) for variable, value in values.items()})
-        known: dict[tuple[Function, Function, Function], Function] = {}
+        known = self._cofactors.setdefault(tuple(sorted(values.items())), {})
         levels, below = self._levels, self._below
 
         def visit(where: Function, function: Function, otherwise: Function) -> Function:
@@ -183,6 +193,49 @@ class Walk(Functions):
             return found
 
         return visit(where, function, otherwise)
+
+    def holds_where(
+        self,
+        where: Function,
+        values: Mapping[int, int],
+        relation: Callable[[int, int], bool],
+        function: Function,
+        other: Function,
+    ) -> bool:
+        """Whether where a predicate holds, `function` with `values` for some of its variables relates to `other`.
+
+        Nothing is asked where `other` is `UNASKED`.
+        """
+        fixed = {self.level_of[variable]: value for variable, value in values.items()}
+        deepest, unasked = max(fixed, default=-1), self.constant(UNASKED)
+        known = self._related.setdefault((relation, tuple(sorted(values.items()))), {})
+        with_any_values = self._related.setdefault((relation, ()), {})
+        levels, below = self._levels, self._below
+
+        def visit(where: Function, function: Function, other: Function) -> bool:
+            while levels[function] in fixed:
+                function = below[function][fixed[levels[function]]]
+            key = (where, function, other)
+            first, second, third = levels[where], levels[function], levels[other]
+            remembered = known if second <= deepest else with_any_values
+            found = remembered.get(key)
+            if found is None:
+                level = min(first, second, third)
+                if level == self._bottom:
+                    return relation(self._values[function], self._values[other])
+                size = self.sizes[level]
+                parts = zip(
+                    below[where] if first == level else (where,) * size,
+                    below[function] if second == level else (function,) * size,
+                    below[other] if third == level else (other,) * size,
+                    strict=True,
+                )
+                asked = [part for part in parts if part[0] != FALSE and part[2] != unasked]
+                found = all(visit(*part) for part in asked)
+                self._remember(remembered, key, found)
+            return found
+
+        return where == FALSE or other == unasked or visit(where, function, other)
 
     def within(self, care: Function, function: Function) -> Function:
         """A function that is `function` where `care` holds, and elsewhere whatever makes it small."""

@@ -67,6 +67,7 @@ class Analysis:
         found: dict[Guarantee, list[Reference]] = {}
         for goal, pending in self._goals.residuals(self._model.decided, self._model.policy):
             self._context.check()
+            self._model.walk.check_time()
             self._prospects[goal] = WalkProspects(self._model, self._goals, goal)
             for guarantee, states in self._prospects[goal].levels(pending):
                 if guarantee is None:
