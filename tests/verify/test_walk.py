@@ -18,7 +18,7 @@ from tumato_symbolic.spec import Not, Or, Ordering, Spec
 from tumato_symbolic.verify import PropertyResult, Refutation, Verification, verify
 from tumato_symbolic.verify.by_diagrams.functions import FALSE, TRUE, BudgetError
 from tumato_symbolic.verify.by_diagrams.prover import WalkProver
-from tumato_symbolic.verify.by_diagrams.walk import Walk
+from tumato_symbolic.verify.by_diagrams.walk import UNASKED, Walk
 
 Rows = dict[State, ActionSet]
 SIZES = (2, 3, 1, 4)
@@ -79,6 +79,27 @@ def test_operations_do_what_they_say(order: tuple[int, ...]) -> None:
         assert _table(walk, either) == {point: one[1][point] | other[1][point] for point in POINTS}
         assert walk.without(one[0], other[0]) == walk.all_of((one[0], walk.negation(other[0])))
         assert walk.count(both) == sum(one[1][point] & other[1][point] for point in POINTS)
+
+
+@pytest.mark.parametrize("order", [(0, 1, 2, 3), (3, 1, 0, 2)])
+def test_a_comparison_after_writing_is_one_at_every_point(order: tuple[int, ...]) -> None:
+    """Whatever was written in comparisons before: what is remembered of one is no answer to another."""
+    random, answers = Random(0), list[bool]()
+    for _ in range(40):
+        walk = Walk(order, SIZES)
+        function, table = _function(walk, random, 1)
+        other, others = _function(walk, random, 1)
+        where, holds = _function(walk, random, 1)
+        asked, is_asked = _function(walk, random, 1)
+        bound = walk.select(asked, (walk.constant(UNASKED), other))
+        for _ in range(12):
+            written = {variable: random.randrange(size) for variable, size in enumerate(SIZES) if random.random() < 0.5}
+            after = {point: tuple(written.get(place, value) for place, value in enumerate(point)) for point in POINTS}
+            compared = [point for point in POINTS if holds[point] and is_asked[point]]
+            expected = all(table[after[point]] <= others[point] for point in compared)
+            assert walk.holds_where(where, written, operator.le, function, bound) == expected
+            answers.append(expected)
+    assert 0.1 < sum(answers) / len(answers) < 0.9
 
 
 def test_what_a_function_is_elsewhere_may_make_it_small() -> None:
