@@ -172,6 +172,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "tumato_symbolic/verify/by_states": BY_STATES,
     "tumato_symbolic/verify/by_diagrams/parallel.py": PROCESSES,
     "tumato_symbolic/verify/by_diagrams/prover.py": WALK_PROVER,
+    "tumato_symbolic/verify/by_diagrams/closed_loop.py": ("tests/verify/test_guarantees.py", *WALK),
     "tumato_symbolic/verify/by_diagrams": WALK,
     "tumato_symbolic/verify/by_z3": Z3,
     "tumato_symbolic/verify/unrealizability": NO_POLICY,

@@ -35,6 +35,9 @@ class Argument(Struct, frozen=True, eq=False):
     writes: Target | None
 
 
+MINUTE = 58.0
+"""Seconds that a command may take which promises an answer in a minute, with what comes before and after."""
+
 _LARGE = 200_000
 """Bytes of specifications that take a second or so to read."""
 

@@ -15,7 +15,7 @@ from tumato_symbolic.cli import arguments
 from tumato_symbolic.cli.console import note, wants_colour, write, writing
 from tumato_symbolic.cli.exits import NO, UNDECIDED, YES
 from tumato_symbolic.cli.numbers import whole, whole_or_all
-from tumato_symbolic.cli.options import STANDARD_OUTPUT, CommandOptions, OutputFormat, Target, argument
+from tumato_symbolic.cli.options import MINUTE, STANDARD_OUTPUT, CommandOptions, OutputFormat, Target, argument
 from tumato_symbolic.cli.output import show_as
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.limits import Context
@@ -49,9 +49,6 @@ _BETWEEN = 0.5
 
 _REPAIRS = 3
 """So many ways to change lines are looked for, unless another number is asked for."""
-
-_SECONDS = 58.0
-"""How long one specification may take, unless another limit is given: a minute, with what comes before and after."""
 
 
 class Options(CommandOptions, frozen=True):
@@ -94,7 +91,7 @@ class Options(CommandOptions, frozen=True):
     @property
     def own_seconds(self) -> float | None:
         """A minute for each specification."""
-        return None if self.is_many else _SECONDS
+        return None if self.is_many else MINUTE
 
     def mistake(self) -> str | None:
         """What is written is written for one specification."""

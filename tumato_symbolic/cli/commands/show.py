@@ -11,7 +11,7 @@ from tumato_symbolic.cli import arguments
 from tumato_symbolic.cli.console import note, write
 from tumato_symbolic.cli.exits import UNDECIDED, YES
 from tumato_symbolic.cli.numbers import whole
-from tumato_symbolic.cli.options import CommandOptions, OutputFormat, argument
+from tumato_symbolic.cli.options import MINUTE, CommandOptions, OutputFormat, argument
 from tumato_symbolic.cli.output import show_as
 from tumato_symbolic.limits import Context
 
@@ -52,9 +52,6 @@ _LINES = 100
 _BOXES = 60
 """A graph has so many boxes at most, unless another number is asked for."""
 
-_SECONDS = 58.0
-"""How long it may take, unless another limit is given: a minute, with what comes before and after."""
-
 
 class Options(CommandOptions, frozen=True):
     """What may be typed after `show`."""
@@ -88,7 +85,7 @@ class Options(CommandOptions, frozen=True):
     memory: int | None = arguments.memory()
     output_format: OutputFormat = arguments.output_format("json")
 
-    own_seconds: ClassVar[float | None] = _SECONDS
+    own_seconds: ClassVar[float | None] = MINUTE
 
     @property
     def specs(self) -> tuple[str, ...]:
