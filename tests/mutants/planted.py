@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -117,9 +117,8 @@ def _extraction(patch: pytest.MonkeyPatch) -> None:
     """The values of a variable are written in the reverse order."""
     by_value = extract.Extractor._by_value
 
-    def reversed_(self: Any, level: int, place: int, first: int, digits: tuple[Any, ...]) -> list[tuple[Any, ...]]:
-        found = by_value(self, level, place, first, digits)
-        return found if place else found[::-1]
+    def reversed_(self: Any, states: Any, level: int) -> Iterator[tuple[Any, int]]:
+        return reversed(list(by_value(self, states, level)))
 
     patch.setattr(extract.Extractor, "_by_value", reversed_)
 

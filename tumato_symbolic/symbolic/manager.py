@@ -219,7 +219,7 @@ class Manager:
         return self._level[bit]
 
     def top(self, u: Any) -> int:  # noqa: ANN401 - dd has no types
-        """The level of the first bit on which `u`, which is neither empty nor everything, depends."""
+        """The level of the first bit on which `u` depends; larger than every level, where it depends on none."""
         level: int = u.level
         return level
 
@@ -239,9 +239,7 @@ class Manager:
 
     def halves(self, u: Bdd, level: int) -> tuple[Bdd, Bdd]:
         """`u` without and with the bit at a level, above which it depends on none."""
-        if u in (self.true, self.false) or self.top(u) != level:
-            return u, u
-        return self.branches(u)[1:]
+        return self.branches(u)[1:] if self.top(u) == level else (u, u)
 
     def descending(self, u: Bdd) -> list[tuple[Bdd, int, Bdd, Bdd]]:
         """Every inner node `(node, level, low, high)` below `u`, each once, children before parents."""
