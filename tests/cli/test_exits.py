@@ -459,3 +459,18 @@ def test_another_ordering_has_to_be_said_again(cli: Cli) -> None:
     refused = cli("verify", "policy.json", "amr.tum")
     assert refused.code == 1
     assert "ordering refuted" in refused.out
+
+
+def test_help_says_which_ordering_counts(cli: Cli, tmp_path: Path) -> None:
+    """A policy does not choose what it is held against, and help does not say so; a certificate says what it is for."""
+    text = (tmp_path / "amr.tum").read_text()
+    (tmp_path / "first.tum").write_text(text.replace("max_plan_length", "effect_ordering: first\nmax_plan_length"))
+    assert cli("synth", "two_robots.tum", "--effect-ordering", "first").code == 1
+    claims = ("amr.json", "first.tum"), ("policy.unrealizable.json", "two_robots.tum")
+    for command in ("verify", "report", "why", "export"):
+        said = " ".join(cli(command, "--help").out.split())
+        assert "(default: the specification's, else any" in said
+        assert ("the one that it records" in said) == (command in ("verify", "report"))
+    for claim in claims:
+        answer = json.loads(cli("verify", *claim, "--output-format", "json").out)
+        assert answer["effect_ordering"] == "first"

@@ -33,13 +33,14 @@ def state(number: str, help_: str = "the state: a value for every variable") -> 
     return argument(metavar="VAR=VALUE", nargs=number, help=help_)
 
 
-def effect_ordering(default: str) -> Any:  # noqa: ANN401
-    """`--effect-ordering`."""
+def effect_ordering(*, certificates: bool = False) -> Any:  # noqa: ANN401
+    """`--effect-ordering`; `certificates` are judged as well, each by the ordering that it is about."""
+    more = "; of a proof that there is no policy, the one that it records" if certificates else ""
     return argument(
         "--effect-ordering",
         choices=("any", "first"),
         help="how the effects of actions executed together may interleave: in any order, one after the other, or only "
-        f"the first of them (default: {default})",
+        f"the first of them (default: the specification's, else any{more})",
     )
 
 

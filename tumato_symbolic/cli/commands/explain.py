@@ -80,7 +80,7 @@ class Options(CommandOptions, frozen=True):
     )
     timeout: float | None = arguments.timeout("60")
     memory: int | None = arguments.memory()
-    effect_ordering: Ordering | None = arguments.effect_ordering("the specification's, else any")
+    effect_ordering: Ordering | None = arguments.effect_ordering()
     restoration: Restoration | None = arguments.restoration()
     output_format: OutputFormat = arguments.output_format("json", "github", "sarif")
 

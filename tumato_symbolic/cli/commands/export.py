@@ -51,9 +51,7 @@ class Options(CommandOptions, frozen=True):
     check: bool = arguments.check("also write the program that checks what is written, beside FILE")
     timeout: float | None = arguments.timeout()
     memory: int | None = arguments.memory()
-    effect_ordering: Ordering | None = arguments.effect_ordering(
-        "any where the specification writes it, else what the policy records, else any"
-    )
+    effect_ordering: Ordering | None = arguments.effect_ordering()
     restoration: Restoration | None = arguments.restoration()
 
     def endings(self) -> tuple[str, ...]:

@@ -49,9 +49,7 @@ class Options(CommandOptions, frozen=True):
     memory: int | None = arguments.memory()
     prover: ProverName = arguments.prover()
     jobs: int | None = arguments.jobs("a large proof")
-    effect_ordering: Ordering | None = arguments.effect_ordering(
-        "the one that the policy records, else the specification's, else any"
-    )
+    effect_ordering: Ordering | None = arguments.effect_ordering(certificates=True)
     restoration: Restoration | None = arguments.restoration()
 
 

@@ -83,7 +83,7 @@ class Options(CommandOptions, frozen=True):
     jobs: int | None = arguments.jobs("a folder of policies")
     timeout: float | None = arguments.timeout()
     memory: int | None = arguments.memory()
-    effect_ordering: Ordering | None = arguments.effect_ordering("the specification's, else any")
+    effect_ordering: Ordering | None = arguments.effect_ordering()
     restoration: Restoration | None = arguments.restoration()
     output_format: OutputFormat = arguments.output_format("json")
 

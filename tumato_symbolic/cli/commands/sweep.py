@@ -78,7 +78,7 @@ class Options(CommandOptions, frozen=True):
         "(pip install 'tumato-symbolic[cluster]')",
     )
     jobs: int | None = arguments.jobs("the variants on this machine")
-    effect_ordering: Ordering | None = arguments.effect_ordering("the specification's, else any")
+    effect_ordering: Ordering | None = arguments.effect_ordering()
     restoration: Restoration | None = arguments.restoration()
     prover: ProverName = arguments.prover()
     prove: bool = arguments.no_verify("do without proofs (the results say so)")

@@ -53,7 +53,7 @@ class Options(CommandOptions, frozen=True):
         "where to write the policy (default: policy.json here; - for the standard output, the report then goes to the "
         "standard error stream); of several specifications, the folder for NAME.policy.json (default: this one)",
     )
-    effect_ordering: Ordering | None = arguments.effect_ordering("the specification's, else any")
+    effect_ordering: Ordering | None = arguments.effect_ordering()
     restoration: Restoration | None = arguments.restoration()
     policy_format: Literal["auto", "table", "diagram"] = argument(
         "--policy-format",

@@ -69,9 +69,7 @@ class Options(CommandOptions, frozen=True):
         action="store_true",
         help="fail as well (exit 1) where the certificate is wrong, or stale: made for another specification",
     )
-    effect_ordering: Ordering | None = arguments.effect_ordering(
-        "the one that the policy records, else the specification's, else any"
-    )
+    effect_ordering: Ordering | None = arguments.effect_ordering(certificates=True)
     restoration: Restoration | None = arguments.restoration()
     require_all: bool = argument(
         "--require-all",

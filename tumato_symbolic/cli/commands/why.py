@@ -40,9 +40,7 @@ class Options(CommandOptions, frozen=True):
     output_format: OutputFormat = arguments.output_format("json")
     timeout: float | None = arguments.timeout()
     memory: int | None = arguments.memory()
-    effect_ordering: Ordering | None = arguments.effect_ordering(
-        "the one that the policy records, else the specification's, else any"
-    )
+    effect_ordering: Ordering | None = arguments.effect_ordering()
     restoration: Restoration | None = arguments.restoration()
 
 
