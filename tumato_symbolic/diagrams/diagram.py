@@ -37,6 +37,10 @@ class Diagram(Struct, Generic[Leaf], frozen=True):
             root = below[state[self.order[level]]]
         return self.leaves[root]
 
+    def levels(self) -> list[int]:
+        """The level of every reference; that of the leaves is below all others."""
+        return [len(self.order)] * len(self.leaves) + [level for level, _ in self.nodes]
+
 
 class UniqueTable:
     """Reduced nodes over some levels, every one once. References below `leaves` are those of the leaves."""
@@ -128,7 +132,7 @@ def count_true(diagram: Diagram[bool], root: Reference, sizes: Sequence[int]) ->
     below_level = [1] * (depth + 1)
     for level in range(depth - 1, -1, -1):
         below_level[level] = below_level[level + 1] * sizes[diagram.order[level]]
-    levels = [depth] * base + [level for level, _ in diagram.nodes]
+    levels = diagram.levels()
     counts = [int(leaf) for leaf in diagram.leaves]
     for level, below in diagram.nodes[: max(0, root - base + 1)]:
         counts.append(sum(counts[child] * (below_level[level + 1] // below_level[levels[child]]) for child in below))

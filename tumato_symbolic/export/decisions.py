@@ -61,8 +61,7 @@ class _Builder:
     def __init__(self, policy: Policy, most: int) -> None:
         self._diagram = as_diagram(policy).diagram
         self._sizes = policy.vocabulary.sizes
-        self._levels = [len(self._diagram.order)] * len(self._diagram.leaves)
-        self._levels += [level for level, _ in self._diagram.nodes]
+        self._levels = self._diagram.levels()
         self._most = most
         self._known: dict[Roots, Tree] = {}
         self._answers: dict[ActionSet | None, Answer] = {}

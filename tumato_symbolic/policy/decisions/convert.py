@@ -74,19 +74,17 @@ def never_executed(policy: Policy) -> tuple[str, ...]:
     if isinstance(decisions, Table):
         executed = frozenset[int]().union(*decisions.rows.values())
     else:
-        sizes = policy.vocabulary.sizes
-        executed = frozenset(a for a, root in enumerate(decisions.roots) if _executes(decisions, sizes, root))
+        sizes, levels = policy.vocabulary.sizes, decisions.diagram.levels()
+        executed = frozenset(a for a, root in enumerate(decisions.roots) if _executes(decisions, levels, sizes, root))
     return tuple(name for action, name in enumerate(names) if action not in executed)
 
 
-def _executes(decisions: DecisionDiagram, sizes: tuple[int, ...], action: Reference) -> bool:
+def _executes(decisions: DecisionDiagram, levels: Sequence[int], sizes: Sequence[int], action: Reference) -> bool:
     """Whether a root leads to true in some decided state."""
-    diagram = decisions.diagram
-    levels = [len(diagram.order)] * len(diagram.leaves) + [level for level, _ in diagram.nodes]
     pending: list[Roots] = [(decisions.defined, action)]
     seen: set[Roots] = set(pending)
     while pending:
-        found = decided_at(diagram, levels, sizes, pending.pop())
+        found = decided_at(decisions.diagram, levels, sizes, pending.pop())
         if isinstance(found, frozenset):
             if found:
                 return True
@@ -126,7 +124,7 @@ def _rows(decisions: DecisionDiagram, sizes: tuple[int, ...]) -> dict[State, Act
 def _cubes(decisions: DecisionDiagram, sizes: tuple[int, ...]) -> Iterator[tuple[dict[int, int], ActionSet]]:
     """Disjoint sets of decided states, given by the variables that are fixed, and the decision of each."""
     diagram = decisions.diagram
-    levels = [len(diagram.order)] * len(diagram.leaves) + [level for level, _ in diagram.nodes]
+    levels = diagram.levels()
     known: dict[Roots, ActionSet | Branches | None] = {}
     pending: list[tuple[Roots, dict[int, int]]] = [((decisions.defined, *decisions.roots), {})]
     while pending:
