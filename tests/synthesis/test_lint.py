@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from msgspec.structs import replace
 
+from tests.clauses.generate import random_pair
 from tests.cli.conftest import Cli, cli
 from tests.generate import ALL_PROFILES, random_text
 from tests.repo.documents import ROOT
@@ -44,6 +45,33 @@ def test_both_ways_warn_of_the_same(profile: str, monkeypatch: pytest.MonkeyPatc
     """Generated specifications; most of them have something that is surely not meant."""
     monkeypatch.setattr(explicit, "MAX_WORK", 10**9)
     assert sum(agree(spec_of(random_text(seed, ALL_PROFILES[profile]))) for seed in range(10)) > 0
+
+
+EXCLUSIVE = """\
+BEGIN STATE VECTOR
+state N can be 0..3
+END STATE VECTOR
+BEGIN ACTIONS
+action up
+nominal effects: N is N + 1
+action down
+nominal effects: N is N - 2
+END ACTIONS
+BEGIN REACTION RULES
+rule: NOT (executing up AND executing down)
+END REACTION RULES
+BEGIN GOALS goal type: priority goal: N is 3 END GOALS
+"""
+"""Two cases agree that are never meant in one state, and so no state has a set that the rule could forbid."""
+
+
+def test_both_ways_warn_of_the_same_where_effects_depend_on_the_state(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Sets are asked about by the cases that are meant."""
+    monkeypatch.setattr(explicit, "MAX_WORK", 10**9)
+    texts = [EXCLUSIVE, *(random_pair(seed).text for seed in range(30))]
+    specs = [loaded.spec for text in texts if (loaded := load(Source("spec.tum", text))).spec is not None]
+    specs = [replace(spec, restoration="one_step") for spec in specs]
+    assert sum(agree(spec) for spec in specs if len(spec.tiers) < 2) > 0
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "examples").glob("*.tum")), ids=lambda path: path.stem)

@@ -18,7 +18,7 @@ from tumato_symbolic.semantics.lint_findings import (
     reached_goal,
 )
 from tumato_symbolic.spec import TRUE, ConditionalGoal
-from tumato_symbolic.symbolic import compatible_sets, never_entered
+from tumato_symbolic.symbolic import compatible_sets, meant_sets, never_entered
 
 
 def lint(problem: Problem) -> tuple[Diagnostic, ...]:
@@ -55,7 +55,7 @@ def _reached_goals(problem: Problem) -> Iterator[Diagnostic]:
 
 def _idle_rules(problem: Problem) -> Iterator[Diagnostic]:
     encoding, steps = problem.encoding, problem.steps
-    everything = encoding.domain() & compatible_sets(encoding)
+    everything = encoding.domain() & compatible_sets(encoding) & meant_sets(encoding)
     reaction_rules = () if steps.one_at_a_time else problem.spec.reaction_rules
     for rules, tried, where in (
         (problem.spec.state_rules, steps.valid, STATES),
