@@ -1,5 +1,6 @@
 """What docs/architecture.md says of the house is so."""
 
+import ast
 import re
 import sys
 from collections.abc import Iterator
@@ -56,6 +57,30 @@ def test_paths_in_decisions_lead_somewhere() -> None:
     for document in DECISIONS.glob("*.md"):
         names = re.findall(r"`([\w./-]+)`", document.read_text(encoding="utf-8"))
         assert [name for name in names if _is_path(name) and len(_places(name)) != 1] == [], document.name
+
+
+def test_what_a_room_offers_is_taken() -> None:
+    """Each name that the `__init__` of a room imports is imported from it, or asked of it, somewhere else."""
+    trees = [ast.parse(path.read_text(encoding="utf-8")) for path in _sources()]
+    nodes = [node for tree in trees for node in ast.walk(tree)]
+    taken = {(node.module, name.name) for node in nodes if isinstance(node, ast.ImportFrom) for name in node.names}
+    asked = {node.attr for node in nodes if isinstance(node, ast.Attribute)}
+    offered = [
+        (room, name.name)
+        for path in PACKAGE.glob("*/**/__init__.py")
+        for room in [".".join(path.parent.relative_to(ROOT).parts)]
+        for each in ast.parse(path.read_text(encoding="utf-8")).body
+        if isinstance(each, ast.ImportFrom)
+        for name in each.names
+        if str(each.module).startswith(f"{room}.")
+    ]
+    assert len(offered) > 300
+    assert [(room, name) for room, name in offered if (room, name) not in taken and name not in asked] == []
+
+
+def _sources() -> Iterator[Path]:
+    for folder in ("tumato_symbolic", "tests", "benchmarks", "playground"):
+        yield from (ROOT / folder).rglob("*.py")
 
 
 def test_what_is_in_a_file_is_there() -> None:

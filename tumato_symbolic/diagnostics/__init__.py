@@ -4,17 +4,3 @@ from tumato_symbolic.diagnostics.allowing import allowed_on, not_allowed
 from tumato_symbolic.diagnostics.codes import Code, Severity
 from tumato_symbolic.diagnostics.diagnostic import CopySpan, Diagnostic, Note, Source, Span, UserError
 from tumato_symbolic.diagnostics.render import render
-
-__all__ = [
-    "Code",
-    "CopySpan",
-    "Diagnostic",
-    "Note",
-    "Severity",
-    "Source",
-    "Span",
-    "UserError",
-    "allowed_on",
-    "not_allowed",
-    "render",
-]

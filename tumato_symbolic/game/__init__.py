@@ -10,41 +10,8 @@ from tumato_symbolic.game.fixpoints import (
     closed_loop,
     distances,
     mixed,
-    preimage,
 )
 from tumato_symbolic.game.problem import Problem, build_problem, with_all_sets, with_goals
 from tumato_symbolic.game.reevaluation import Reevaluator
 from tumato_symbolic.game.restoration import Restoration, Restorer
 from tumato_symbolic.game.routing import OwnRegions, only_region, own_region_policy, route, shortest_decisions
-
-__all__ = [
-    "Alone",
-    "ClosedLoop",
-    "Evaluation",
-    "Evaluator",
-    "Layers",
-    "OwnRegions",
-    "Problem",
-    "Reevaluator",
-    "Restoration",
-    "Restorer",
-    "alone",
-    "attractor",
-    "build_problem",
-    "by_any_step",
-    "chances",
-    "closed_loop",
-    "distances",
-    "in_time",
-    "mixed",
-    "only_region",
-    "own_region_policy",
-    "preimage",
-    "route",
-    "shortest_decisions",
-    "way_of",
-    "winning",
-    "winning_alone",
-    "with_all_sets",
-    "with_goals",
-]

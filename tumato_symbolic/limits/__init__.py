@@ -2,14 +2,3 @@
 
 from tumato_symbolic.limits.context import NO_LIMITS, Budget, Context, LimitReachedError, Limits
 from tumato_symbolic.limits.packages import MissingPackageError, has_z3, need_z3
-
-__all__ = [
-    "NO_LIMITS",
-    "Budget",
-    "Context",
-    "LimitReachedError",
-    "Limits",
-    "MissingPackageError",
-    "has_z3",
-    "need_z3",
-]

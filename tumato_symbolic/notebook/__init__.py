@@ -5,5 +5,3 @@ from tumato_symbolic.notebook.graphs import to_networkx
 from tumato_symbolic.notebook.markup import Tone, panel, table
 from tumato_symbolic.notebook.policies import policy_html, rules_html
 from tumato_symbolic.notebook.tables import to_dataframe
-
-__all__ = ["Tone", "failing_html", "panel", "policy_html", "rules_html", "table", "to_dataframe", "to_networkx"]

@@ -5,26 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TypeAlias
 
-from tumato_symbolic.semantics.step import nominal_agrees
 from tumato_symbolic.spec import Spec
 
 Contest: TypeAlias = Sequence[Sequence[int]]
 """What only one side may have: actions of different sides are never executed together."""
-
-
-def disagree(spec: Spec, first: int, second: int) -> bool:
-    """Whether the nominal effects of two actions give a variable two different values."""
-    return not nominal_agrees(spec, frozenset((first, second)))
-
-
-def exclude_each_other(spec: Spec, first: int, second: int) -> bool:
-    """Whether two actions are never in one allowed set.
-
-    They have a common resource, or nominal effects that disagree, or are cases of one action.
-    """
-    if spec.first_case[first] == spec.first_case[second]:
-        return True
-    return bool(spec.actions[first].resources & spec.actions[second].resources) or disagree(spec, first, second)
 
 
 def contested_resources(spec: Spec) -> Iterator[Contest]:

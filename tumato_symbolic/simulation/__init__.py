@@ -5,18 +5,3 @@ from tumato_symbolic.simulation.execution import Faults, Simulation, executed, r
 from tumato_symbolic.simulation.starts import NoStartError, Starts
 from tumato_symbolic.simulation.summary import Spread, Summary, summarized
 from tumato_symbolic.simulation.worst import MOST_OUTCOMES, worst_case
-
-__all__ = [
-    "MOST_OUTCOMES",
-    "Dice",
-    "Faults",
-    "NoStartError",
-    "Simulation",
-    "Spread",
-    "Starts",
-    "Summary",
-    "executed",
-    "random_move",
-    "summarized",
-    "worst_case",
-]

@@ -3,7 +3,7 @@
 from tumato_symbolic.symbolic.choose import by_duration, lasting, least_duration, preferred
 from tumato_symbolic.symbolic.encoding import Encoding, encode
 from tumato_symbolic.symbolic.extract import Extractor
-from tumato_symbolic.symbolic.few import few_sets, few_steps
+from tumato_symbolic.symbolic.few import few_steps
 from tumato_symbolic.symbolic.goals import (
     Regions,
     Target,
@@ -15,7 +15,7 @@ from tumato_symbolic.symbolic.goals import (
     together,
     with_own_bits,
 )
-from tumato_symbolic.symbolic.layout import Layout, lay_out
+from tumato_symbolic.symbolic.layout import lay_out
 from tumato_symbolic.symbolic.manager import Backend, Bdd, Manager, TooManyNodesError, available_backend
 from tumato_symbolic.symbolic.present import Leading
 from tumato_symbolic.symbolic.steps import (
@@ -29,43 +29,3 @@ from tumato_symbolic.symbolic.steps import (
     without_effect,
 )
 from tumato_symbolic.symbolic.turns import Rounds, Turn, in_turns
-
-__all__ = [
-    "Backend",
-    "Bdd",
-    "Encoding",
-    "Extractor",
-    "Layout",
-    "Leading",
-    "Manager",
-    "Regions",
-    "Rounds",
-    "Steps",
-    "Target",
-    "TooManyNodesError",
-    "Turn",
-    "applicable_parts",
-    "available_backend",
-    "build_steps",
-    "by_duration",
-    "compatible_sets",
-    "encode",
-    "few_sets",
-    "few_steps",
-    "in_turns",
-    "lasting",
-    "lay_out",
-    "least_duration",
-    "meant_sets",
-    "never_entered",
-    "one_by_one",
-    "preferred",
-    "regions",
-    "regions_apart",
-    "staying_in",
-    "targets",
-    "tiers_within",
-    "together",
-    "with_own_bits",
-    "without_effect",
-]

@@ -5,8 +5,6 @@ from tumato_symbolic.syntax.parsed import Parsed
 from tumato_symbolic.syntax.printer import print_specification
 from tumato_symbolic.syntax.reading import read_source
 
-__all__ = ["Parsed", "parse", "print_specification", "read_source"]
-
 
 def parse(source: Source) -> Parsed:
     """The tree of a text, and every mistake in its syntax. Never raises for a mistake of the user."""

@@ -9,29 +9,12 @@ from tumato_symbolic.synthesis.result import Failure, Realizable, Statistics, Sy
 from tumato_symbolic.synthesis.synthesize import PolicyFormat, synthesize
 
 if TYPE_CHECKING:
-    from tumato_symbolic.synthesis.diagnosis import Cured, JointAction, Restorability, restorability
-
-__all__ = [
-    "Context",
-    "Cured",
-    "Failure",
-    "JointAction",
-    "Limits",
-    "PolicyFormat",
-    "Realizable",
-    "Restorability",
-    "Statistics",
-    "SynthesisResult",
-    "Undecided",
-    "Unrealizable",
-    "restorability",
-    "synthesize",
-]
+    from tumato_symbolic.synthesis.diagnosis import Cured, Restorability
 
 
 def __getattr__(name: str) -> object:
     """What would restore states is imported on first use: where there is a policy, nobody asks."""
-    if name not in ("Cured", "JointAction", "Restorability", "restorability"):
+    if name not in ("Cured", "Restorability"):
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from tumato_symbolic.synthesis import diagnosis
 

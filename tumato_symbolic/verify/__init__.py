@@ -12,27 +12,12 @@ from tumato_symbolic.verify.result import (
     ProverName,
     Refutation,
     UnrealizabilityVerdict,
-    Verdict,
     Verification,
 )
 
 if TYPE_CHECKING:
     from tumato_symbolic.verify.prove import verify
     from tumato_symbolic.verify.unrealizability.verdict import verify_unrealizable
-
-__all__ = [
-    "PROPERTIES",
-    "CertificateUse",
-    "PropertyName",
-    "PropertyResult",
-    "ProverName",
-    "Refutation",
-    "UnrealizabilityVerdict",
-    "Verdict",
-    "Verification",
-    "verify",
-    "verify_unrealizable",
-]
 
 
 def __getattr__(name: str) -> Any:  # noqa: ANN401 - the two lazy names: they may load z3

@@ -3,50 +3,19 @@
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from tumato_symbolic.views.questions import Answer, Box, Branch, Condition, Folded, Question, Questions, Row, Tree, rows
+from tumato_symbolic.views.questions import Answer, Box, Folded, Question, Questions, Row, Tree, rows
 from tumato_symbolic.views.selected import OTHER, Label, Selected, select
 from tumato_symbolic.views.selection import Selection, parse_selection
 
 if TYPE_CHECKING:
-    from tumato_symbolic.views.counting import Counted, counted
+    from tumato_symbolic.views.counting import counted
     from tumato_symbolic.views.meaning import Altered, altered
-    from tumato_symbolic.views.placing import NamesChanged
-    from tumato_symbolic.views.two_policies import ByAction, Change, Decided, Difference, difference
-
-__all__ = [
-    "OTHER",
-    "Altered",
-    "Answer",
-    "Box",
-    "Branch",
-    "ByAction",
-    "Change",
-    "Condition",
-    "Counted",
-    "Decided",
-    "Difference",
-    "Folded",
-    "Label",
-    "NamesChanged",
-    "Question",
-    "Questions",
-    "Row",
-    "Selected",
-    "Selection",
-    "Tree",
-    "altered",
-    "counted",
-    "difference",
-    "parse_selection",
-    "rows",
-    "select",
-]
+    from tumato_symbolic.views.two_policies import Change, Decided, Difference, difference
 
 _HOMES = {
-    **dict.fromkeys(("ByAction", "Change", "Decided", "Difference", "difference"), "two_policies"),
+    **dict.fromkeys(("Change", "Decided", "Difference", "difference"), "two_policies"),
     **dict.fromkeys(("Altered", "altered"), "meaning"),
-    **dict.fromkeys(("Counted", "counted"), "counting"),
-    "NamesChanged": "placing",
+    "counted": "counting",
 }
 
 

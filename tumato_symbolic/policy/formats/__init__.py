@@ -2,5 +2,3 @@
 
 from tumato_symbolic.policy.formats.policies import FILES, UNREALIZABLE, fields_of, policy_fields, policy_text
 from tumato_symbolic.policy.formats.rows import fits_table
-
-__all__ = ["FILES", "UNREALIZABLE", "fields_of", "fits_table", "policy_fields", "policy_text"]

@@ -2,5 +2,3 @@
 
 from tumato_symbolic.policy.lookup.deciders import Decider, UndecidedState, make_decider
 from tumato_symbolic.policy.lookup.states import parse_assignments, parse_state
-
-__all__ = ["Decider", "UndecidedState", "make_decider", "parse_assignments", "parse_state"]

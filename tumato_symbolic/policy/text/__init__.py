@@ -17,25 +17,3 @@ from tumato_symbolic.policy.text.strict_json import (
     too_large,
     wrong,
 )
-
-__all__ = [
-    "MAX_BYTES",
-    "MOST",
-    "Row",
-    "as_list",
-    "as_names",
-    "as_object",
-    "as_text",
-    "as_value",
-    "as_whole",
-    "described",
-    "fault",
-    "member",
-    "parse_json",
-    "read_text",
-    "save_text",
-    "show",
-    "too_large",
-    "way_out",
-    "wrong",
-]
