@@ -67,8 +67,7 @@ class _Finder:
     def _before(self, nodes: Sequence[ast.Node], where: Break, operator: bool = False) -> None:
         """Before each of some nodes, or before the operator in front of it."""
         for node in nodes:
-            span: Span = node.span  # type: ignore[attr-defined]
-            self.breaks[self._places[span.line, span.column] - operator] = where
+            self.breaks[self._places[node.span.line, node.span.column] - operator] = where
 
     def _listed(self, items: Sequence[ast.Node], where: Break) -> None:
         self._before(items[1:], where)

@@ -277,7 +277,7 @@ def _names_in(item: ast.Range) -> list[ast.Name]:
         low, high = int(item.low.text), int(item.high.text)
     except ValueError:
         return []
-    return [ast.Name(str(value), item.span) for value in range(low, high + 1)] if high - low < MAX_RANGE else []
+    return [ast.Name(str(value), span=item.span) for value in range(low, high + 1)] if high - low < MAX_RANGE else []
 
 
 def _in_text(span: Span) -> Span:

@@ -58,11 +58,10 @@ def _entries(entries: Iterable[object], lines: list[str]) -> Iterator[Entry]:
             here = _first_line(each.span, lines)
             yield Entry(_text(here, lines), "copies", each.span, here, tuple(_entries(each.entries, lines)))
         elif isinstance(each, ast.Node) and not isinstance(each, ast.Severity):
-            span: Span = each.span  # type: ignore[attr-defined]
-            here = _first_line(span, lines)
+            here = _first_line(each.span, lines)
             goal = isinstance(each, ast.SimpleGoal | ast.ConditionalGoal | ast.GoalList)
             inner = tuple(_entries(each.members, lines)) if isinstance(each, ast.GoalList) else ()
-            yield Entry(_text(here, lines), "goal" if goal else "rule", span, here, inner)
+            yield Entry(_text(here, lines), "goal" if goal else "rule", each.span, here, inner)
 
 
 def _first_line(span: Span, lines: list[str]) -> Span:

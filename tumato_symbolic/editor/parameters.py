@@ -39,7 +39,7 @@ def parameter_places(node: object, scope: _Scope | None = None) -> Iterator[Para
                     if side.text in inner:
                         yield ParameterPlace(side.text, inner[side.text], side.span)
             yield from parameter_places(body, inner)
-        case ast.Name(text, span):
+        case ast.Name(text, span=span):
             for found in BRACES.finditer(text):
                 if found[1] in scope:
                     column = span.column + found.start(1)

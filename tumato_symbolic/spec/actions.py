@@ -64,15 +64,15 @@ class Actions:
             match field:
                 case ast.Duration(value):
                     duration = self._duration(field, ast.number(value))
-                case ast.ControlledResources(names, span):
+                case ast.ControlledResources(names, span=span):
                     resources, resource_span = self._resources(names), span
                 case ast.Preconditions(predicates):
                     preconditions = self._parts(predicates, "a precondition")[0]
                 case ast.NominalEffects() | ast.AlternativeEffects() if conditional:
                     sets.append(self._clauses.set_of(field, self._text((*field.effects, *field.clauses))))
-                case ast.NominalEffects(effects, _, span):
+                case ast.NominalEffects(effects, span=span):
                     nominal = self._nominal(effects, name, span)
-                case ast.AlternativeEffects(effects, _, span):
+                case ast.AlternativeEffects(effects, span=span):
                     alternatives.extend(self._alternative(effects, name, span))
         written = tuple(alternatives)
         span = declaration.name.span

@@ -72,8 +72,7 @@ def joined(nodes: Sequence[ast.Node]) -> Span | None:
     """From the first to the last of some nodes; None where there is none."""
     if not nodes:
         return None
-    first: Span = nodes[0].span  # type: ignore[attr-defined]
-    last: Span = nodes[-1].span  # type: ignore[attr-defined]
+    first, last = nodes[0].span, nodes[-1].span
     if isinstance(first, CopySpan) and isinstance(last, CopySpan):
         return CopySpan(first.line, first.column, last.end_line, last.end_column, first.parameters)
     return Span(first.line, first.column, last.end_line, last.end_column)

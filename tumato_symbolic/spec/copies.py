@@ -209,12 +209,12 @@ class _Copier:
         if isinstance(node, ast.Name):
             place = self.node(node.span, binding, own)
             if "{" not in node.text:
-                return ast.Name(node.text, place)
-            return ast.Name(filled(ast.Name(node.text, place), binding, numeric, self._findings), place)
+                return ast.Name(node.text, span=place)
+            return ast.Name(filled(ast.Name(node.text, span=place), binding, numeric, self._findings), span=place)
         if isinstance(node, ast.Quantifier):
             return self._quantified(node, binding, own)
         if isinstance(node, ast.Node):
-            return type(node)(*[self._part(node, each, binding, own) for each in node.__struct_fields__])
+            return type(node)(**{each: self._part(node, each, binding, own) for each in node.__struct_fields__})
         return node
 
     def _part(self, node: ast.Node, slot: str, binding: Binding, own: tuple[tuple[str, str], ...]) -> Any:  # noqa: ANN401
@@ -248,21 +248,21 @@ class _Copier:
         span = self.node(node.span, binding, own)
         copies = [self.node(node.body, inner, tuple(inner.items())) for inner in self._bindings(node, binding)]
         if not copies:
-            return ast.Truth(node.kind == "all", span)
+            return ast.Truth(node.kind == "all", span=span)
         if len(copies) == 1:
             only: ast.Predicate = replace(copies[0], span=span)
             return only
         if node.kind == "all":
-            return ast.Conjunction(tuple(copies), span)
+            return ast.Conjunction(tuple(copies), span=span)
         if node.kind == "some":
-            return ast.Disjunction(tuple(copies), span)
-        denied = [ast.Negation(each, each.span) for each in copies]
+            return ast.Disjunction(tuple(copies), span=span)
+        denied = [ast.Negation(each, span=each.span) for each in copies]
         return ast.Disjunction(
             tuple(
-                ast.Conjunction((each, *denied[:place], *denied[place + 1 :]), each.span)
+                ast.Conjunction((each, *denied[:place], *denied[place + 1 :]), span=each.span)
                 for place, each in enumerate(copies)
             ),
-            span,
+            span=span,
         )
 
 

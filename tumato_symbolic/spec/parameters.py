@@ -117,7 +117,7 @@ def domain_of(items: tuple[ast.Item, ...], findings: Findings) -> Domain | None:
 def too_many(place: ast.Node, findings: Findings) -> None:
     """Report that there are too many combinations."""
     message = f"there are more than {MAX_COMBINATIONS:,} combinations of values of parameters"
-    findings.add(Code.TUM311, message, place.span, "use fewer parameters, or fewer values")  # type: ignore[attr-defined]
+    findings.add(Code.TUM311, message, place.span, "use fewer parameters, or fewer values")
 
 
 def _is_condition(condition: ast.Condition, scope: Scope, findings: Findings) -> bool:

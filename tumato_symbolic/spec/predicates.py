@@ -171,10 +171,10 @@ class Predicates:
                 return self._about_values(predicate)
             case ast.Quantifier():
                 raise AssertionError("quantifiers are written out before names are resolved")
-            case ast.Execution(action, span):
+            case ast.Execution(action, span=span):
                 declared = self.named(action, "action")
                 return None if declared is None else Resolved(Executing(declared.number), 1, 1, Mention(span, None))
-            case ast.Reference(name, span):
+            case ast.Reference(name, span=span):
                 return self._reference(name, span)
             case ast.Negation(operand):
                 return self._combined(predicate, (operand,))

@@ -174,20 +174,20 @@ class _Goals:
 
     def _goal(self, goal: ast.Goal) -> Goal | None:
         match goal:
-            case ast.SimpleGoal(predicate, span):
+            case ast.SimpleGoal(predicate, span=span):
                 body = self._predicates.rule(predicate, None)
                 if body is None:
                     return None
                 number = self._numbers.setdefault(body.formula, len(self._numbers))
                 self.bodies.setdefault(number, body)
                 return SimpleGoal(number, span)
-            case ast.ConditionalGoal(predicate, inner, span):
+            case ast.ConditionalGoal(predicate, inner, span=span):
                 condition = self._predicates.rule(predicate, "the condition of a goal")
                 found = self._goal(inner)
                 if condition is None or found is None or isinstance(found, ConditionalGoal):
                     return None
                 return ConditionalGoal(condition, found, span)
-            case ast.GoalList(kind, members, span):
+            case ast.GoalList(kind, members, span=span):
                 goals: Iterator[ast.Goal] = ast.one_by_one(members)
                 parts = [self._goal(each) for each in goals]
                 return GoalList(kind or "constraint", tuple(each for each in parts if each is not None), span)
@@ -203,7 +203,7 @@ _SETTINGS: dict[type[ast.Setting], str] = {
 
 def _with_setting(spec: Spec, setting: ast.Setting) -> Spec:
     match setting:
-        case ast.MaxPlanLength(value, span):
+        case ast.MaxPlanLength(value, span=span):
             return replace(spec, max_plan_length=ast.number(value), bound_span=span)
         case ast.EffectOrdering(value):
             return replace(spec, effect_ordering=value)

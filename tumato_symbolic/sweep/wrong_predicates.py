@@ -87,15 +87,15 @@ def wrong_predicates(predicate: ast.Predicate, domains: Domains) -> Iterator[Rep
 
 def _here(predicate: ast.Predicate, domains: Domains) -> Iterator[Replacement]:
     match predicate:
-        case ast.Comparison(variable, value, span):
+        case ast.Comparison(variable, value, span=span):
             yield from _another_value(predicate, domains)
             if not domains.has_two(variable):
                 yield span, print_predicate(ast.Difference(variable, value))
-        case ast.Difference(variable, value, span):
+        case ast.Difference(variable, value, span=span):
             yield from _another_value(predicate, domains)
             if not domains.has_two(variable):
                 yield span, print_predicate(ast.Comparison(variable, value))
-        case ast.Membership(variable, items, negated, span):
+        case ast.Membership(variable, items, negated, span=span):
             yield span, print_predicate(ast.Membership(variable, items, not negated))
             for fewer in _without_each(items):
                 yield span, print_predicate(ast.Membership(variable, fewer, negated))
@@ -103,7 +103,7 @@ def _here(predicate: ast.Predicate, domains: Domains) -> Iterator[Replacement]:
             yield span, print_predicate(ast.Ordering(variable, _OTHER[operator], other))
         case ast.Execution(span=span) | ast.Reference(span=span):
             yield span, f"NOT {print_predicate(predicate)}"
-        case ast.Negation(operand, span):
+        case ast.Negation(operand, span=span):
             yield span, f"({print_predicate(operand)})"
         case _:
             yield from _compound(predicate)
@@ -112,17 +112,17 @@ def _here(predicate: ast.Predicate, domains: Domains) -> Iterator[Replacement]:
 def _compound(predicate: ast.Predicate) -> Iterator[Replacement]:
     """In the place of connectives and quantifiers, others; of their parts, fewer."""
     match predicate:
-        case ast.Conjunction(operands, span):
+        case ast.Conjunction(operands, span=span):
             others: list[ast.Predicate] = [ast.Disjunction(operands)]
             others += [each[0] if len(each) == 1 else ast.Conjunction(each) for each in _without_each(operands)]
-        case ast.Disjunction(operands, span):
+        case ast.Disjunction(operands, span=span):
             others = [ast.Conjunction(operands)]
             others += [each[0] if len(each) == 1 else ast.Disjunction(each) for each in _without_each(operands)]
-        case ast.Implication(condition, consequence, span):
+        case ast.Implication(condition, consequence, span=span):
             others = [consequence, ast.Implication(consequence, condition)]
-        case ast.Equivalence(left, right, span):
+        case ast.Equivalence(left, right, span=span):
             others = [ast.Implication(left, right), ast.Implication(right, left)]
-        case ast.Quantifier(kind, header, body, span):
+        case ast.Quantifier(kind, header, body, span=span):
             others = [ast.Quantifier("some" if kind == "all" else "all", header, body)]
         case _:
             return

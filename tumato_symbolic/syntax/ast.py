@@ -21,8 +21,10 @@ NOWHERE = Span(1, 1, 1, 1)
 """The span of a node that no text stands for."""
 
 
-class Node(Struct, frozen=True, eq=False):
-    """What all nodes share: how they compare and how they are shown."""
+class Node(Struct, frozen=True, eq=False, kw_only=True):
+    """What all nodes share: their span, how they compare and how they are shown."""
+
+    span: Span = NOWHERE
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Node) and type(self) is type(other) and self._values() == other._values()
@@ -54,7 +56,6 @@ class Name(Node, frozen=True):
     """A name as it is written in one place."""
 
     text: str
-    span: Span = NOWHERE
 
 
 class Range(Node, frozen=True):
@@ -62,7 +63,6 @@ class Range(Node, frozen=True):
 
     low: Name
     high: Name
-    span: Span = NOWHERE
 
 
 Item: TypeAlias = Name | Range
@@ -73,7 +73,6 @@ class Truth(Node, frozen=True):
     """`true` or `false`."""
 
     value: bool
-    span: Span = NOWHERE
 
 
 class Comparison(Node, frozen=True):
@@ -81,7 +80,6 @@ class Comparison(Node, frozen=True):
 
     variable: Name
     value: Name
-    span: Span = NOWHERE
 
 
 class Difference(Node, frozen=True):
@@ -89,7 +87,6 @@ class Difference(Node, frozen=True):
 
     variable: Name
     value: Name
-    span: Span = NOWHERE
 
 
 class Membership(Node, frozen=True):
@@ -98,7 +95,6 @@ class Membership(Node, frozen=True):
     variable: Name
     items: tuple[Item, ...]
     negated: bool
-    span: Span = NOWHERE
 
 
 Operator: TypeAlias = Literal["<", "<=", ">", ">=", "=", "!="]
@@ -111,7 +107,6 @@ class Ordering(Node, frozen=True):
     operator: Operator
     other: Name
     sign: Span = NOWHERE
-    span: Span = NOWHERE
 
     def _values(self) -> tuple[object, ...]:
         return self.variable, self.operator, self.other
@@ -123,7 +118,6 @@ class Parameter(Node, frozen=True):
     name: Name
     items: tuple[Item, ...]
     braced: bool
-    span: Span = NOWHERE
 
 
 class Operand(Node, frozen=True):
@@ -131,7 +125,6 @@ class Operand(Node, frozen=True):
 
     name: Name
     offset: int = 0
-    span: Span = NOWHERE
 
 
 class Condition(Node, frozen=True):
@@ -140,7 +133,6 @@ class Condition(Node, frozen=True):
     left: Operand
     operator: Operator
     right: Operand
-    span: Span = NOWHERE
 
 
 class Header(Node, frozen=True):
@@ -148,7 +140,6 @@ class Header(Node, frozen=True):
 
     parameters: tuple[Parameter, ...]
     conditions: tuple[Condition, ...]
-    span: Span = NOWHERE
 
 
 class Quantifier(Node, frozen=True):
@@ -157,7 +148,6 @@ class Quantifier(Node, frozen=True):
     kind: Literal["all", "some", "exactly one"]
     header: Header
     body: Predicate
-    span: Span = NOWHERE
 
 
 class Copies(Node, frozen=True):
@@ -165,42 +155,36 @@ class Copies(Node, frozen=True):
 
     header: Header
     entries: tuple[Entry, ...]
-    span: Span = NOWHERE
 
 
 class Execution(Node, frozen=True):
     """`executing ACTION`."""
 
     action: Name
-    span: Span = NOWHERE
 
 
 class Reference(Node, frozen=True):
     """An alias, by name."""
 
     name: Name
-    span: Span = NOWHERE
 
 
 class Negation(Node, frozen=True):
     """`NOT p`."""
 
     operand: Predicate
-    span: Span = NOWHERE
 
 
 class Conjunction(Node, frozen=True):
     """`p AND q AND …`: two operands or more."""
 
     operands: tuple[Predicate, ...]
-    span: Span = NOWHERE
 
 
 class Disjunction(Node, frozen=True):
     """`p OR q OR …`: two operands or more."""
 
     operands: tuple[Predicate, ...]
-    span: Span = NOWHERE
 
 
 class Implication(Node, frozen=True):
@@ -208,7 +192,6 @@ class Implication(Node, frozen=True):
 
     condition: Predicate
     consequence: Predicate
-    span: Span = NOWHERE
 
 
 class Equivalence(Node, frozen=True):
@@ -216,7 +199,6 @@ class Equivalence(Node, frozen=True):
 
     left: Predicate
     right: Predicate
-    span: Span = NOWHERE
 
 
 Predicate: TypeAlias = (
@@ -241,7 +223,6 @@ class VariableDeclaration(Node, frozen=True):
 
     name: Name
     values: tuple[Item, ...]
-    span: Span = NOWHERE
 
 
 class AliasDefinition(Node, frozen=True):
@@ -249,7 +230,6 @@ class AliasDefinition(Node, frozen=True):
 
     name: Name
     predicate: Predicate
-    span: Span = NOWHERE
 
 
 class NamedList(Node, frozen=True):
@@ -257,35 +237,30 @@ class NamedList(Node, frozen=True):
 
     name: Name
     items: tuple[Item, ...]
-    span: Span = NOWHERE
 
 
 class ResourceDeclaration(Node, frozen=True):
     """`resource NAME`."""
 
     name: Name
-    span: Span = NOWHERE
 
 
 class Duration(Node, frozen=True):
     """`duration: N`, or `cost: N` in older files. Among copies, the number may be a name with parameters in it."""
 
     value: int | Name
-    span: Span = NOWHERE
 
 
 class ControlledResources(Node, frozen=True):
     """`controlled resources: R, …`; none at all is written `none`."""
 
     names: tuple[Name, ...]
-    span: Span = NOWHERE
 
 
 class Preconditions(Node, frozen=True):
     """`preconditions: PREDICATE, …`; none at all is written `none`."""
 
     predicates: tuple[Predicate, ...]
-    span: Span = NOWHERE
 
 
 class Change(Node, frozen=True):
@@ -295,7 +270,6 @@ class Change(Node, frozen=True):
     origin: Name
     sign: Literal["+", "-"]
     value: int | Name
-    span: Span = NOWHERE
 
 
 Effect: TypeAlias = Predicate | Change
@@ -306,7 +280,6 @@ class Clause(Node, frozen=True):
 
     condition: Predicate
     effects: tuple[Effect, ...]
-    span: Span = NOWHERE
 
 
 class NominalEffects(Node, frozen=True):
@@ -314,7 +287,6 @@ class NominalEffects(Node, frozen=True):
 
     effects: tuple[Effect, ...]
     clauses: tuple[Clause | Copies, ...] = ()
-    span: Span = NOWHERE
 
 
 class AlternativeEffects(Node, frozen=True):
@@ -322,7 +294,6 @@ class AlternativeEffects(Node, frozen=True):
 
     effects: tuple[Effect, ...]
     clauses: tuple[Clause | Copies, ...] = ()
-    span: Span = NOWHERE
 
 
 Field: TypeAlias = Duration | ControlledResources | Preconditions | NominalEffects | AlternativeEffects
@@ -333,7 +304,6 @@ class ActionDeclaration(Node, frozen=True):
 
     name: Name
     fields: tuple[Field | Copies, ...]
-    span: Span = NOWHERE
 
 
 Declaration: TypeAlias = VariableDeclaration | AliasDefinition | NamedList | ResourceDeclaration | ActionDeclaration
@@ -343,7 +313,6 @@ class SimpleGoal(Node, frozen=True):
     """`goal: PREDICATE`."""
 
     predicate: Predicate
-    span: Span = NOWHERE
 
 
 class ConditionalGoal(Node, frozen=True):
@@ -351,7 +320,6 @@ class ConditionalGoal(Node, frozen=True):
 
     condition: Predicate
     goal: SimpleGoal | GoalList
-    span: Span = NOWHERE
 
 
 class GoalList(Node, frozen=True):
@@ -359,7 +327,6 @@ class GoalList(Node, frozen=True):
 
     kind: Literal["priority", "constraint"] | None
     members: tuple[Goal | Copies, ...]
-    span: Span = NOWHERE
 
 
 Goal: TypeAlias = SimpleGoal | ConditionalGoal | GoalList
@@ -369,28 +336,24 @@ class MaxPlanLength(Node, frozen=True):
     """`max_plan_length: N`. Among copies, the number may be a name with parameters in it."""
 
     value: int | Name
-    span: Span = NOWHERE
 
 
 class EffectOrdering(Node, frozen=True):
     """`effect_ordering: any` or `first`."""
 
     value: Literal["any", "first"]
-    span: Span = NOWHERE
 
 
 class Restoration(Node, frozen=True):
     """`restoration: one_step`, `bounded` or `fair`."""
 
     value: Literal["one_step", "bounded", "fair"]
-    span: Span = NOWHERE
 
 
 class PreconditionsHold(Node, frozen=True):
     """`preconditions: at_start` or `throughout`."""
 
     value: Literal["at_start", "throughout"]
-    span: Span = NOWHERE
 
 
 Setting: TypeAlias = MaxPlanLength | EffectOrdering | Restoration | PreconditionsHold
@@ -400,77 +363,66 @@ class StateVector(Node, frozen=True):
     """`BEGIN STATE VECTOR`."""
 
     variables: tuple[VariableDeclaration | Copies, ...]
-    span: Span = NOWHERE
 
 
 class Aliases(Node, frozen=True):
     """`BEGIN ALIASES`."""
 
     definitions: tuple[AliasDefinition | NamedList | Copies, ...]
-    span: Span = NOWHERE
 
 
 class Resources(Node, frozen=True):
     """`BEGIN RESOURCES`."""
 
     resources: tuple[ResourceDeclaration | Copies, ...]
-    span: Span = NOWHERE
 
 
 class Actions(Node, frozen=True):
     """`BEGIN ACTIONS`."""
 
     actions: tuple[ActionDeclaration | Copies, ...]
-    span: Span = NOWHERE
 
 
 class ReactionRules(Node, frozen=True):
     """`BEGIN REACTION RULES`."""
 
     rules: tuple[Predicate | Copies, ...]
-    span: Span = NOWHERE
 
 
 class Severity(Node, frozen=True):
     """`severity: N`: how severe the state rules after it are."""
 
     value: int | Name
-    span: Span = NOWHERE
 
 
 class StateRules(Node, frozen=True):
     """`BEGIN STATE RULES`."""
 
     rules: tuple[Predicate | Severity | Copies, ...]
-    span: Span = NOWHERE
 
 
 class Assumptions(Node, frozen=True):
     """`BEGIN ASSUMPTIONS`."""
 
     assumptions: tuple[Predicate | Copies, ...]
-    span: Span = NOWHERE
 
 
 class Start(Node, frozen=True):
     """`BEGIN START`."""
 
     conditions: tuple[Predicate | Copies, ...]
-    span: Span = NOWHERE
 
 
 class Goals(Node, frozen=True):
     """The outermost `BEGIN GOALS`."""
 
     goals: GoalList
-    span: Span = NOWHERE
 
 
 class Config(Node, frozen=True):
     """`BEGIN CONFIG`."""
 
     settings: tuple[Setting | Copies, ...]
-    span: Span = NOWHERE
 
 
 Entry: TypeAlias = Declaration | Field | Clause | Predicate | Severity | Goal | Setting | Copies
@@ -485,4 +437,3 @@ class Specification(Node, frozen=True):
     """A whole text: its blocks, in the order in which they stand."""
 
     blocks: tuple[Block, ...]
-    span: Span = NOWHERE

@@ -1,21 +1,21 @@
-"""Bottom-up construction of the tree: one function per rule of the grammar, called by its name. See `Rule.node`.
-
-Longer than 300 lines because the grammar has so many rules: a function is a line or two.
-"""
+"""Bottom-up construction of the tree: one function per rule of the grammar, called by its name. See `Rule.node`."""
 
 # The functions are named and explained by the rules; what they are given depends on the rule.
 # ruff: noqa: D103, ANN401
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import pairwise
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeVar
 
 from msgspec.structs import replace
 
 from tumato_symbolic.diagnostics import Span
 from tumato_symbolic.syntax import ast
 from tumato_symbolic.syntax.tokens import Token
+
+One = TypeVar("One")
 
 Children: TypeAlias = list[Any]
 """What stands for the right side of a rule: keyword tokens, names, and nodes that are already built."""
@@ -39,95 +39,91 @@ def _nodes(children: Children) -> tuple[Any, ...]:
 
 
 def _number(token: Token) -> int | ast.Name:
-    return ast.Name(token.text, token.span) if "{" in token.text else int(token.text)
+    return ast.Name(token.text, span=token.span) if "{" in token.text else int(token.text)
 
 
-def specification(children: Children) -> ast.Specification:
-    return ast.Specification(tuple(children), _span(children))
+def _of_all(kind: Callable[..., One]) -> Callable[[Children], One]:
+    """Makes nodes of one field: all nodes below."""
+    return lambda children: kind(_nodes(children), span=_span(children))
 
 
-def state_vector(children: Children) -> ast.StateVector:
-    return ast.StateVector(_nodes(children), _span(children))
+def _of_each(kind: Callable[..., One]) -> Callable[[Children], One]:
+    """Makes nodes of a field for each node below."""
+    return lambda children: kind(*_nodes(children), span=_span(children))
 
 
-def aliases(children: Children) -> ast.Aliases:
-    return ast.Aliases(_nodes(children), _span(children))
+def _of_first_and_others(kind: Callable[..., One]) -> Callable[[Children], One]:
+    """Makes nodes of two fields: the first node below, and all others."""
+
+    def made(children: Children) -> One:
+        first, *others = _nodes(children)
+        return kind(first, tuple(others), span=_span(children))
+
+    return made
 
 
-def resources(children: Children) -> ast.Resources:
-    return ast.Resources(_nodes(children), _span(children))
+def _of_number(kind: Callable[..., One]) -> Callable[[Children], One]:
+    """Makes nodes of one field: the number at the end."""
+    return lambda children: kind(_number(children[-1]), span=_span(children))
 
 
-def actions(children: Children) -> ast.Actions:
-    return ast.Actions(_nodes(children), _span(children))
+def _of_word(kind: Callable[..., One]) -> Callable[[Children], One]:
+    """Makes nodes of one field: the word at the end, one of those that the grammar lists."""
+    return lambda children: kind(children[-1].text, span=_span(children))
 
 
-def reaction_rules(children: Children) -> ast.ReactionRules:
-    return ast.ReactionRules(_nodes(children), _span(children))
+state_vector = _of_all(ast.StateVector)
+aliases = _of_all(ast.Aliases)
+resources = _of_all(ast.Resources)
+actions = _of_all(ast.Actions)
+reaction_rules = _of_all(ast.ReactionRules)
+state_rules = _of_all(ast.StateRules)
+assumptions = _of_all(ast.Assumptions)
+start = _of_all(ast.Start)
+config = _of_all(ast.Config)
+controlled_resources = _of_all(ast.ControlledResources)
+preconditions = _of_all(ast.Preconditions)
+disjunction = _of_all(ast.Disjunction)
+conjunction = _of_all(ast.Conjunction)
+specification = _of_all(ast.Specification)
 
+goals = _of_each(ast.Goals)
+alias = _of_each(ast.AliasDefinition)
+resource = _of_each(ast.ResourceDeclaration)
+simple_goal = _of_each(ast.SimpleGoal)
+conditional_goal = _of_each(ast.ConditionalGoal)
+equivalence = _of_each(ast.Equivalence)
+implies = _of_each(ast.Implication)
+denied = _of_each(ast.Negation)
+comparison = _of_each(ast.Comparison)
+difference = _of_each(ast.Difference)
+range = _of_each(ast.Range)
+execution = _of_each(ast.Execution)
+reference = _of_each(ast.Reference)
 
-def state_rules(children: Children) -> ast.StateRules:
-    return ast.StateRules(_nodes(children), _span(children))
+variable = _of_first_and_others(ast.VariableDeclaration)
+named_list = _of_first_and_others(ast.NamedList)
+action = _of_first_and_others(ast.ActionDeclaration)
+clause = _of_first_and_others(ast.Clause)
+copies = _of_first_and_others(ast.Copies)
+copied_variables = copied_aliases = copied_resources = copied_actions = copied_fields = copied_clauses = copies
+copied_rules = copied_assumptions = copied_starts = copied_goals = copied_settings = copies
 
+duration = _of_number(ast.Duration)
+severity = _of_number(ast.Severity)
+max_plan_length = _of_number(ast.MaxPlanLength)
 
-def assumptions(children: Children) -> ast.Assumptions:
-    return ast.Assumptions(_nodes(children), _span(children))
-
-
-def start(children: Children) -> ast.Start:
-    return ast.Start(_nodes(children), _span(children))
-
-
-def goals(children: Children) -> ast.Goals:
-    return ast.Goals(children[0], _span(children))
-
-
-def config(children: Children) -> ast.Config:
-    return ast.Config(_nodes(children), _span(children))
-
-
-def variable(children: Children) -> ast.VariableDeclaration:
-    name, *values = _nodes(children)
-    return ast.VariableDeclaration(name, tuple(values), _span(children))
-
-
-def alias(children: Children) -> ast.AliasDefinition:
-    name, predicate = _nodes(children)
-    return ast.AliasDefinition(name, predicate, _span(children))
-
-
-def named_list(children: Children) -> ast.NamedList:
-    name, *items = _nodes(children)
-    return ast.NamedList(name, tuple(items), _span(children))
-
-
-def resource(children: Children) -> ast.ResourceDeclaration:
-    return ast.ResourceDeclaration(children[1], _span(children))
-
-
-def action(children: Children) -> ast.ActionDeclaration:
-    name, *fields = _nodes(children)
-    return ast.ActionDeclaration(name, tuple(fields), _span(children))
-
-
-def duration(children: Children) -> ast.Duration:
-    return ast.Duration(_number(children[-1]), _span(children))
-
-
-def controlled_resources(children: Children) -> ast.ControlledResources:
-    return ast.ControlledResources(_nodes(children), _span(children))
-
-
-def preconditions(children: Children) -> ast.Preconditions:
-    return ast.Preconditions(_nodes(children), _span(children))
+effect_ordering = _of_word(ast.EffectOrdering)
+restoration = _of_word(ast.Restoration)
+preconditions_hold = _of_word(ast.PreconditionsHold)
 
 
 def nominal_effects(children: Children) -> ast.NominalEffects:
-    return ast.NominalEffects(*_effects_and_clauses(children), _span(children))
+    return ast.NominalEffects(*_effects_and_clauses(children), span=_span(children))
 
 
 def alternative_effects(children: Children) -> ast.AlternativeEffects:
-    return ast.AlternativeEffects(*_effects_and_clauses(children), _span(children))
+    return ast.AlternativeEffects(*_effects_and_clauses(children), span=_span(children))
 
 
 def _effects_and_clauses(children: Children) -> tuple[tuple[ast.Effect, ...], tuple[ast.Clause | ast.Copies, ...]]:
@@ -139,13 +135,8 @@ def _effects_and_clauses(children: Children) -> tuple[tuple[ast.Effect, ...], tu
 def change(children: Children) -> ast.Change:
     variable, _, origin, *amount = children
     text = amount[-1].text if len(amount) > 1 else amount[0].text[1:]
-    value = ast.Name(text, amount[-1].span) if "{" in text else int(text)
-    return ast.Change(variable, origin, "+" if amount[0].text[0] == "+" else "-", value, _span(children))
-
-
-def clause(children: Children) -> ast.Clause:
-    condition, *effects = _nodes(children)
-    return ast.Clause(condition, tuple(effects), _span(children))
+    value = ast.Name(text, span=amount[-1].span) if "{" in text else int(text)
+    return ast.Change(variable, origin, "+" if amount[0].text[0] == "+" else "-", value, span=_span(children))
 
 
 def rule(children: Children) -> ast.Predicate:
@@ -158,64 +149,9 @@ assumption = start_condition = rule
 
 def goal_list(children: Children) -> ast.GoalList:
     if len(children) == len(("BEGIN", "GOALS", "END", "GOALS")):
-        return ast.GoalList(None, (), _span(children))
+        return ast.GoalList(None, (), span=_span(children))
     kind = children[len(("BEGIN", "GOALS", "goal", "type", ":"))]
-    return ast.GoalList("priority" if kind.text == "priority" else "constraint", _nodes(children), _span(children))
-
-
-def simple_goal(children: Children) -> ast.SimpleGoal:
-    return ast.SimpleGoal(children[-1], _span(children))
-
-
-def conditional_goal(children: Children) -> ast.ConditionalGoal:
-    condition, goal = _nodes(children)
-    return ast.ConditionalGoal(condition, goal, _span(children))
-
-
-def max_plan_length(children: Children) -> ast.MaxPlanLength:
-    return ast.MaxPlanLength(_number(children[-1]), _span(children))
-
-
-def effect_ordering(children: Children) -> ast.EffectOrdering:
-    return ast.EffectOrdering("any" if children[-1].text == "any" else "first", _span(children))
-
-
-def restoration(children: Children) -> ast.Restoration:
-    value = children[-1].text
-    return ast.Restoration(
-        "bounded" if value == "bounded" else "fair" if value == "fair" else "one_step", _span(children)
-    )
-
-
-def preconditions_hold(children: Children) -> ast.PreconditionsHold:
-    value = children[-1].text
-    return ast.PreconditionsHold("throughout" if value == "throughout" else "at_start", _span(children))
-
-
-def severity(children: Children) -> ast.Severity:
-    return ast.Severity(_number(children[-1]), _span(children))
-
-
-def equivalence(children: Children) -> ast.Equivalence:
-    left, right = _nodes(children)
-    return ast.Equivalence(left, right, _span(children))
-
-
-def implies(children: Children) -> ast.Implication:
-    condition, consequence = _nodes(children)
-    return ast.Implication(condition, consequence, _span(children))
-
-
-def disjunction(children: Children) -> ast.Disjunction:
-    return ast.Disjunction(_nodes(children), _span(children))
-
-
-def conjunction(children: Children) -> ast.Conjunction:
-    return ast.Conjunction(_nodes(children), _span(children))
-
-
-def denied(children: Children) -> ast.Negation:
-    return ast.Negation(children[-1], _span(children))
+    return ast.GoalList("priority" if kind.text == "priority" else "constraint", _nodes(children), span=_span(children))
 
 
 def group(children: Children) -> ast.Predicate:
@@ -224,33 +160,18 @@ def group(children: Children) -> ast.Predicate:
     return inner
 
 
-def comparison(children: Children) -> ast.Comparison:
-    variable, value = _nodes(children)
-    return ast.Comparison(variable, value, _span(children))
-
-
-def difference(children: Children) -> ast.Difference:
-    variable, value = _nodes(children)
-    return ast.Difference(variable, value, _span(children))
-
-
 def membership(children: Children) -> ast.Membership:
     variable, *items = _nodes(children)
-    return ast.Membership(variable, tuple(items), children[1].text == "not", _span(children))
+    return ast.Membership(variable, tuple(items), children[1].text == "not", span=_span(children))
 
 
 def ordering(children: Children) -> ast.Ordering:
     variable, operator, other = children
-    return ast.Ordering(variable, operator.text, other, operator.span, _span(children))
-
-
-def range(children: Children) -> ast.Range:
-    low, high = _nodes(children)
-    return ast.Range(low, high, _span(children))
+    return ast.Ordering(variable, operator.text, other, operator.span, span=_span(children))
 
 
 def number(children: Children) -> ast.Name:
-    return ast.Name(children[0].text, children[0].span)
+    return ast.Name(children[0].text, span=children[0].span)
 
 
 def header(children: Children) -> ast.Header:
@@ -262,50 +183,30 @@ def header(children: Children) -> ast.Header:
         braced = isinstance(parts[start + 2], Token)
         items = _nodes(parts[start + 2 : end])
         last = items[-1]
-        parameters.append(ast.Parameter(parts[start], items, braced, _span([parts[start], last])))
+        parameters.append(ast.Parameter(parts[start], items, braced, span=_span([parts[start], last])))
     conditions = tuple(part for part in children if isinstance(part, ast.Condition))
-    return ast.Header(tuple(parameters), conditions, _span(children))
+    return ast.Header(tuple(parameters), conditions, span=_span(children))
 
 
 def condition(children: Children) -> ast.Condition:
     left, operator, right = children
-    return ast.Condition(left, operator.text, right, _span(children))
+    return ast.Condition(left, operator.text, right, span=_span(children))
 
 
 def operand(children: Children) -> ast.Operand:
     first = children[0]
     offset = int(children[1].text) if len(children) > 1 else 0
-    return ast.Operand(ast.Name(first.text, first.span), offset, _span(children))
+    return ast.Operand(ast.Name(first.text, span=first.span), offset, span=_span(children))
 
 
 def quantifier(children: Children) -> ast.Quantifier:
     first = children[0].text
-    found, body = _nodes(children)
-    return ast.Quantifier(
-        "all" if first == "all" else "some" if first == "some" else "exactly one", found, body, _span(children)
-    )
-
-
-def copies(children: Children) -> ast.Copies:
-    found, *entries = _nodes(children)
-    return ast.Copies(found, tuple(entries), _span(children))
-
-
-copied_variables = copied_aliases = copied_resources = copied_actions = copied_fields = copied_clauses = copies
-copied_rules = copied_assumptions = copied_starts = copied_goals = copied_settings = copies
-
-
-def execution(children: Children) -> ast.Execution:
-    return ast.Execution(children[-1], _span(children))
-
-
-def reference(children: Children) -> ast.Reference:
-    return ast.Reference(children[0], _span(children))
+    return ast.Quantifier("exactly one" if first == "exactly" else first, *_nodes(children), span=_span(children))
 
 
 def true(children: Children) -> ast.Truth:
-    return ast.Truth(True, _span(children))
+    return ast.Truth(True, span=_span(children))
 
 
 def false(children: Children) -> ast.Truth:
-    return ast.Truth(False, _span(children))
+    return ast.Truth(False, span=_span(children))

@@ -43,7 +43,7 @@ class Stack:
             if states[-1] == self._table.end:
                 return value
         states.append(action)
-        values.append(ast.Name(token.text, token.span) if terminal == "NAME" else token)
+        values.append(ast.Name(token.text, span=token.span) if terminal == "NAME" else token)
         return None
 
     def fits(self, terminal: str) -> bool:
