@@ -54,21 +54,6 @@ def restoration() -> Any:  # noqa: ANN401
     )
 
 
-def each_timeout(what: str) -> Any:  # noqa: ANN401
-    """`--timeout`, where it bounds each of several pieces of work."""
-    return argument("--timeout", type=seconds, metavar="SECONDS", help=f"how long {what} may take (default: no limit)")
-
-
-def each_memory(what: str) -> Any:  # noqa: ANN401
-    """`--memory`, where it bounds each of several pieces of work."""
-    return argument(
-        "--memory",
-        type=whole(1, "megabytes"),
-        metavar="MB",
-        help=f"how much memory {what} may use (default: no limit)",
-    )
-
-
 def no_verify(help_: str) -> Any:  # noqa: ANN401
     """`--no-verify`."""
     return argument("--no-verify", action="store_false", help=help_)
@@ -90,14 +75,10 @@ def timeout(default: str = "no limit") -> Any:  # noqa: ANN401
     )
 
 
-def memory() -> Any:  # noqa: ANN401
-    """`--memory`."""
-    return argument(
-        "--memory",
-        type=whole(1, "megabytes"),
-        metavar="MB",
-        help="how much memory the command may use before it ends in the same way (default: no limit)",
-    )
+def memory(limit: str = "how much memory the command may use before it ends in the same way") -> Any:  # noqa: ANN401
+    """`--memory`; `limit` says what it bounds."""
+    help_ = f"{limit} (default: no limit)"
+    return argument("--memory", type=whole(1, "megabytes"), metavar="MB", help=help_)
 
 
 def prover() -> Any:  # noqa: ANN401

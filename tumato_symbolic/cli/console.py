@@ -8,8 +8,10 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from pathlib import Path
 from typing import TextIO
 
+from tumato_symbolic.cli.options import STANDARD_OUTPUT
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.limits import Context
 
@@ -62,6 +64,17 @@ def write(text: str) -> None:
         close_quietly()
         reason = error.strerror or str(error)
         raise UserError((Diagnostic(Code.TUM117, f"the output cannot be written: {reason}"),)) from error
+
+
+def write_to(path: str, text: str, what: str) -> None:
+    """Put a text into a file; `-` is the standard output. `what` is what it is called in messages."""
+    from tumato_symbolic.policy import save_text
+
+    if path == STANDARD_OUTPUT:
+        write(text)
+    else:
+        with writing():
+            save_text(text, Path(path), what)
 
 
 def need_output() -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
@@ -34,17 +34,17 @@ def read_spec(path: str, restoration: Restoration | None = None) -> tuple[Source
 
 
 def read_policy(
-    options: CommandOptions, restoration: Restoration | None, context: Context
+    options: CommandOptions, restoration: Restoration | None, context: Context, fit: Callable[[Policy, Spec], Policy]
 ) -> tuple[Source, Spec, Policy]:
-    """The text, the specification, and the policy in its numbers. Raises `UserError` where they do not fit."""
-    from tumato_symbolic.policy import Policy, bind
+    """The text, the specification, and the policy as `fit` makes it fit. Raises `UserError` where it does not."""
+    from tumato_symbolic.policy import Policy
 
     context.tell("reading the specification")
     source, spec, _ = read_spec(options.specs[0], restoration)
     context.tell(f"reading {options.policy}")
     policy = Policy.load(options.policy)
     with errors_in(source):
-        return source, spec, bind(policy, spec)
+        return source, spec, fit(policy, spec)
 
 
 @contextmanager

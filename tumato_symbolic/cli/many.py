@@ -25,7 +25,7 @@ from tumato_symbolic.limits import Context, LimitReachedError
 from tumato_symbolic.limits.processes import can_fork
 from tumato_symbolic.policy import load_claim
 from tumato_symbolic.report.many import Many, Report, Row, as_line, as_text, failed, undecided, without_report
-from tumato_symbolic.verify.workers import Lost, in_workers
+from tumato_symbolic.verify.workers import Lost, cores, in_workers
 
 Run = Callable[[Any, Context], int]
 """A command."""
@@ -88,9 +88,9 @@ def policies_in(folder: str, specs: str) -> Iterator[tuple[str, str | UserError]
             yield str(path), error
 
 
-def run_many(work: Iterable[Work], doing: Doing, options: CommandOptions, context: Context, *, jobs: int) -> int:
+def run_many(work: Iterable[Work], doing: Doing, options: CommandOptions, context: Context, *, jobs: int | None) -> int:
     """Do it all and report it; the exit code is that of the worst file."""
-    todo, started = list(work), time.perf_counter()
+    todo, started, jobs = list(work), time.perf_counter(), jobs or cores()
     found: dict[int, Row] = {}
     wants_lines = options.output_format == "json"
 

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tumato_symbolic.cli.console import write, writing
-from tumato_symbolic.cli.options import STANDARD_OUTPUT
+from tumato_symbolic.cli.console import write_to
 from tumato_symbolic.diagnostics import Code, Source, UserError
 from tumato_symbolic.limits import Context, LimitReachedError
-from tumato_symbolic.policy import RuleList, find_rules, save_text
+from tumato_symbolic.policy import RuleList, find_rules
 from tumato_symbolic.report.explained import Explained
 from tumato_symbolic.report.html.contents import NoPolicyPage, PolicyPage
 from tumato_symbolic.report.html.page import page
@@ -51,8 +49,4 @@ def write_page(of: PolicyPage | NoPolicyPage, output: str, context: Context) -> 
     context.tell("putting the page together")
     text = page(of)
     context.check()
-    if output == STANDARD_OUTPUT:
-        write(text)
-    else:
-        with writing():
-            save_text(text, Path(output), "page")
+    write_to(output, text, "page")

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import time
-from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias, cast
 
 from msgspec import Struct
 from msgspec.structs import replace
 
-from tumato_symbolic.cli.console import write
+from tumato_symbolic.cli.console import write_to
 from tumato_symbolic.cli.exits import NO, UNDECIDED, YES
 from tumato_symbolic.cli.inputs import errors_in, read_spec
-from tumato_symbolic.cli.options import STANDARD_OUTPUT
 from tumato_symbolic.limits import Context
 from tumato_symbolic.policy import Policy
 from tumato_symbolic.report.verified import Verified
@@ -22,7 +20,6 @@ from tumato_symbolic.verify.workers import cores
 
 if TYPE_CHECKING:
     from tumato_symbolic.diagnostics import Diagnostic, Source
-    from tumato_symbolic.policy.guarantees import GuaranteesCertificate
     from tumato_symbolic.policy.unrealizability import Unrealizability
     from tumato_symbolic.report.unrealizable import VerifiedUnrealizable
     from tumato_symbolic.spec import Ordering, Restoration, Spec
@@ -116,23 +113,14 @@ def _verify_policy(policy: Policy, asked: _Asked, context: Context, jobs: int) -
     if not criteria.guarantees or verification.verdict != "proved":
         return done
     context.learn(done)
+    from tumato_symbolic.policy.guarantees import dumps
     from tumato_symbolic.verify.guarantees.analyse import guarantees
 
     certify = criteria.guarantees_file is not None
     found = guarantees(policy, asked.spec, verification.ordering, certify=certify, context=context)
     if found.certificate is not None and criteria.guarantees_file is not None:
-        write_certificate(found.certificate, criteria.guarantees_file)
+        write_to(criteria.guarantees_file, dumps(found.certificate), "certificate")
     return replace(done, guarantees=found, took=asked.took())
-
-
-def write_certificate(certificate: GuaranteesCertificate, target: str) -> None:
-    """Write it to a file; `-` is the standard output."""
-    from tumato_symbolic.policy.guarantees import dumps, save
-
-    if target == STANDARD_OUTPUT:
-        write(dumps(certificate).rstrip("\n"))
-    else:
-        save(certificate, Path(target))
 
 
 def _not_yet(verification: Verification) -> Guarantees:

@@ -30,29 +30,9 @@ def need_z3(purpose: str) -> None:
         raise MissingPackageError("Z3", "z3-solver", purpose)
 
 
-def need_pygls(purpose: str) -> None:
-    """Raise `MissingPackageError` where pygls cannot be imported."""
-    _need("pygls.lsp.server", "pygls", "lsp", purpose)
-
-
-def need_pandas(purpose: str) -> None:
-    """Raise `MissingPackageError` where pandas cannot be imported."""
-    _need("pandas", "pandas", "notebook", purpose)
-
-
-def need_networkx(purpose: str) -> None:
-    """Raise `MissingPackageError` where networkx cannot be imported."""
-    _need("networkx", "networkx", "notebook", purpose)
-
-
-def need_distributed(purpose: str) -> None:
-    """Raise `MissingPackageError` where distributed cannot be imported."""
-    _need("distributed", "distributed", "cluster", purpose)
-
-
-def _need(module: str, name: str, extra: str, purpose: str) -> None:
+def need(module: str, extra: str, purpose: str) -> None:
     """Raise `MissingPackageError` where a module of a package, which an extra of ours brings, cannot be imported."""
     try:
         import_module(module)
     except ImportError:
-        raise MissingPackageError(name, f"'tumato-symbolic[{extra}]'", purpose) from None
+        raise MissingPackageError(module.partition(".")[0], f"'tumato-symbolic[{extra}]'", purpose) from None

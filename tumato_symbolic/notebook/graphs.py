@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from tumato_symbolic.limits.packages import need_networkx
+from tumato_symbolic.limits.packages import need
 from tumato_symbolic.notebook.rows import few_rows
 from tumato_symbolic.policy import Policy, bind
 from tumato_symbolic.semantics import State, action_names, in_json, is_safe, nominal_agrees, outcomes, successor
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 def to_networkx(policy: Policy, spec: Spec, max_states: int) -> DiGraph:
     """See `Policy.to_networkx`."""
-    need_networkx("make a graph of a policy")
+    need("networkx", "notebook", "make a graph of a policy")
     from networkx import DiGraph
 
     def node(state: State) -> tuple[Value, ...]:

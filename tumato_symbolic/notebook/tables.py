@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from tumato_symbolic.limits.packages import need_pandas
+from tumato_symbolic.limits.packages import need
 from tumato_symbolic.notebook.rows import few_rows
 from tumato_symbolic.policy import Policy, fitted
 from tumato_symbolic.semantics import in_json, is_safe
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 def to_dataframe(policy: Policy, spec: Spec, max_states: int) -> DataFrame:
     """See `Policy.to_dataframe`."""
-    need_pandas("make a table of a policy")
+    need("pandas", "notebook", "make a table of a policy")
     from pandas import DataFrame, MultiIndex, Series
 
     own = fitted(policy, spec)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from msgspec import Struct
 from msgspec.structs import replace
 
@@ -13,7 +11,6 @@ from tumato_symbolic.policy.formats.diagrams import DiagramPart, section
 from tumato_symbolic.policy.formats.kinds import Names
 from tumato_symbolic.policy.formats.tables import NEEDED, Entries, Field, Record, plain, text_of
 from tumato_symbolic.policy.records import Drawing, Vocabulary
-from tumato_symbolic.policy.text import save_text
 from tumato_symbolic.spec import Ordering, Restoration
 
 GUARANTEES = "guarantees"
@@ -117,11 +114,6 @@ FILE = Record(
     style=plain,
 )
 """The fields of the file."""
-
-
-def save(certificate: GuaranteesCertificate, path: Path) -> None:
-    """Write the certificate to `path`, all or nothing. Raises `UserError` (TUM510)."""
-    save_text(dumps(certificate), path, "certificate")
 
 
 def dumps(certificate: GuaranteesCertificate) -> str:

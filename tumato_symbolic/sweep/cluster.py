@@ -20,7 +20,7 @@ from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
 from tumato_symbolic.diagnostics.wording import quoted
-from tumato_symbolic.limits.packages import need_distributed
+from tumato_symbolic.limits.packages import need
 from tumato_symbolic.sweep.asking import start
 from tumato_symbolic.sweep.portions import LostError, Workers
 from tumato_symbolic.sweep.versions import Versions, difference, versions
@@ -56,7 +56,7 @@ def cluster(address: str) -> Iterator[Workers]:
     Raises `UserError` (TUM119) where it cannot be reached, has no workers, or one of them does not answer or has other
     versions than this machine; `MissingPackageError` where `distributed` is not there.
     """
-    need_distributed("hand work to a cluster")
+    need("distributed", "cluster", "hand work to a cluster")
     from distributed import Client
 
     for name in ("distributed", "distributed.client"):  # what they would say of lost connections is said below

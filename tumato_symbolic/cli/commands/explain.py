@@ -5,17 +5,16 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Iterator, Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from msgspec import Struct
 from msgspec.structs import replace
 
 from tumato_symbolic.cli import arguments
-from tumato_symbolic.cli.console import note, wants_colour, write, writing
+from tumato_symbolic.cli.console import note, wants_colour, write, write_to
 from tumato_symbolic.cli.exits import NO, UNDECIDED, YES
 from tumato_symbolic.cli.numbers import whole, whole_or_all
-from tumato_symbolic.cli.options import MINUTE, STANDARD_OUTPUT, CommandOptions, OutputFormat, Target, argument
+from tumato_symbolic.cli.options import MINUTE, CommandOptions, OutputFormat, Target, argument
 from tumato_symbolic.cli.output import show_as
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.limits import Context
@@ -123,9 +122,8 @@ def run(options: Options, context: Context) -> int:
     """Exit with 1 where there is no policy: that is the answer, and the explanation belongs to it."""
     if options.is_many:
         from tumato_symbolic.cli.many import run_many
-        from tumato_symbolic.cli.verifying import wanted_jobs
 
-        return run_many(options.each(), _doing(), options, context, jobs=wanted_jobs(options.jobs))
+        return run_many(options.each(), _doing(), options, context, jobs=options.jobs)
     from tumato_symbolic.cli.inputs import errors_in, read_spec, show_warnings
     from tumato_symbolic.explain.explain import MAX_CUBES, explained
     from tumato_symbolic.explain.explanation import Explanation, Unexplained
@@ -233,12 +231,7 @@ def _code(known: _Known) -> int:
 def _write(path: str, source: Source, found: Explanation) -> None:
     """Write the specification with the assumption of its realizable part, or with the starts of it."""
     from tumato_symbolic.explain.writing import with_assumption, with_starts
-    from tumato_symbolic.policy import save_text
 
     assert found.part is not None, "there is something to write"
     text = (with_starts if found.spec.starts else with_assumption)(source, found.part.text)
-    if path == STANDARD_OUTPUT:
-        write(text)
-    else:
-        with writing():
-            save_text(text, Path(path), "specification")
+    write_to(path, text, "specification")

@@ -44,10 +44,10 @@ class Options(CommandOptions, frozen=True):
 
 def run(options: Options, context: Context) -> int:
     """Serve until the editor says that it is enough."""
-    from tumato_symbolic.limits.packages import MissingPackageError, need_pygls
+    from tumato_symbolic.limits.packages import MissingPackageError, need
 
     try:
-        need_pygls("serve an editor")
+        need("pygls.lsp.server", "lsp", "serve an editor")
     except MissingPackageError as error:
         note(f"tumato-sym: {error}")
         return UNDECIDED

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 from msgspec.structs import replace
 
 from tumato_symbolic.cli import arguments
-from tumato_symbolic.cli.console import note, write, writing
+from tumato_symbolic.cli.console import note, write, write_to
 from tumato_symbolic.cli.exits import NO, YES
 from tumato_symbolic.cli.numbers import probability, whole
-from tumato_symbolic.cli.options import STANDARD_OUTPUT, CommandOptions, OutputFormat, Target, argument, is_folder
+from tumato_symbolic.cli.options import CommandOptions, OutputFormat, Target, argument, is_folder
 from tumato_symbolic.cli.output import show_as
 from tumato_symbolic.limits import Context, LimitReachedError
 
@@ -143,10 +143,8 @@ def run(options: Options, context: Context) -> int:
 
     if options.is_many:
         from tumato_symbolic.cli.many import Doing, run_many
-        from tumato_symbolic.cli.verifying import wanted_jobs
 
-        doing = Doing(run, None, _said)
-        return run_many(options.each(), doing, options, context, jobs=wanted_jobs(options.jobs))
+        return run_many(options.each(), Doing(run, None, _said), options, context, jobs=options.jobs)
     loaded = _load(options, context)
     try:
         if not options.by_itself:
@@ -190,11 +188,11 @@ _ENDS = {
 def _load(options: Options, context: Context) -> _Loaded:
     from tumato_symbolic.cli.inputs import read_policy
     from tumato_symbolic.explain.decision import Decisions
-    from tumato_symbolic.policy import parse_assignments
+    from tumato_symbolic.policy import bind, parse_assignments
     from tumato_symbolic.report.objections import Place
     from tumato_symbolic.simulation import Starts
 
-    source, spec, policy = read_policy(options, options.restoration, context)
+    source, spec, policy = read_policy(options, options.restoration, context, bind)
     asked = parse_assignments(policy.vocabulary, options.assignments, whole=False)
     given = {
         number: variable.values.index(asked[variable.name])
@@ -268,15 +266,7 @@ def _write_itf(place: Place, trace: Trace, options: Options) -> None:
     """The trace as a file, where one is asked for."""
     if options.itf is None:
         return
-    from pathlib import Path
-
-    from tumato_symbolic.policy import save_text
     from tumato_symbolic.report.layout import dump
     from tumato_symbolic.report.traces import trace_itf
 
-    text = f"{dump(trace_itf(place, trace))}\n"
-    if options.itf == STANDARD_OUTPUT:
-        write(text)
-    else:
-        with writing():
-            save_text(text, Path(options.itf), "trace")
+    write_to(options.itf, f"{dump(trace_itf(place, trace))}\n", "trace")

@@ -137,18 +137,14 @@ def run(options: Options, context: Context) -> int:
 
 def _read(options: Options, context: Context) -> tuple[Policy, Spec | None]:
     """The policy, in the order of the specification where there is one. Raises `UserError` where they do not fit."""
-    from tumato_symbolic.cli.inputs import errors_in, read_spec
+    from tumato_symbolic.cli.inputs import read_policy
     from tumato_symbolic.policy import Policy, fitted
 
     if not options.specs:
         context.tell(f"reading {options.policy}")
         return Policy.load(options.policy), None
-    context.tell("reading the specification")
-    source, spec, _ = read_spec(options.specs[0])
-    context.tell(f"reading {options.policy}")
-    policy = Policy.load(options.policy)
-    with errors_in(source):
-        return fitted(policy, spec), spec
+    _, spec, policy = read_policy(options, None, context, fitted)
+    return policy, spec
 
 
 def _content(selected: Selected, options: Options, context: Context) -> RuleList | Tree | None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 from tumato_symbolic.cli import arguments
 from tumato_symbolic.cli.console import note, write
 from tumato_symbolic.cli.exits import NO, UNDECIDED, USAGE, YES
-from tumato_symbolic.cli.numbers import whole, whole_or_all
+from tumato_symbolic.cli.numbers import seconds, whole, whole_or_all
 from tumato_symbolic.cli.options import STANDARD_OUTPUT, CommandOptions, OutputFormat, Target, argument
 from tumato_symbolic.limits import Context
 
@@ -69,8 +69,10 @@ class Options(CommandOptions, frozen=True):
         help="add each result to this file, as a line of JSON; the same command goes on where it stopped",
         writes=Target("results file", "-o", "results.jsonl"),
     )
-    each_seconds: float | None = arguments.each_timeout("each variant")
-    each_megabytes: int | None = arguments.each_memory("each variant")
+    each_seconds: float | None = argument(
+        "--timeout", type=seconds, metavar="SECONDS", help="how long each variant may take (default: no limit)"
+    )
+    each_megabytes: int | None = arguments.memory("how much memory each variant may use")
     scheduler: str | None = argument(
         "--scheduler",
         metavar="ADDRESS",

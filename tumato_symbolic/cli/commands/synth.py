@@ -125,9 +125,8 @@ def run(options: Options, context: Context) -> int:
     """Exit with 0 only when there is a policy, it is proved (unless that was declined), and it is written."""
     if options.is_many:
         from tumato_symbolic.cli.many import run_many
-        from tumato_symbolic.cli.verifying import wanted_jobs
 
-        return run_many(options.each(), _doing(), options, context, jobs=wanted_jobs(options.jobs))
+        return run_many(options.each(), _doing(), options, context, jobs=options.jobs)
     from tumato_symbolic.cli.inputs import errors_in, read_spec
     from tumato_symbolic.cli.synthesizing import prove, solve, write_answer, write_html
     from tumato_symbolic.report.synthesized import Synthesized

@@ -48,12 +48,12 @@ def run(options: Options, context: Context) -> int:
     """Exit with 1 where the policy says nothing about the state."""
     from tumato_symbolic.cli.inputs import read_policy
     from tumato_symbolic.explain.decision import Decisions, alternative, why
-    from tumato_symbolic.policy import UndecidedState, judged_within, parse_assignments
+    from tumato_symbolic.policy import UndecidedState, bind, judged_within, parse_assignments
     from tumato_symbolic.report import decided
     from tumato_symbolic.report.objections import Place
     from tumato_symbolic.semantics import cases_in
 
-    source, spec, policy = read_policy(options, options.restoration, context)
+    source, spec, policy = read_policy(options, options.restoration, context, bind)
     ordering = options.effect_ordering or spec.ordering
     asked = parse_assignments(policy.vocabulary, options.assignments)
     state = tuple(variable.values.index(asked[variable.name]) for variable in spec.variables)
