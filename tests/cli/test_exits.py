@@ -328,6 +328,23 @@ def test_a_limit_is_undecided(cli: Cli, tmp_path: Path, limit: tuple[str, str]) 
         assert ran.code == 0
 
 
+@pytest.mark.parametrize(
+    ("command", "file"),
+    [
+        ("synth amr.tum", "amr.tum"),
+        ("verify amr.json amr.tum", "amr.tum"),
+        ("show amr.json", "amr.json"),
+        ("diff amr.json unsafe.json", "unsafe.json"),
+        ("diff amr.tum warned.tum", "warned.tum"),
+    ],
+)
+def test_what_met_a_limit_is_named(cli: Cli, command: str, file: str) -> None:
+    """Before anything is known, an answer says at least what it is about."""
+    ran = cli(*command.split(), "--timeout", "0.000001")
+    assert ran.code == 3
+    assert ran.out.startswith(f"{file}: undecided: the time limit of")
+
+
 NO_NUMBERS = ["", "0", "-1", "soon", "nan", "inf", "1e400", "1_0", "٣", "²", "9" * 20, "9" * 5000]
 
 

@@ -13,7 +13,7 @@ from tumato_symbolic.report.findings import finding_json, findings_of, undecided
 
 def show_undecided(why: str, options: CommandOptions) -> None:
     """That there is no answer, and nothing to say beside why."""
-    file = options.specs[0] if options.specs else options.policy
+    file = options.specs[0] if options.specs else options.inputs()[-1]
     show_as(
         options,
         text=lambda _: f"{file}: undecided: {why}.",
