@@ -76,7 +76,7 @@ class Sets(UniqueTable):
 
     def top(self, *sets: Reference) -> int:
         """The first level that one of the sets tests."""
-        return min(self._levels[each] for each in sets)
+        return min(map(self._levels.__getitem__, sets))
 
     def below(self, level: int, states: Reference) -> tuple[Reference, ...]:
         """What a set becomes for each value of the variable at `level`, its first or one before it."""

@@ -181,6 +181,8 @@ class Renumbering(Struct, frozen=True):
 
     def drawn(self, record: SomeDrawn) -> SomeDrawn:
         """The same functions of states with new numbers; the order of tests stays as it is."""
+        if self._changes_nothing:
+            return record
         diagram, roots = record.drawing
         order = [self.variables[variable] for variable in diagram.order]
         return record.drawn(*rebuild(diagram, roots, order, [self.values[variable] for variable in diagram.order]))

@@ -44,29 +44,34 @@ class Packing:
 
 
 class Remembered:
-    """Whether a formula holds while `executed` runs: asked of `holds` once for the values of what it mentions."""
+    """Whether a formula holds while `executed` runs: asked of `holds` once for the values of what it mentions.
+
+    `known` has the answers, by the bits of a state that `mask` keeps.
+    """
 
     def __init__(self, packing: Packing, formula: Formula, executed: ActionSet = NOTHING) -> None:
         self._packing, self._formula, self._executed = packing, formula, executed
-        self._mask = packing.mask(variables_of(formula))
-        self._known: dict[int, bool] = {}
+        self.mask = packing.mask(variables_of(formula))
+        self.known: dict[Code, bool] = {}
 
     def __call__(self, code: Code) -> bool:
         """Its truth in a state."""
-        key = code & self._mask
-        found = self._known.get(key)
+        key = code & self.mask
+        found = self.known.get(key)
         if found is None:
-            found = self._known[key] = holds(self._formula, self._packing.unpack(key), self._executed)
+            found = self.known[key] = holds(self._formula, self._packing.unpack(key), self._executed)
         return found
 
 
 def all_hold(packing: Packing, rules: Sequence[Rule], executed: ActionSet = NOTHING) -> Callable[[Code], bool]:
     """Whether all of some rules hold; those that mention few variables together are asked of as one."""
     tests = [Remembered(packing, formula, executed) for formula in _together(packing, rules)]
+    known = [(test.mask, test.known.get, test) for test in tests]
 
     def hold(code: Code) -> bool:
-        for test in tests:  # noqa: SIM110 - asked of every state
-            if not test(code):
+        for mask, answer, ask in known:
+            found = answer(code & mask)
+            if not (ask(code) if found is None else found):
                 return False
         return True
 
