@@ -52,3 +52,14 @@ def test_every_public_name_is_documented() -> None:
     table = "\n".join(line.split(" | ")[0] for line in text.splitlines() if line.startswith("| `"))
     for name in tumato_symbolic.__all__:
         assert re.search(rf"`{name}[`(]", table), name
+
+
+def test_what_documents_take_from_a_room_is_public() -> None:
+    """Type checkers of others take for exported what `__all__` of a room names."""
+    texts = [path.read_text() for path in (ROOT / "docs").glob("*.md") if path.name != "architecture.md"]
+    imports = [found for text in texts for found in re.findall(r"from (tumato_symbolic\.\w+) import (.+)", text)]
+    taken = {(room, name.strip()) for room, names in imports for name in names.split(",")}
+    taken |= {found for text in texts for found in re.findall(r"`(tumato_symbolic\.\w+)\.(\w+)", text)}
+    assert len(taken) > 5
+    for room, name in sorted(taken):
+        assert name in importlib.import_module(room).__all__, f"{room}.{name}"

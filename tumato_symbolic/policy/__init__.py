@@ -43,6 +43,9 @@ if TYPE_CHECKING:
     from tumato_symbolic.policy.decisions.rules import Rule, RuleList, find_rules, minimal_rules
     from tumato_symbolic.policy.lookup import UndecidedState, parse_assignments, parse_state
 
+__all__ = ["Policy", "Table", "UndecidedState", "Vocabulary", "as_diagram", "minimal_rules", "save"]
+"""What docs/ offers to programs of others; the other names are for the rooms of this package."""
+
 _LATER = {
     **dict.fromkeys(("Rule", "RuleList", "find_rules", "minimal_rules"), "decisions.rules"),
     **dict.fromkeys(("UndecidedState", "parse_assignments", "parse_state"), "lookup"),
