@@ -20,6 +20,8 @@ from tumato_symbolic.semantics import (
     is_safe,
     is_valid,
     judge,
+    next_states,
+    nominal_agrees,
     outcomes,
     reached,
     residual_goal,
@@ -51,14 +53,20 @@ def near_policies(spec: Spec, ordering: Ordering, random: Random, count: int = 3
 
 
 def leaving(spec: Spec, rows: Rows, ordering: Ordering) -> set[tuple[State, State]]:
-    """Decided states with an outcome that is valid and undecided, each with that outcome."""
+    """Decided states from where the policy may lead to one that is valid and undecided, each with that one."""
     decided = {state: chosen for state, chosen in rows.items() if is_valid(spec, state)}
     return {
         (state, after)
         for state, chosen in decided.items()
-        for after in outcomes(spec, state, chosen, ordering)
+        for after in _next(spec, state, chosen, ordering)
         if after not in decided and is_valid(spec, after)
     }
+
+
+def _next(spec: Spec, state: State, chosen: ActionSet, ordering: Ordering) -> set[State]:
+    if nominal_agrees(spec, chosen):
+        return next_states(spec, state, chosen, ordering)
+    return set(outcomes(spec, state, chosen, ordering))
 
 
 def made_minimal(spec: Spec, ordering: Ordering, rows: Rows) -> dict[State, ActionSet]:

@@ -77,7 +77,7 @@ def test_a_report_tells_the_way() -> None:
         "in the state S_Place=roof",
         "the policy decides nothing",
         "although in S_Place=hall it executes {go},",
-        "an outcome of which it is: go takes an alternative effect (S_Place=roof; a.tum:6)",
+        "which may lead there: go takes an alternative effect (S_Place=roof; a.tum:6)",
     ]
     policy = policy_from_rows(spec, {(0,): go, (1,): nothing}, "any")
     told = proof_json(spec, verify(policy, spec))["properties"]["total"]["refutation"]  # type: ignore[index]
@@ -94,8 +94,36 @@ def test_a_report_tells_the_way() -> None:
     }
     closed = total(spec, {(1,): nothing}, "any", "walk")
     assert closed is not None
-    told_of_none = "(no run from a decided state gets there: every outcome of every decision is decided)"
+    told_of_none = "(no run from a decided state gets there: all that decisions may lead to is decided)"
     assert refutation_text(Place(spec, "a.tum"), closed).endswith(told_of_none)
+
+
+BOTH = """
+BEGIN STATE VECTOR
+  state S_Left can be up, down
+  state S_Right can be up, down
+END STATE VECTOR
+BEGIN ACTIONS
+  action left  nominal effects: S_Left is down
+  action right  nominal effects: S_Right is down
+END ACTIONS
+"""
+
+
+def test_runs_go_where_all_nominal_effects_lead() -> None:
+    """Under `first` that need not be an outcome, which one effect alone has to lead to."""
+    spec, nothing = parse(BOTH), frozenset[int]()
+    rows: dict[State, ActionSet] = {(0, 0): frozenset((0, 1)), (0, 1): nothing, (1, 0): nothing}
+    for prover in PROVERS:
+        found = total(spec, rows, "first", prover)
+        assert found is not None
+        assert refutation_text(Place(spec, "b.tum"), found).splitlines() == [
+            "in the state S_Left=down S_Right=down",
+            "the policy decides nothing",
+            "although in S_Left=up S_Right=up it executes {left, right},",
+            "which may lead there: left takes its nominal effect (S_Left=down), "
+            "then right takes its nominal effect (S_Right=down)",
+        ]
 
 
 def test_too_many_outcomes_are_left_open(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -199,9 +199,9 @@ def _way_there(place: Place, refutation: Refutation) -> Iterator[str]:
     departure = refutation.departure
     if departure is not None:
         yield f"although in {place.state(departure.state)} it executes {place.actions(departure.decision)},"
-        yield f"an outcome of which it is: {effects_text(place, departure.outcome)}"
+        yield f"which may lead there: {effects_text(place, departure.outcome)}"
     elif refutation.closed:
-        yield "(no run from a decided state gets there: every outcome of every decision is decided)"
+        yield "(no run from a decided state gets there: all that decisions may lead to is decided)"
 
 
 _ENDS: Final = {

@@ -91,6 +91,16 @@ def successor(spec: Spec, state: State, chosen: ActionSet) -> State:
     return state
 
 
+def nominal_way(spec: Spec, state: State, chosen: ActionSet) -> EffectSequence:
+    """The way to `δ(s, A)`, nominal effects one after the other; they must agree."""
+    way = list[EffectStep]()
+    for action in sorted(chosen):
+        if effect := spec.actions[action].nominal:
+            state = apply(effect, state)
+            way.append(EffectStep(action, effect, state))
+    return tuple(way)
+
+
 class Objection(Struct, frozen=True):
     """Why a set is not allowed: the first condition of section 3 that fails, with what it fails on.
 

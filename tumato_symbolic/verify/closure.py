@@ -1,11 +1,22 @@
-"""Whether what a policy decides is closed: no outcome of a decision is a valid state without one."""
+"""Whether what a policy decides is closed: no decision may lead to a valid state without one."""
 
 from __future__ import annotations
+
+from collections.abc import Iterator
 
 from msgspec.structs import replace
 
 from tumato_symbolic.limits import Context
-from tumato_symbolic.semantics import is_valid, outcomes_in_turn
+from tumato_symbolic.semantics import (
+    ActionSet,
+    EffectSequence,
+    State,
+    is_valid,
+    nominal_agrees,
+    nominal_way,
+    outcomes_in_turn,
+    successor,
+)
 from tumato_symbolic.spec import Ordering, Spec
 from tumato_symbolic.verify.decisions import Decisions
 from tumato_symbolic.verify.result import Departure, Refutation
@@ -17,7 +28,7 @@ MOST_OUTCOMES = 200_000
 def with_departure(
     refutation: Refutation, spec: Spec, decisions: Decisions, ordering: Ordering, context: Context
 ) -> Refutation:
-    """The refutation of *total* by the first outcome of a decision that is undecided, where there is one.
+    """The refutation of *total* by the first undecided state to which a decision may lead, where there is one.
 
     States come in the order of declaration, the outcomes of each with the shortest ways first. Raises
     `LimitReachedError`.
@@ -28,10 +39,19 @@ def with_departure(
     looked_at = 0
     for state, chosen in rows.items():
         context.check()
-        for reached, way in outcomes_in_turn(spec, state, chosen, ordering):
+        for reached, way in _next_in_turn(spec, state, chosen, ordering):
             if reached not in rows and is_valid(spec, reached):
                 return replace(refutation, state=reached, departure=Departure(state, chosen, way))
             looked_at += 1
             if looked_at > MOST_OUTCOMES:
                 return refutation
     return replace(refutation, closed=True)
+
+
+def _next_in_turn(
+    spec: Spec, state: State, chosen: ActionSet, ordering: Ordering
+) -> Iterator[tuple[State, EffectSequence]]:
+    """`Next(s, A)` one by one, each with a way: under `first`, the nominal successor need not be an outcome."""
+    yield from outcomes_in_turn(spec, state, chosen, ordering)
+    if ordering == "first" and nominal_agrees(spec, chosen):
+        yield successor(spec, state, chosen), nominal_way(spec, state, chosen)

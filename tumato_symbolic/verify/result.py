@@ -47,7 +47,7 @@ def properties_of(spec: Spec) -> tuple[PropertyName, ...]:
 
 
 class Departure(Struct, frozen=True):
-    """A state and what the policy does there, with an outcome that it does not decide."""
+    """A state and what the policy does there, with effects that lead to a state that it does not decide."""
 
     state: State
     decision: ActionSet
@@ -57,8 +57,9 @@ class Departure(Struct, frozen=True):
 class Refutation(Struct, frozen=True):
     """A state in which a property fails, what the policy does there, and the witness for it.
 
-    `missing` comes with `departure`, the way from a decided state to this one, or is `closed`: no outcome of a decision
-    is undecided. It has neither where there were too many to look at, and where there are starts, of which it is one.
+    `missing` comes with `departure`, the way from a decided state to this one, or is `closed`: no decision may lead to
+    an undecided state. It has neither where there were too many to look at, and where there are starts, of which it is
+    one.
     `invalid`: a state that is decided although it is not valid, where there are starts.
     `not-allowed` comes with `objection`, the first condition that fails; `goal-missed` with `run`, the run that loops,
     ends without a decision or exceeds the bound; `not-minimal` with `cheaper`, the cheapest set that serves as well,
