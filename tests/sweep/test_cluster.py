@@ -101,6 +101,27 @@ def test_a_text_that_kills_workers_is_lost_alone(monkeypatch: pytest.MonkeyPatch
     assert together[-1] == 1
 
 
+def test_a_worker_that_can_start_no_process(workers: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It is named, with what the system told it: the connection to it is not lost."""
+    asking = cluster._asking
+
+    def starved(*versions: Any) -> Any:
+        ask = asking(*versions)
+
+        def failing(batch: str) -> Any:
+            from unittest.mock import patch
+
+            with patch("tumato_symbolic.sweep.asking.ask", side_effect=OSError(24, "Too many open files")):
+                return ask(batch)
+
+        return failing
+
+    monkeypatch.setattr(cluster, "_asking", starved)
+    with pytest.raises(UserError, match=r"the worker tcp://\S+ of .* cannot .*: \[Errno 24\] Too many") as error:
+        swept(lambda: cluster.cluster(workers.scheduler_address))
+    assert "the same command goes on" in str(error.value.diagnostics[0].help)
+
+
 def test_other_versions_are_refused(workers: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     """With the worker, the package, and both versions."""
     here = {**versions()(), "dd": "0.0.1"}

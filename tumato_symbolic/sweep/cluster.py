@@ -37,8 +37,11 @@ _LOOK = 1.0
 _SECONDS = 1.0
 """How long a batch should take: handing it over costs some hundredths of a second."""
 
-_Reply: TypeAlias = tuple[str, Versions, str | None]
-"""A worker, its versions, and the reply to a batch; None where these are other versions than here."""
+_Reply: TypeAlias = tuple[str, Versions, str | OSError | None]
+"""A worker, its versions, and the reply to a batch; None where these are other versions than here.
+
+An error where the system lets it start no process: raised there, it would look like one of the connection.
+"""
 
 
 class _Sign(Struct, frozen=True):
@@ -168,6 +171,8 @@ class _Cluster:
         worker, there, reply = found
         if reply is None:
             _compare(worker, there, self._address)
+        if isinstance(reply, OSError):
+            _fail(f"the worker {worker} of {quoted(self._address)} cannot solve anything: {reply}", _GO_ON)
         return str(reply)
 
     async def _attempt(self, batch: str) -> _Reply | None:
@@ -260,7 +265,10 @@ def _asking(told: Callable[[], Versions], here: Versions) -> Callable[[str], _Re
             task = worker.state.tasks.get(key)
             return task is not None and task.state != "cancelled"
 
-        return worker.address, found, ask(batch, wanted)
+        try:
+            return worker.address, found, ask(batch, wanted)
+        except OSError as error:
+            return worker.address, found, error
 
     return asked
 
