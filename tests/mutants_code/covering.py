@@ -59,6 +59,7 @@ BY_STATES = (
     f"not walk and not z3 and not once and not parts and {asking('states')}",
 )
 WALK = (
+    "tests/verify/test_cases.py",
     "tests/verify/test_closed_loop.py",
     COUNTS,
     "tests/verify/test_portfolio.py",

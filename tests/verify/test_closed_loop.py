@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from importlib import import_module
 from itertools import combinations, product
@@ -17,8 +17,9 @@ from tests.generate import ALL_PROFILES, random_spec
 from tests.semantics import literal
 from tests.semantics.build import Build, chosen, constraint, priority, when
 from tests.verify.test_forged_steps import ORDERINGS, SPECS
+from tumato_symbolic import parse
 from tumato_symbolic.limits import Budget
-from tumato_symbolic.policy import as_diagram, policy_from_rows
+from tumato_symbolic.policy import as_diagram, as_table, bind, policy_from_rows
 from tumato_symbolic.semantics import (
     ActionSet,
     Contest,
@@ -30,9 +31,10 @@ from tumato_symbolic.semantics import (
     duration,
     excluded,
     exclusive_groups,
+    reached,
     residual_goal,
 )
-from tumato_symbolic.spec import And, Executing, Not, Ordering, Spec
+from tumato_symbolic.spec import And, Executing, Not, Ordering, Spec, many_goals
 from tumato_symbolic.verify.by_diagrams.closed_loop import ClosedLoop
 from tumato_symbolic.verify.by_diagrams.functions import FALSE, TRUE, BudgetError, given_up
 from tumato_symbolic.verify.by_diagrams.goals import WalkGoals
@@ -58,6 +60,28 @@ def nested() -> Spec:
     inner = priority(when(p, build.goal(b)), when(q, build.goal(And((c, one)))), build.goal(Not(two)))
     middle = constraint(when(r, build.goal(p)), when(Not(a), inner), when(a, when_list(build, q, c)))
     return build.spec(priority(when(Not(c), middle), when(q, build.goal(a)), inner))
+
+
+BY_CASES = """
+BEGIN STATE VECTOR
+state x can be a, b, c
+state y can be a, b
+END STATE VECTOR
+BEGIN ACTIONS
+action ring
+  nominal effects: y is b
+action go
+  nominal effects: none
+    when x is a: x is b
+    when x is b: x is c
+END ACTIONS
+BEGIN GOALS
+goal type: priority
+when y is b then goal: x is c AND executing go
+goal: x is b OR executing ring
+END GOALS
+"""
+"""Goals that speak of an action of several cases."""
 
 
 def when_list(build: Build, condition: Any, body: Any) -> Any:
@@ -130,7 +154,7 @@ def test_groups_and_their_order() -> None:
 
 def test_goals_of_every_prover() -> None:
     """Active and residual goals, of Z3, the walk and explicit-state checking, in every state, for some sets."""
-    for spec in ALL:
+    for spec in (*ALL, parse(BY_CASES)):
         model, solver, packing = _model(spec), Solver(), Packing(spec)
         goals = WalkGoals(model)
         runs = Runs(spec, packing, Steps(spec, packing, "any", lambda _: None), {}, lambda _: None)
@@ -148,6 +172,46 @@ def test_goals_of_every_prover() -> None:
                 executed = [number in each for number in range(len(spec.actions))]
                 assert terms.is_residual(pending, executed) is True
                 assert terms.is_residual(Residual(pending.bodies ^ {0}, pending.executed), executed) is False
+
+
+def _meets(spec: Spec, rows: Mapping[State, ActionSet], goal: Residual, state: State) -> bool:
+    """Whether the run from a state meets a goal in one step less than the bound."""
+    met = set[State]()
+    while not reached(spec, goal, state):
+        if state not in rows or state in met or len(met) + 1 == spec.max_plan_length:
+            return False
+        met.add(state)
+        state = literal.successor(spec, state, rows[state])
+    return True
+
+
+@pytest.mark.parametrize("bound", [None, 1, 2, 3])
+def test_from_where_a_goal_is_near(bound: int | None, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Runs meet it in so many steps but one, whether goals are looked at one by one or all together."""
+    answers = list[bool]()
+    for seed, plain in enumerate((*ALL, parse(BY_CASES))):
+        spec, random = replace(plain, max_plan_length=bound), Random(seed)
+        drawn = {state: chosen for state, chosen in _some_rows(spec, random).items() if random.random() < 0.9}
+        policy = bind(policy_from_rows(spec, drawn), spec)
+        table = as_table(policy, len(drawn))
+        assert table is not None
+        rows = table.rows
+        acting = {s for s, each in rows.items() if literal.valid(spec, s) and literal.agrees(spec, each)}
+
+        runs = {state: rows[state] for state in acting}
+        for most_apart in (0, 10**9):
+            monkeypatch.setattr(many_goals, "MOST_APART", most_apart)
+            model = ClosedLoop(spec, as_diagram(policy), "any")
+            goals = WalkGoals(model)
+            assert goals.are_many == (most_apart == 0 and bool(spec.bodies))
+            near = {state: residual_goal(spec, state, rows[state]) for state in rows if literal.valid(spec, state)}
+            assert {goal for goal, _ in goals.residuals(model.decided, model.policy)} == set(near.values())
+            for goal in {None} if goals.are_many else set(near.values()):
+                found = goals.own(goal, goals.within(goal), model.policy)
+                for state in [state for state, each in near.items() if goal in (None, each)]:
+                    answers.append(_meets(spec, runs, near[state], state))
+                    assert _value(model, found, state, frozenset()) == answers[-1]
+    assert 0.1 < sum(answers) / len(answers) < 0.9
 
 
 def test_durations_sizes_and_the_least() -> None:
@@ -190,6 +254,26 @@ def test_what_is_allowed_and_where_it_leads(ordering: Ordering) -> None:
         others = model.walk.without(model.valid, model.safe)
         if others != FALSE:
             assert model.first_state(others) == next(state for state in states if state not in safe)
+
+
+@pytest.mark.parametrize("ordering", ORDERINGS)
+def test_a_step_leads_into_a_target(ordering: Ordering) -> None:
+    """Where the policy acts, every outcome is in it, and so is `δ`; resources are controlled once here."""
+    answers = list[bool]()
+    for seed, spec in enumerate(ALL):
+        random, states = Random(seed), literal.states(spec)
+        fine = [each for each in literal.sets(spec) if "resource" not in literal.broken(spec, states[0], each, "first")]
+        rows = {state: random.choice(fine) for state in states if random.random() < 0.8}
+        model = ClosedLoop(spec, as_diagram(policy_from_rows(spec, rows)), ordering)
+        acting = {s for s, each in rows.items() if literal.valid(spec, s) and literal.agrees(spec, each)}
+        for outside in random.sample(states, min(3, len(states))):
+            led = model.leads_into(model.walk.negation(model.is_state(outside)))
+            for state in states:
+                ends = {*literal.outcomes(spec, state, rows[state], ordering)} if state in acting else {outside}
+                ends |= {literal.successor(spec, state, rows[state])} if state in acting else set()
+                answers.append(outside not in ends)
+                assert _value(model, led, state, frozenset()) == answers[-1]
+    assert 0.1 < sum(answers) / len(answers) < 0.9
 
 
 REMEMBERED: dict[str, Callable[[Walk, int, int], object]] = {
@@ -395,18 +479,11 @@ def test_the_next_state_by_cases_and_by_variables(actions: int, monkeypatch: pyt
 
 
 def _some_rows(spec: Spec, random: Random) -> dict[State, ActionSet]:
-    """Sets of actions whose nominal effects agree, drawn for every state; they may exclude each other."""
+    """Sets of actions, drawn for every state; they may exclude each other, and nominal effects of some disagree."""
     rows = dict[State, ActionSet]()
     for state in literal.states(spec):
         drawn = frozenset(number for number in range(len(spec.actions)) if random.random() < 0.5)
-        agree = all(
-            value == other
-            for one, two in combinations(sorted(drawn), 2)
-            for variable, value in spec.actions[one].nominal
-            for same, other in spec.actions[two].nominal
-            if same == variable
-        )
-        rows[state] = drawn if agree else frozenset()
+        rows[state] = drawn if literal.agrees(spec, drawn) or random.random() < 0.3 else frozenset()
     return rows
 
 
@@ -415,16 +492,18 @@ def test_the_next_state_where_some_groups_are_taken_apart(most: int, monkeypatch
     """Constants by one group, or by all, beside the next values of other variables: δ all the same."""
     monkeypatch.setattr(import_module("tumato_symbolic.verify.by_diagrams.cases"), "MOST_CASES", most)
     build = Build({"x": "abc", "y": "abc", "z": "ab"}, resources="R")
-    for effect in ("x=a", "x=b y=a", "y=a", "x=c"):
+    for effect in ("x=a", "x=b y=a", "", "y=a", "x=c"):
         build.action(effect, needs="R")
     for effect in ("y=a", "z=b", "z=a y=b"):
         build.action(effect)
     spec = build.spec()
     for seed in range(8):
         random = Random(seed)
-        rows = _some_rows(spec, random)
-        model = ClosedLoop(spec, as_diagram(policy_from_rows(spec, rows)), "any")
-        table = {state: random.randint(0, 4) for state in rows}
+        drawn = _some_rows(spec, random)
+        model = ClosedLoop(spec, as_diagram(policy_from_rows(spec, drawn)), "any")
+        rows = {state: chosen for state, chosen in drawn.items() if literal.agrees(spec, chosen)}
+        assert len(rows) < len(drawn)
+        table = {state: random.randint(0, 4) for state in drawn}
         walk = model.walk
         function = walk.any_of(())
         for state, value in table.items():
@@ -432,7 +511,8 @@ def test_the_next_state_where_some_groups_are_taken_apart(most: int, monkeypatch
         after = model.next(function)
         for state, chosen_set in rows.items():
             assert _value(model, after, state, frozenset()) == table[literal.successor(spec, state, chosen_set)]
-        assert model.steps_hold(operator.eq, function, after)
+        elsewhere = walk.select(model.acting, (walk.constant(5), after))
+        assert model.steps_hold(operator.eq, function, elsewhere)
         for state in rows:
             wrong = walk.select(model.is_state(state), (after, walk.apply(operator.add, after, walk.constant(1))))
             assert not model.steps_hold(operator.eq, function, wrong)

@@ -69,7 +69,7 @@ class Cases:
             parts = self._by_written(taken)
             parts[0] = self._walk.without(self._acting, self._walk.any_of(parts.values()))
             others = [action for action in self._executed if action not in taken]
-        return [self._case(where, written, others) for written, where in sorted(parts.items()) if where != FALSE]
+        return [self._case(where, written, others) for written, where in sorted(parts.items())]
 
     def _in_blocks(self) -> list[_Block]:
         """Every action in the first block, where that has room for it, or in one of its group."""
@@ -78,7 +78,7 @@ class Cases:
         for group in self._groups:
             own = len(busy)
             for action, where in group.items():
-                numbers = (0, *range(max(1, own), len(busy))) if busy else ()
+                numbers = (0, *range(own, len(busy))) if busy else ()
                 number = next((each for each in numbers if walk.all_of((busy[each], where)) == FALSE), len(busy))
                 if number == len(busy):
                     actions.append([])

@@ -38,10 +38,11 @@ class ClosedLoop(Steps):
 
     def leads_into(self, target: Function) -> Function:
         """`Next(s, π(s)) ⊆ target`, where the policy acts without conflicts."""
-        if self._ordering == "any":  # then all nominal effects in turn are an outcome
-            return self.walk.all_of((self.acting, self.as_decided(self._outcomes_in(target, self.stays_in(target)))))
-        outcomes = self.as_decided(self._outcomes_in(target, target))
-        return self.walk.all_of((self.acting, outcomes, self.next(target)))
+        then = self.stays_in(target) if self._ordering == "any" else target
+        ends = [self.acting, self.as_decided(self._outcomes_in(target, then))]
+        if self._ordering == "first":  # else all nominal effects in turn are an outcome
+            ends.append(self.next(target))
+        return self.walk.all_of(ends)
 
     @cached_property
     def cases(self) -> list[Case]:
