@@ -218,11 +218,14 @@ class _Maker:
 
     def _simple_goal(self) -> SimpleGoal:
         if self.bodies and self.profile.repeated and self._chance(self.profile.repeated):
-            return SimpleGoal(self.random.randrange(len(self.bodies)), NOWHERE)
+            return self._goal_of(self.random.randrange(len(self.bodies)))
         body = self._executing_body() if self._chance(self.profile.executing) else self._predicate()
         if body not in self.bodies:
             self.bodies.append(body)
-        return SimpleGoal(self.bodies.index(body), NOWHERE)
+        return self._goal_of(self.bodies.index(body))
+
+    def _goal_of(self, body: int) -> SimpleGoal:
+        return SimpleGoal(body, formula_text(self.bodies[body], self.names), NOWHERE)
 
     def _executing_body(self) -> Formula:
         action = Executing(self.random.randrange(self.action_count))

@@ -57,8 +57,8 @@ def _repairing(action: Action, fault: int) -> Action:
 
 def arriving(spec: Spec, variable: int, value: int) -> Spec:
     """The specification whose only goal is one value after one step, and in which every state is safe."""
-    goal = GoalList("constraint", (SimpleGoal(0, NOWHERE),), NOWHERE)
     bodies = rules(Is(variable, value))
+    goal = GoalList("constraint", (SimpleGoal(0, bodies[0].text, NOWHERE),), NOWHERE)
     return replace(_lawless(spec), goals=goal, bodies=bodies, max_plan_length=1)
 
 

@@ -147,7 +147,7 @@ def other_ways(spec: Spec) -> Iterator[Spec]:
             yield replace(spec, actions=(*spec.actions, new))
             if variable in spec.environment and spec.goals is not None and not _silences(spec, variable, value):
                 condition = Rule(Is(variable, value), "", NOWHERE)
-                free = ConditionalGoal(condition, SimpleGoal(len(spec.bodies), NOWHERE), NOWHERE)
+                free = ConditionalGoal(condition, SimpleGoal(len(spec.bodies), "true", NOWHERE), NOWHERE)
                 goals = GoalList("priority", (free, spec.goals), NOWHERE)
                 yield replace(spec, goals=goals, bodies=(*spec.bodies, Rule(TRUE, "true", NOWHERE)))
 

@@ -82,6 +82,17 @@ def test_a_specification_as_data() -> None:
     assert record["goals"]["members"][0]["when"]["is"] == [1, 0]
 
 
+def test_each_goal_is_written_as_in_its_line() -> None:
+    """Also where another of the same meaning, written otherwise, stands before it."""
+    full = "goal: S_Tank >= 2"
+    text = WRITTEN.replace(full, f"when S_Valve is closed then {full}\ngoal: S_Tank is 2 OR S_Tank is 3")
+    record = spec_record(parse(text), Source("tank.tum", text), "any")
+    *_, before, last = record["goals"]["members"]
+    assert before["then"]["body"] == last["body"]
+    for goal in (before["then"], last):
+        assert text.splitlines()[goal["line"] - 1].endswith(f"goal: {goal['text']}")
+
+
 @pytest.mark.parametrize("policy_format", ["table", "diagram"])
 def test_a_policy_as_data(policy_format: str) -> None:
     """The diagram says of every state what the policy says."""

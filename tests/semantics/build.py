@@ -69,7 +69,7 @@ class Build:
         """`goal: body`."""
         if body not in self._bodies:
             self._bodies.append(body)
-        return SimpleGoal(self._bodies.index(body), NOWHERE)
+        return SimpleGoal(self._bodies.index(body), str(body), NOWHERE)
 
     def spec(
         self,

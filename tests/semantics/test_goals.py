@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from tests.semantics.build import Build, chosen, constraint, priority, when
 from tumato_symbolic import parse
+from tumato_symbolic.explain.decision import goal_notes
 from tumato_symbolic.report.objections import Place
 from tumato_symbolic.semantics import NOTHING, active_goals, goals_as_written, residual_goal
 from tumato_symbolic.spec import Or
@@ -17,19 +18,21 @@ def test_the_same_body_at_two_places_is_one_goal() -> None:
     assert active_goals(spec, build.state("aa")) == active_goals(spec, build.state("ba")) != frozenset()
 
 
-def test_goals_with_one_body_keep_their_own_places() -> None:
-    """What is told of a state names the lines that are active there, not the first that reads the same."""
+def test_goals_with_one_body_keep_their_own_places_and_words() -> None:
+    """What is told of a state names the lines that are active there, as they are written, not the first of a body."""
     text = "\n".join(
         [
-            *("BEGIN STATE VECTOR", "state x can be a, b", "state y can be a, b", "END STATE VECTOR", "BEGIN ACTIONS"),
+            *("BEGIN STATE VECTOR", "state x can be a, b", "state y can be a, b", "END STATE VECTOR"),
+            *("BEGIN ALIASES", "define done as y is b", "END ALIASES", "BEGIN ACTIONS"),
             *("action go", "nominal effects: y is b", "END ACTIONS", "BEGIN GOALS", "goal type: priority"),
-            *("when x is a then goal: y is b", "when x is b then goal: y is b", "END GOALS", ""),
+            *("when x is a then goal: y is b", "when x is b then goal: done", "END GOALS", ""),
         ]
     )
     spec = parse(text)
-    for state, line in (((0, 0), 11), ((1, 0), 12)):
+    for state, line, words in (((0, 0), 14, "y is b"), ((1, 0), 15, "done")):
         assert [(body, rule.span.line) for body, rule in goals_as_written(spec, state)] == [(0, line)]
-        assert Place(spec, "x.tum").goals(state) == f"`y is b` (x.tum:{line})"
+        assert Place(spec, "x.tum").goals(state) == f"`{words}` (x.tum:{line})"
+        assert [note.body and note.body.text for note in goal_notes(spec, state) if note.active] == [words]
 
 
 def test_a_residual_goal_keeps_only_the_actions_that_its_bodies_speak_of() -> None:

@@ -193,7 +193,7 @@ def tied(seed: int) -> Spec:
     begin = Action("begin", 0, frozenset(), (outside,), led[0], others, NOWHERE)
     actions = (replace(each, preconditions=(*each.preconditions, inside)) for each in spec.actions)
     assert spec.goals is not None
-    free = ConditionalGoal(outside, SimpleGoal(len(spec.bodies), NOWHERE), NOWHERE)
+    free = ConditionalGoal(outside, SimpleGoal(len(spec.bodies), inside.text, NOWHERE), NOWHERE)
     goals = GoalList("priority", (free, spec.goals), NOWHERE)
     bodies = (*spec.bodies, inside)
     spec = replace(spec, actions=(*actions, begin), goals=goals, bodies=bodies)

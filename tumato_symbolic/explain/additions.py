@@ -93,7 +93,7 @@ def _without_goal(spec: Spec, conditions: Sequence[Rule]) -> Spec:
     place = next((number for number, body in enumerate(bodies) if body.formula == TRUE), len(bodies))
     if place == len(bodies):
         bodies = (*bodies, Rule(TRUE, "true", _SPAN))
-    free = (ConditionalGoal(condition, SimpleGoal(place, _SPAN), _SPAN) for condition in conditions)
+    free = (ConditionalGoal(condition, SimpleGoal(place, "true", _SPAN), _SPAN) for condition in conditions)
     others = spec.goals.members if spec.goals.kind == "priority" else (spec.goals,)
     return replace(spec, bodies=bodies, goals=GoalList("priority", (*free, *others), spec.goals.span))
 

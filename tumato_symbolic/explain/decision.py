@@ -181,8 +181,8 @@ def goal_notes(spec: Spec, state: State) -> Iterator[GoalNote]:
 
 def _walk(spec: Spec, goal: Goal, state: State, conditions: tuple[Rule, ...]) -> Iterator[GoalNote]:
     match goal:
-        case SimpleGoal(body, span):
-            yield GoalNote(True, conditions, replace(spec.bodies[body], span=span))
+        case SimpleGoal():
+            yield GoalNote(True, conditions, spec.as_written(goal))
         case ConditionalGoal(condition, inner):
             if holds(condition.formula, state):
                 yield from _walk(spec, inner, state, (*conditions, condition))

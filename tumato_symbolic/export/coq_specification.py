@@ -134,7 +134,7 @@ def _assignment(assignment: Assignment) -> str:
 
 def _goal(spec: Spec, goal: Goal) -> str:
     def simple(goal: SimpleGoal) -> str:
-        body = spec.bodies[goal.body]
+        body = spec.as_written(goal)
         return f"{_comment('goal: ' + body.text)}\n(Simple ({_formula(body.formula)}))"
 
     def conditional(goal: ConditionalGoal, inner: str) -> str:

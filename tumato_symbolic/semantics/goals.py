@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TypeAlias
 
 from msgspec import Struct
-from msgspec.structs import replace
 
 from tumato_symbolic.semantics.states import ActionSet, State, holds, is_safe
 from tumato_symbolic.spec import ConditionalGoal, Goal, Rule, SimpleGoal, Spec, executing_atoms
@@ -31,11 +30,11 @@ def active_goals(spec: Spec, state: State) -> ActiveGoals:
 
 
 def goals_as_written(spec: Spec, state: State) -> tuple[tuple[int, Rule], ...]:
-    """The goals that are active, in the order of the text: the number of the body, and the body with the goal's place.
+    """The goals that are active, in the order of the text: the number of the body, and the body as each is written.
 
     Several may have one body.
     """
-    return tuple((goal.body, replace(spec.bodies[goal.body], span=goal.span)) for goal in _active(spec, state))
+    return tuple((goal.body, spec.as_written(goal)) for goal in _active(spec, state))
 
 
 def _active(spec: Spec, state: State) -> tuple[SimpleGoal, ...]:

@@ -180,7 +180,7 @@ class _Goals:
                     return None
                 number = self._numbers.setdefault(body.formula, len(self._numbers))
                 self.bodies.setdefault(number, body)
-                return SimpleGoal(number, span)
+                return SimpleGoal(number, body.text, span)
             case ast.ConditionalGoal(predicate, inner, span=span):
                 condition = self._predicates.rule(predicate, "the condition of a goal")
                 found = self._goal(inner)

@@ -97,9 +97,10 @@ class Action(Struct, frozen=True, dict=True):
 
 
 class SimpleGoal(Struct, frozen=True):
-    """`goal: PREDICATE`; `body` indexes `Spec.bodies`."""
+    """`goal: PREDICATE`; `body` indexes `Spec.bodies`, where another text of the same structure may stand first."""
 
     body: int
+    text: str
     span: Span
 
 
@@ -238,6 +239,10 @@ class Spec(Struct, frozen=True, dict=True):
         """The same with safety restored in one step and a single severity: what it says of safe states is the same."""
         rules = tuple(replace(rule, severity=1) for rule in self.state_rules)
         return replace(self, restoration="one_step", state_rules=rules) if self.restores_stepwise else self
+
+    def as_written(self, goal: SimpleGoal) -> Rule:
+        """The body of a goal with the text and the place that this one has."""
+        return replace(self.bodies[goal.body], text=goal.text, span=goal.span)
 
     @property
     def ordering(self) -> Ordering:

@@ -110,7 +110,7 @@ class _Predicates:
 
     def rule(self, rule: Rule) -> dict[str, Json]:
         """A rule; `with` are the parameters of a copy."""
-        return {"is": self.formula(rule.formula), "text": " ".join(rule.text.split()), **place(rule.span)}
+        return {"is": self.formula(rule.formula), "text": _line(rule.text), **place(rule.span)}
 
     def formula(self, formula: Formula) -> Json:
         """`true`, `[variable, value, …]`, `["x", action]`, `["!", p]`, `["&", …]`, `["|", …]` or `["=", p, q]`."""
@@ -140,6 +140,11 @@ def _one_of(operands: Sequence[Formula]) -> list[int] | None:
     if len(found) < len(operands) or len({each.variable for each in found}) > 1:
         return None
     return [found[0].variable, *(each.value for each in found)]
+
+
+def _line(text: str) -> str:
+    """A text on one line."""
+    return " ".join(text.split())
 
 
 def place(span: Span) -> dict[str, Json]:
@@ -173,8 +178,9 @@ def _effect(effect: Assignment) -> list[int]:
 
 def _goal(record: _Predicates, goal: Goal) -> Json:
     match goal:
-        case SimpleGoal(body, span):
-            return {"body": body, **place(span)}
+        case SimpleGoal(body):
+            own = record.spec.as_written(goal)
+            return {"body": body, "text": _line(own.text), **place(own.span)}
         case ConditionalGoal(condition, inner):
             return {"when": record.rule(condition), "then": _goal(record, inner)}
         case GoalList(kind, members):

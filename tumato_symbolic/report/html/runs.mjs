@@ -20,7 +20,7 @@ const active = (spec, state) => (spec.goals ? walk(spec.goals, state).active : [
 // The numbers of the goal bodies that are active in a state.
 export const activeGoals = (spec, state) => [...new Set(active(spec, state).map(({ body }) => body))].sort((a, b) => a - b);
 
-// The goals that are active in a state, each with its own place: several may have one body.
+// The goals that are active in a state, each with its own text and place: several may have one body.
 export const writtenGoals = (spec, state) => active(spec, state).map((goal) => ({ ...spec.bodies[goal.body], with: null, ...goal }));
 
 // What is left of the goals of a state once its first set is chosen.
