@@ -9,10 +9,11 @@ from hypothesis import strategies as st
 
 from tests.editor.formatted import complaint, complaint_of
 from tests.editor.texts import commented
+from tests.syntax.printing import print_specification
 from tests.syntax.trees import specifications
 from tumato_symbolic.diagnostics import Code, Source, UserError
 from tumato_symbolic.editor.format import format_text
-from tumato_symbolic.syntax import ast, print_specification
+from tumato_symbolic.syntax import ast
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = sorted(ROOT.glob("examples/*.tum"))

@@ -5,9 +5,10 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 
+from tests.syntax.printing import print_specification
 from tests.syntax.trees import specifications
 from tumato_symbolic.diagnostics import Source
-from tumato_symbolic.syntax import ast, parse, print_specification, read_source
+from tumato_symbolic.syntax import ast, parse, read_source
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.tum"))
 

@@ -2,7 +2,6 @@
 
 from tumato_symbolic.diagnostics import Source
 from tumato_symbolic.syntax.parsed import Parsed
-from tumato_symbolic.syntax.printer import print_specification
 from tumato_symbolic.syntax.reading import read_source
 
 

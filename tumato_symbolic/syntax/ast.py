@@ -1,7 +1,7 @@
 """What a specification says, before any name is resolved.
 
 Every node is frozen and carries the span of text that it stands for; spans play no part in comparisons, so that two
-texts with the same tree differ in layout and comments only. The printer is the inverse of the parser.
+texts with the same tree differ in layout and comments only.
 
 Longer than 300 lines because it has one small record for every sentence of the language, and nothing else.
 """
