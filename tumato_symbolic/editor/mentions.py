@@ -12,6 +12,7 @@ from tumato_symbolic.diagnostics import CopySpan, Source, Span
 from tumato_symbolic.editor.parameters import parameter_places
 from tumato_symbolic.spec.collector import Findings
 from tumato_symbolic.spec.copies import copies_in, written_out
+from tumato_symbolic.spec.names import KINDS
 from tumato_symbolic.syntax import Parsed, ast, parse
 
 SymbolKind: TypeAlias = Literal["state variable", "value", "alias", "named list", "resource", "action", "parameter"]
@@ -101,22 +102,13 @@ def _touches(span: Span, line: int, column: int) -> bool:
     return span.line == line and span.column <= column <= span.end_column
 
 
-_KINDS: Final[dict[type, SymbolKind]] = {
-    ast.VariableDeclaration: "state variable",
-    ast.AliasDefinition: "alias",
-    ast.NamedList: "named list",
-    ast.ResourceDeclaration: "resource",
-    ast.ActionDeclaration: "action",
-}
-
-
 def _declared(node: object) -> Iterator[tuple[str, SymbolKind]]:
     """Every declared name with its kind."""
     if isinstance(node, tuple):
         for each in node:
             yield from _declared(each)
-    elif type(node) in _KINDS:
-        yield node.name.text, _KINDS[type(node)]  # type: ignore[attr-defined]
+    elif type(node) in KINDS:
+        yield node.name.text, KINDS[type(node)]  # type: ignore[attr-defined]
     elif isinstance(node, ast.Copies):
         yield from _declared(node.entries)
     elif isinstance(node, ast.Specification):

@@ -6,19 +6,13 @@ from collections.abc import Iterable, Iterator
 from typing import Literal, NamedTuple, TypeAlias
 
 from tumato_symbolic.diagnostics import Source, Span
+from tumato_symbolic.spec.names import KINDS
 from tumato_symbolic.syntax import ast, parse
 
 EntryKind: TypeAlias = Literal[
     "block", "copies", "state variable", "alias", "named list", "resource", "action", "rule", "goal"
 ]
 
-_KINDS: dict[type, EntryKind] = {
-    ast.VariableDeclaration: "state variable",
-    ast.AliasDefinition: "alias",
-    ast.NamedList: "named list",
-    ast.ResourceDeclaration: "resource",
-    ast.ActionDeclaration: "action",
-}
 _LONGEST = 60
 """Characters of an entry in the outline; more are cut off."""
 
@@ -51,9 +45,9 @@ def _block(block: ast.Block, lines: list[str]) -> Entry:
 
 def _entries(entries: Iterable[object], lines: list[str]) -> Iterator[Entry]:
     for each in entries:
-        if type(each) in _KINDS:
+        if type(each) in KINDS:
             name: ast.Name = each.name  # type: ignore[attr-defined]
-            yield Entry(name.text, _KINDS[type(each)], each.span, name.span)  # type: ignore[attr-defined]
+            yield Entry(name.text, KINDS[type(each)], each.span, name.span)  # type: ignore[attr-defined]
         elif isinstance(each, ast.Copies):
             here = _first_line(each.span, lines)
             yield Entry(_text(here, lines), "copies", each.span, here, tuple(_entries(each.entries, lines)))

@@ -58,7 +58,7 @@ def as_json(done: Explained) -> dict[str, object]:
     if isinstance(found, Explanation):
         report |= {
             "failing_states": found.failing_states,
-            "groups": [_group_json(done.spec, group) for group in found.groups],
+            "groups": [_states_json(done.spec, group) for group in found.groups],
             "failures": [_reason_json(done, reason) for reason in largest_first(found.reasons)],
             **restorable_json(done.place, found.restorability),
             "omitted": found.omitted,
@@ -66,7 +66,7 @@ def as_json(done: Explained) -> dict[str, object]:
             "repairs_complete": found.repairs_complete,
             "hopeless": found.unavoidable,
             "realizable_part": _part_json(done.spec, found.part) if "part" in found.finished else None,
-            "incomplete": [{"what": each.stage, "found": each.found, "why": each.why} for each in found.left_out],
+            "incomplete": incomplete(done),
         }
     return report
 
@@ -76,7 +76,7 @@ def largest_first(reasons: Sequence[Reason]) -> list[Reason]:
     return sorted(reasons, key=lambda reason: -reason.count)
 
 
-def _group_json(spec: Spec, group: FailingGroup) -> dict[str, object]:
+def _states_json(spec: Spec, group: FailingGroup | Reason) -> dict[str, object]:
     return {
         "kind": group.kind,
         "code": FAILURE_CODES[group.kind].name,
@@ -100,12 +100,7 @@ def _verdict(done: Explained) -> str:
 def _reason_json(done: Explained, reason: Reason) -> dict[str, object]:
     place, spec = done.place, done.spec
     return {
-        "kind": reason.kind,
-        "code": FAILURE_CODES[reason.kind].name,
-        "count": reason.count,
-        "cubes": [cube_json(spec, cube) for cube in reason.cubes],
-        "omitted": reason.omitted,
-        "example": in_json(spec, reason.example),
+        **_states_json(spec, reason),
         "core": [_in_core(done, element, reason.core, reason) for element in reason.core],
         "summary": None if reason.summary is None else summary_text(spec, reason.summary),
         "more_cores": [[_in_core(done, element, core, reason) for element in core] for core in reason.cores[1:]],

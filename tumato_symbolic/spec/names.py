@@ -58,7 +58,7 @@ def collect(tree: ast.Specification, findings: Findings) -> Names:
     declared: dict[Kind, list[ast.Declaration]] = {kind: [] for kind in get_args(Kind)}
     for block in tree.blocks:
         for each in _declarations(block):
-            kind = _KINDS[type(each)]
+            kind = KINDS[type(each)]
             if _declare(table, each.name, kind, len(declared[kind]), findings):
                 declared[kind].append(each)
     _limit(declared["state variable"], MAX_VARIABLES, "state variables", findings)
@@ -76,13 +76,14 @@ def collect(tree: ast.Specification, findings: Findings) -> Names:
     )
 
 
-_KINDS: Final[dict[type[ast.Declaration], Kind]] = {
+KINDS: Final[Mapping[type, Kind]] = {
     ast.VariableDeclaration: "state variable",
     ast.AliasDefinition: "alias",
     ast.NamedList: "named list",
     ast.ResourceDeclaration: "resource",
     ast.ActionDeclaration: "action",
 }
+"""What declarations declare."""
 
 
 def _declarations(block: ast.Block) -> Iterable[ast.Declaration]:

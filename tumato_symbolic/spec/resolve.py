@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from typing import Final
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -193,12 +194,13 @@ class _Goals:
                 return GoalList(kind or "constraint", tuple(each for each in parts if each is not None), span)
 
 
-_SETTINGS: dict[type[ast.Setting], str] = {
+SETTINGS: Final[dict[type[ast.Setting], str]] = {
     ast.MaxPlanLength: "max_plan_length",
     ast.EffectOrdering: "effect_ordering",
     ast.Restoration: "restoration",
     ast.PreconditionsHold: "preconditions",
 }
+"""What the lines of CONFIG are called."""
 
 
 def _with_setting(spec: Spec, setting: ast.Setting) -> Spec:
@@ -219,7 +221,7 @@ def _settings(tree: ast.Specification, findings: Findings) -> list[ast.Setting]:
     for block in (each for each in tree.blocks if isinstance(each, ast.Config)):
         settings: Iterator[ast.Setting] = ast.one_by_one(block.settings)
         for setting in settings:
-            name, first = _SETTINGS[type(setting)], found.setdefault(type(setting), setting)
+            name, first = SETTINGS[type(setting)], found.setdefault(type(setting), setting)
             if first is not setting:
                 notes = (Note("it is set first here", first.span),)
                 findings.add(Code.TUM303, f"`{name}` is set twice", setting.span, "remove one", notes)

@@ -12,6 +12,7 @@ from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source, Span, UserError
 from tumato_symbolic.diagnostics.wording import listed, nearest, quoted
+from tumato_symbolic.spec.resolve import SETTINGS
 from tumato_symbolic.sweep.tree import below
 from tumato_symbolic.sweep.variants import Change, Variant, numbered
 from tumato_symbolic.syntax import ast
@@ -33,13 +34,6 @@ _SETTINGS: Final[dict[str, tuple[str, ...]]] = {
     "preconditions": ("at_start", "throughout"),
 }
 """The settings with the values that they may have; of the first, numbers."""
-
-_NODES: Final[dict[type[ast.Setting], str]] = {
-    ast.MaxPlanLength: "max_plan_length",
-    ast.EffectOrdering: "effect_ordering",
-    ast.Restoration: "restoration",
-    ast.PreconditionsHold: "preconditions",
-}
 
 
 class Definition(Struct, frozen=True):
@@ -115,7 +109,7 @@ class _Text:
         self._source, self._tree, self._excerpts = source, parsed.tree, Excerpts(source)
         self._lists = {each.name.text: each for each in below(self._tree, ast.NamedList)}
         self._settings: dict[str, ast.Setting] = {
-            name: each for kind, name in _NODES.items() for each in below(self._tree, kind)
+            name: each for kind, name in SETTINGS.items() for each in below(self._tree, kind)
         }
 
     def edits(self, chosen: Sequence[tuple[Change, Edit | None]]) -> tuple[Edit, ...]:

@@ -6,18 +6,16 @@ Who asks needs no solver, and so nothing here imports one.
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
+from typing import Self
 
 from msgspec import Struct, to_builtins
+from msgspec.json import decode
 from msgspec.structs import replace
 
 from tumato_symbolic.limits import Limits
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from tumato_symbolic.spec import Ordering, Restoration
-    from tumato_symbolic.verify import ProverName
+from tumato_symbolic.spec import Ordering, Restoration
+from tumato_symbolic.verify import ProverName
 
 
 class Task(Struct, frozen=True):
@@ -51,7 +49,20 @@ class Answer(Struct, frozen=True):
     policy: str | None = None
 
 
-class Batch(Struct, frozen=True):
+class _Line(Struct, frozen=True):
+    """What is a line of JSON on the wire, in ASCII, whatever the encoding there."""
+
+    def written(self) -> str:
+        """As a line of JSON."""
+        return json.dumps(to_builtins(self))
+
+    @classmethod
+    def read(cls, line: str) -> Self:
+        """From a line of JSON."""
+        return decode(line, type=cls)
+
+
+class Batch(_Line, frozen=True):
     """Texts that one process solves one after the other; `common` is what all their tasks share.
 
     Once it is at work for `enough` seconds, no other text is begun.
@@ -66,18 +77,8 @@ class Batch(Struct, frozen=True):
         """Each text as a task of its own."""
         return (replace(self.common, text=each) for each in self.texts)
 
-    def written(self) -> str:
-        """As a line of JSON."""
-        return json.dumps(to_builtins(self))
 
-    @classmethod
-    def read(cls, line: str) -> Batch:
-        """From a line of JSON."""
-        found = json.loads(line)
-        return cls(Task(**found["common"]), tuple(found["texts"]), found["enough"])
-
-
-class Reply(Struct, frozen=True):
+class Reply(_Line, frozen=True):
     """The answers to the first texts of a batch, and how many seconds they took together.
 
     `bug` is the traceback of an exception that came instead of the next answer.
@@ -86,16 +87,6 @@ class Reply(Struct, frozen=True):
     answers: tuple[Answer, ...]
     seconds: float
     bug: str | None = None
-
-    def written(self) -> str:
-        """As a line of JSON."""
-        return json.dumps(to_builtins(self))
-
-    @classmethod
-    def read(cls, line: str) -> Reply:
-        """From a line of JSON."""
-        found = json.loads(line)
-        return cls(tuple(Answer(**each) for each in found["answers"]), found["seconds"], found["bug"])
 
 
 NOTHING: dict[str, object] = {

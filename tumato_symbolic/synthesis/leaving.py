@@ -5,7 +5,17 @@ from __future__ import annotations
 from tumato_symbolic.diagnostics import Code, Diagnostic, Note
 from tumato_symbolic.game import Problem
 from tumato_symbolic.policy import Policy
-from tumato_symbolic.semantics import ActionSet, State, active_goals, cases_in, named, reached, residual_goal, successor
+from tumato_symbolic.semantics import (
+    ActionSet,
+    State,
+    active_goals,
+    cases_in,
+    named,
+    reached,
+    residual_goal,
+    state_text,
+    successor,
+)
 from tumato_symbolic.spec import Spec
 from tumato_symbolic.symbolic import Bdd
 
@@ -24,7 +34,7 @@ def leaving(problem: Problem, policy: Policy, states: Bdd) -> tuple[Diagnostic, 
     places = "1 safe state" if count == 1 else f"{count:,} safe states"
     message = (
         f"in {places} the way to the goal leads through states where other goals are active. For example the run from "
-        f"{_worded(spec, state)} passes {_worded(spec, there)}"
+        f"{state_text(spec, state)} passes {state_text(spec, there)}"
     )
     way_out = (
         "the policy serves the goals of every state that it is in; the conditions after `when` say which these are"
@@ -46,7 +56,3 @@ def _first_outside(spec: Spec, policy: Policy, start: State) -> State | None:
         if reached(spec, goal, here):
             return None
     return here
-
-
-def _worded(spec: Spec, state: State) -> str:
-    return " ".join(f"{name}={value}" for name, value in named(spec, state).items())

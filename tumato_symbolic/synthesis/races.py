@@ -8,7 +8,7 @@ from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Note
 from tumato_symbolic.game import Problem
-from tumato_symbolic.semantics import State, apply, holds, named
+from tumato_symbolic.semantics import State, apply, holds, state_text
 from tumato_symbolic.spec import Assignment, Rule, Spec, variables_of
 from tumato_symbolic.symbolic import Bdd, Encoding
 
@@ -76,12 +76,11 @@ def _warning(spec: Spec, race: _Race, state: State, count: int) -> Diagnostic:
     pending, writer = spec.actions[race.pending], spec.actions[race.writer]
     effect, rule = _falsifying(spec, race, state)
     places = "1 state" if count == 1 else f"{count:,} states"
-    here = " ".join(f"{name}={value}" for name, value in named(spec, state).items())
     change = " ".join(f"{spec.variables[v].name}={spec.variables[v].values[value]}" for v, value in effect)
     return Diagnostic(
         Code.TUM354,
         f"in {places} the policy executes actions together of which one may falsify a precondition of another before "
-        f"that takes effect. For example in {here}: `{writer.name}` ({change}) falsifies "
+        f"that takes effect. For example in {state_text(spec, state)}: `{writer.name}` ({change}) falsifies "
         f"`{' '.join(rule.text.split())}` of `{pending.name}`",
         rule.span,
         "with `preconditions: throughout` in CONFIG such sets are not allowed",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterator, Sequence
-from math import prod
+from math import inf, prod
 from typing import Generic, TypeVar
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, UserError
@@ -99,14 +99,19 @@ class Joint(Generic[Label]):
 
     def _downwards(self, reference: Reference) -> list[Reference]:
         """The nodes of a function, each before those below it."""
+        reached = self._reached(reference, inf)
+        return sorted((each for each in reached if not self.sets.is_leaf(each)), reverse=True)
+
+    def _reached(self, reference: Reference, enough: float) -> set[Reference]:
+        """The nodes and leaves of a function; once there are more than is enough, no others are looked for."""
         pending, seen = [reference], {reference}
-        while pending:
+        while pending and len(seen) <= enough:
             here = pending.pop()
             if not self.sets.is_leaf(here):
                 fresh = set(self._below(here)) - seen
                 seen |= fresh
                 pending += fresh
-        return sorted((each for each in seen if not self.sets.is_leaf(each)), reverse=True)
+        return seen
 
     def tested(self, reference: Reference) -> list[int]:
         """The levels that a function tests."""
@@ -114,14 +119,7 @@ class Joint(Generic[Label]):
 
     def is_large(self, reference: Reference, nodes: int) -> bool:
         """Whether a function has more nodes than that."""
-        pending, seen = [reference], {reference}
-        while pending and len(seen) <= nodes:
-            here = pending.pop()
-            if not self.sets.is_leaf(here):
-                fresh = set(self._below(here)) - seen
-                seen |= fresh
-                pending += fresh
-        return len(seen) > nodes
+        return len(self._reached(reference, nodes)) > nodes
 
     def split(self, reference: Reference, level: int) -> tuple[Reference, ...]:
         """What is left of a function for each value of the variable at a level."""
