@@ -1,9 +1,11 @@
 """Tests of `why`: the explicit meaning, told for one state."""
 
 from tests.cli.inputs import AMR, AMR_POLICY
-from tumato_symbolic import Policy, parse
+from tumato_symbolic import Policy, Realizable, parse, synthesize
 from tumato_symbolic.explain.decision import Decisions, alternative, goal_notes, why
 from tumato_symbolic.policy import bind
+from tumato_symbolic.report.decided import Decided, as_text
+from tumato_symbolic.report.objections import Place
 from tumato_symbolic.semantics import active_goals, all_states, allowed, duration, is_safe
 
 SPEC = parse(AMR.read_text())
@@ -42,3 +44,43 @@ def test_the_decision_itself_is_recognised() -> None:
     """Asked why not what the policy does, the answer is that it does."""
     for state in all_states(SPEC):
         assert alternative(SPEC, POLICY, state, POLICY[state], "any").verdict == "chosen"
+
+
+DETOUR = """
+BEGIN STATE VECTOR state P can be a, b, c, e, d END STATE VECTOR
+BEGIN ACTIONS
+action to_b preconditions: P is a nominal effects: P is b
+action b_to_d preconditions: P is b nominal effects: P is d
+action to_c preconditions: P is a nominal effects: P is c
+action c_to_e preconditions: P is c nominal effects: P is e
+action e_to_d preconditions: P is e nominal effects: P is d
+END ACTIONS
+BEGIN GOALS goal type: priority
+when P is b then goal: P is d OR P is c
+goal: P is d
+END GOALS
+"""
+
+
+def test_a_shorter_run_through_other_goals_comes_later() -> None:
+    """What is said against it is that, and not that the decision has to suit runs to other goals."""
+    spec = parse(DETOUR)
+    outcome = synthesize(spec)
+    assert isinstance(outcome, Realizable)
+    decision = why(spec, Decisions(spec, outcome.policy), (0,), "any")
+    assert (decision.chosen, decision.run.steps) == (frozenset((2,)), 3)
+    (other,) = (each for each in decision.others if each.chosen == frozenset((0,)))
+    assert (other.verdict, other.run and other.run.steps) == ("leaving", 2)
+    told = as_text(Decided(Place(spec, "detour.tum"), "policy.json", decision, None))
+    assert "{to_b}: its run, of 2 steps, passes states where other goals are active" in told
+
+
+def test_what_is_said_against_the_others_is_the_order_of_preference() -> None:
+    """A longer run, and more actions."""
+    spec = parse(DETOUR.replace("e_to_d", "stay nominal effects: none\naction e_to_d"))
+    outcome = synthesize(spec)
+    assert isinstance(outcome, Realizable)
+    decisions = Decisions(spec, outcome.policy)
+    verdicts = {each.chosen: each.verdict for each in why(spec, decisions, (1,), "any").others}
+    assert verdicts[frozenset()] == "longer"
+    assert alternative(spec, decisions, (1,), frozenset((1, 4)), "any").verdict == "larger"

@@ -21,6 +21,7 @@ from tumato_symbolic.semantics import (
     Quality,
     Run,
     State,
+    active_goals,
     cases_in,
     duration,
     follow,
@@ -33,7 +34,7 @@ from tumato_symbolic.semantics import (
 from tumato_symbolic.spec import ConditionalGoal, Goal, GoalList, Ordering, Rule, SimpleGoal, Spec
 
 Verdict: TypeAlias = Literal[
-    "forbidden", "misses", "endless", "costlier", "longer", "larger", "later", "as-good", "chosen"
+    "forbidden", "misses", "endless", "costlier", "leaving", "longer", "larger", "later", "as-good", "chosen"
 ]
 
 
@@ -52,7 +53,8 @@ class Other(Struct, frozen=True):
     """What another set of actions would mean.
 
     `forbidden`: the objection says why. `misses`: its run, continued by the policy, does not meet the goal. The others
-    say by what it is less preferred (`docs/semantics.md`, section 6); `as-good`: by nothing in this state alone.
+    say by what it is less preferred (`docs/semantics.md`, section 6), `leaving` that its run passes states where other
+    goals are active, and that of the decision does not; `as-good`: by nothing in this state alone.
     Where safety may take several steps to restore, `quality` is how well the set does that; `endless`: that may never
     end.
     """
@@ -153,9 +155,10 @@ def alternative(
         return replace(found, verdict="endless")
     if run.end != "goal":
         return replace(found, verdict="misses")
-    verdicts: tuple[Verdict, ...] = ("costlier", "longer", "larger", "later")
-    mine = ours or _WORST, follow(spec, policy, state, chosen).steps, len(chosen), sorted(chosen)
-    its = theirs, run.steps, len(other), sorted(other)
+    verdicts: tuple[Verdict, ...] = ("costlier", "leaving", "longer", "larger", "later")
+    own = follow(spec, policy, state, chosen)
+    mine = ours or _WORST, _leaves(spec, own), own.steps, len(chosen), sorted(chosen)
+    its = theirs, _leaves(spec, run), run.steps, len(other), sorted(other)
     differs = next(n for n, (one, another) in enumerate(zip(mine, its, strict=True)) if one != another)
     return replace(found, verdict=verdicts[differs]) if mine < its else found
 
@@ -171,6 +174,13 @@ def _quality(spec: Spec, restoring: RestoringFrom, state: State, chosen: ActionS
     if spec.restores_stepwise:
         return restoring.quality(state, chosen)
     return 0, (duration(spec, chosen), 1)
+
+
+def _leaves(spec: Spec, run: Run) -> bool:
+    """Whether a run from a safe state passes states where other goals are active than at its start."""
+    start, *passed = run.states[:-1]
+    goals = active_goals(spec, start)
+    return is_safe(spec, start) and any(active_goals(spec, state) != goals for state in passed)
 
 
 def goal_notes(spec: Spec, state: State) -> Iterator[GoalNote]:

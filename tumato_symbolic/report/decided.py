@@ -140,7 +140,6 @@ def _list(place: Place, decision: Decision, others: list[Other], title: str) -> 
 
 def _sentence(place: Place, decision: Decision, other: Other) -> str:
     """What speaks against a set."""
-    steps = other.run.steps if other.run else 0
     match other.verdict:
         case "forbidden" if other.objection is not None:
             return objection_text(place, other.objection, decision.state).replace("\n", "\n  ")
@@ -153,6 +152,16 @@ def _sentence(place: Place, decision: Decision, other: Other) -> str:
             return f"it {what} in {_effort(other.quality)} rather than {_effort(decision.quality)}"
         case "costlier":
             return f"it takes longer to restore safety: {other.duration} rather than {decision.duration}"
+        case _:
+            return _serving(decision, other)
+
+
+def _serving(decision: Decision, other: Other) -> str:
+    """What speaks against a set that restores safety no worse, and whose run meets the goal."""
+    steps = other.run.steps if other.run else 0
+    match other.verdict:
+        case "leaving":
+            return f"its run, of {count(steps, 'step')}, passes states where other goals are active"
         case "longer":
             return f"its run has {count(steps, 'step')} rather than {decision.run.steps}"
         case "larger":

@@ -103,5 +103,6 @@ function compared(app, state, chosen, other) {
   if (steps < made.decisions.length) return `needs ${counted(made.decisions.length, "step")} to the goal rather than ${steps}`;
   if (steps > made.decisions.length) return "is shorter, but leads through the goals of others, or would keep another state from its goal";
   if (chosen.length < other.length) return "does more than is needed";
-  return chosen.length === other.length ? "is as good, and declared later" : "would do as well";
+  const first = chosen.findIndex((action, n) => action !== other[n]);
+  return chosen.length === other.length && chosen[first] < other[first] ? "is as good, and declared later" : "would do as well";
 }
