@@ -80,6 +80,13 @@ def test_hostile_texts_end_in_a_diagnostic(name: str) -> None:
     assert code in [each.code.name for each in check(text)]
 
 
+@pytest.mark.parametrize(("name", "has_aliases"), [("an alias bomb", True), ("large comparisons", False)])
+def test_what_is_too_large_is_put_down_to_aliases_where_there_are_some(name: str, has_aliases: bool) -> None:
+    """Where there are none, the way out speaks of what is written out."""
+    found = next(each for each in check(HOSTILE[name][0]) if each.code.name == "TUM308")
+    assert ("alias" in found.message + str(found.help)) == has_aliases
+
+
 def test_a_long_chain_of_aliases_is_harmless() -> None:
     """Aliases that only rename each other add no depth, however many there are."""
     assert load(Source("chain", rules("a4999", CHAIN))).spec is not None

@@ -197,7 +197,7 @@ class Predicates:
             return resolved
         large = resolved.terms > MAX_TERMS
         what = f"has more than {MAX_TERMS:,} terms" if large else f"is more than {MAX_DEPTH} levels deep"
-        self._too_large(span, f"with its aliases expanded, this {what}")
+        self._too_large(span, f"{'with its aliases expanded' if self._uses else 'written out'}, this {what}")
         return None
 
     def _reference(self, name: ast.Name, span: Span) -> Resolved | None:
@@ -241,7 +241,9 @@ class Predicates:
             self._gave_up = True
 
     def _too_large(self, span: Span, message: str) -> None:
-        self._findings.add(Code.TUM308, message, span, "aliases that use aliases grow quickly; use fewer of them")
+        copies = "copies and comparisons are written out; use shorter lists and ranges"
+        aliases = "aliases that use aliases grow quickly; use fewer of them"
+        self._findings.add(Code.TUM308, message, span, aliases if self._uses else copies)
 
     def _misplaced(self, mention: Mention, where: str) -> None:
         notes = (Note("the alias says `executing` here", mention.origin),) if mention.origin else ()
