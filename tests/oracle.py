@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterable, Iterator, Mapping
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Literal, TypeAlias
 
 import z3
@@ -106,9 +106,15 @@ class World:
         return self.distances(option.goal).get(option.after, self.bound) < self.bound
 
 
+@lru_cache(maxsize=64)
+def world_of(spec: Spec, ordering: Ordering) -> World:
+    """The same world for all who ask about a specification, and change nothing in it."""
+    return World(spec, ordering)
+
+
 def decide(spec: Spec, ordering: Ordering) -> OracleVerdict:
     """The verdict on `spec`: its failing states, else a policy, else the certainty that the goals conflict."""
-    return decide_world(World(spec, ordering))
+    return decide_world(world_of(spec, ordering))
 
 
 def decide_world(world: World) -> OracleVerdict:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import lru_cache
 from itertools import combinations
 from random import Random
 from typing import Literal, TypeVar
@@ -64,10 +65,15 @@ def unrealizable(spec: Spec, kind: type[ReasonKind]) -> tuple[Unrealizability, R
 def unrealizable_specs(profile: str, seeds: range, ordering: Ordering) -> Iterator[tuple[Spec, Unrealizability]]:
     """Generated specifications without a policy, with their certificates."""
     for seed in seeds:
-        spec = random_spec(seed, ALL_PROFILES[profile])
-        certificate = certified(spec, ordering)
+        spec, certificate = _generated(profile, seed, ordering)
         if certificate is not None:
             yield spec, certificate
+
+
+@lru_cache(maxsize=256)
+def _generated(profile: str, seed: int, ordering: Ordering) -> tuple[Spec, Unrealizability | None]:
+    spec = random_spec(seed, ALL_PROFILES[profile])
+    return spec, certified(spec, ordering)
 
 
 def claim_is_true(world: World, certificate: Unrealizability) -> bool:

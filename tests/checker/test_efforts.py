@@ -67,9 +67,9 @@ def test_true_claims_are_right_and_others_are_wrong(restoration: Restoration, ti
                     assert status(answer) == wanted, (seed, rows, claims, truth, answer)
                     assert answer.code == int(not minimal or wanted == "wrong")
                     met[wanted] += 1
-        if min(met["right"], met["wrong"]) >= 8:
+        if min(met["right"], met["wrong"]) >= 5:
             break
-    assert min(met["right"], met["wrong"]) >= 8, met
+    assert min(met["right"], met["wrong"]) >= 5, met
 
 
 def judged(spec: Spec, rows: Rows, claims: Claims, truth: Claims, ordering: Ordering) -> str:
@@ -128,7 +128,7 @@ def changed(spec: Spec, rows: Rows, truth: Claims, random: Random) -> Claims:
 @pytest.mark.parametrize(("restoration", "tiers"), MODES)
 def test_no_certificate_changes_a_verdict(restoration: Restoration, tiers: int, tmp_path: Path) -> None:
     """Of policies right and wrong, the same is said with true claims, with false ones, and with none."""
-    for seed in range(200, 203):
+    for seed in range(200, 202):
         spec, random = ways(seed, restoration, tiers), Random(seed)
         text = print_spec(spec, random)
         for rows in policies(spec, "any", random, 2):
@@ -157,7 +157,7 @@ def test_the_package_says_the_same(restoration: Restoration, tiers: int, tmp_pat
                 assert set(answer.failing) == refuted, (seed, answer)
                 assert status(answer) == said or refuted, (seed, claims, found.certificate, answer)
                 met[said] += 1
-        if sum(met.values()) >= 40:
+        if sum(met.values()) >= 24:
             break
     assert {"right", "wrong"} <= met.keys(), met
 
@@ -175,6 +175,6 @@ def test_what_is_synthesized_is_right(restoration: Restoration, tiers: int, tmp_
                 answer = ask(tmp_path, dumps(outcome.policy), text, "--effect-ordering", ordering, "--strict")
                 assert (answer.code, status(answer)) == (0, "right"), (seed, ordering, answer)
                 passed += 1
-        if passed >= 12:
+        if passed >= 8:
             break
-    assert passed >= 12
+    assert passed >= 8

@@ -44,7 +44,7 @@ def disagreements(folder: Path, spec: Spec, seed: int, samples: int = 0) -> tupl
 def test_judges_agree(restoration: Restoration, tiers: int, tmp_path: Path) -> None:
     """Under both orderings every property fails in as many states as the explicit meaning says."""
     met = Counter[str]()
-    for seed in range(10):
+    for seed in range(2, 8):
         drawn = stepwise_spec(seed, restoration, tiers) if seed < 4 else ways(seed, restoration, tiers)
         counts, found = disagreements(tmp_path, drawn, seed, 12 if seed >= 4 else 0)
         assert not found, "\n".join(found)

@@ -10,7 +10,7 @@ from random import Random
 from msgspec.structs import replace
 
 from tests.generate import NOWHERE
-from tests.oracle import Together, World, conflict_is_minimal, decide_world
+from tests.oracle import Together, World, conflict_is_minimal, decide_world, world_of
 from tests.printing import print_spec
 from tests.restoration.oracle import decide_stepwise
 from tumato_symbolic import parse
@@ -49,7 +49,7 @@ def complaints(explanation: Explanation) -> Iterator[str]:
 def _wrong_states(explanation: Explanation) -> Iterator[str]:
     """The reasons hold exactly the failing states, by kind, in disjoint cubes."""
     spec = explanation.spec
-    verdict = decide_world(World(spec, explanation.ordering))
+    verdict = decide_world(world_of(spec, explanation.ordering))
     if verdict.kind == "realizable":
         yield "there is a policy"
     for kind, expected in (("no-allowed-set", verdict.no_allowed_set), ("no-plan", verdict.no_plan)):
@@ -90,7 +90,7 @@ def _fails(spec: Spec, ordering: Ordering, reason: Reason, state: State, kept: f
     rest = keep_only(spec, kept)
     if reason.kind == "no-allowed-set":
         return next(allowed_sets(rest, state, ordering), None) is None
-    world = World(rest, ordering)
+    world = world_of(rest, ordering)
     if reason.kind == "no-plan":
         return not any(map(world.has_plan, world.options[state]))
     return TogetherWhereDefined(world).serve(reason.together) is None
@@ -110,7 +110,7 @@ def realizable(spec: Spec, ordering: Ordering) -> bool:
     """By the explicit meaning."""
     if spec.restores_stepwise:
         return decide_stepwise(spec, ordering).policy is not None
-    return decide_world(World(spec, ordering)).kind == "realizable"
+    return decide_world(world_of(spec, ordering)).kind == "realizable"
 
 
 def _wrong_repairs(explanation: Explanation) -> Iterator[str]:

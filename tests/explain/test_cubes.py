@@ -8,12 +8,12 @@ from tests.generate import random_spec
 from tumato_symbolic.explain.as_predicates import predicate_text, shortest_formula
 from tumato_symbolic.explain.cubes import disjoint_cubes, set_of, shortest_cubes
 from tumato_symbolic.semantics import all_states
-from tumato_symbolic.symbolic import Bdd, Encoding, encode
+from tumato_symbolic.symbolic import Bdd, Encoding, available_backend, encode
 
 
 def _drawn(seed: int) -> tuple[Encoding, Bdd, Bdd]:
     """A random set of states and another one that does not matter."""
-    random, encoding = Random(seed), encode(random_spec(seed), "autoref")
+    random, encoding = Random(seed), encode(random_spec(seed), available_backend())
     shares: list[list[Bdd]] = [[], [], []]
     for state in all_states(encoding.spec):
         random.choice((shares[0], shares[0], shares[1], shares[2])).append(encoding.state_cube(state))
@@ -67,7 +67,7 @@ def test_the_text_of_a_set_means_the_set() -> None:
 def test_the_text_of_any_predicate_means_the_predicate() -> None:
     """Every generated rule, printed and read again, has the same meaning."""
     for seed in range(40):
-        encoding = encode(random_spec(seed), "autoref")
+        encoding = encode(random_spec(seed), available_backend())
         spec, domain = encoding.spec, encoding.domain()
         for rule in (*spec.state_rules, *spec.reaction_rules, *spec.bodies):
             again = read_predicate(spec, predicate_text(spec, rule.formula))

@@ -13,7 +13,7 @@ from tumato_symbolic.explain.explain import explain
 from tumato_symbolic.explain.explanation import Explanation
 from tumato_symbolic.explain.failing_states import FailingStates, failing
 from tumato_symbolic.explain.requirements import Requirements
-from tumato_symbolic.symbolic import Bdd
+from tumato_symbolic.symbolic import Bdd, available_backend
 from tumato_symbolic.synthesis import Unrealizable, repair, synthesize
 
 
@@ -22,7 +22,7 @@ def test_what_is_remembered_is_so(profile: str) -> None:
     """Asked about one set of elements after another, for all states and for one: the answer is the computed one."""
     random = Random(profile)
     for seed in range(12):
-        requirements = Requirements(random_spec(seed, ALL_PROFILES[profile]), "any", "autoref")
+        requirements = Requirements(random_spec(seed, ALL_PROFILES[profile]), "any", available_backend())
         known, encoding = FailingStates(requirements), requirements.encoding
         for _ in range(12):
             share = random.random()
@@ -36,7 +36,7 @@ def test_what_is_remembered_is_so(profile: str) -> None:
 
 def test_an_answer_answers_for_more_and_for_less(monkeypatch: pytest.MonkeyPatch) -> None:
     """What fails does when more is kept, and what does not fail does not when less is: nothing is computed again."""
-    requirements = Requirements(random_spec(1, ALL_PROFILES["mixed"]), "any", "autoref")
+    requirements = Requirements(random_spec(1, ALL_PROFILES["mixed"]), "any", available_backend())
     known = FailingStates(requirements)
     computed: list[Elements] = []
 
@@ -74,7 +74,7 @@ def test_what_no_repair_drops_is_named_first() -> None:
 def test_a_conflict_that_is_too_hard_is_not_made_smaller(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where no question about a conflict is answered, all elements are to blame: they suffice."""
     spec = random_spec(101314, ALL_PROFILES["interacting"])
-    requirements = Requirements(spec, "any", "autoref")
+    requirements = Requirements(spec, "any", available_backend())
     outcome = synthesize(spec, "any", certify=False)
     assert isinstance(outcome, Unrealizable)
     together = outcome.failures[0].states

@@ -8,7 +8,7 @@ from tests.generate import ALL_PROFILES, random_spec
 from tumato_symbolic.explain.elements import elements_of, keep_only, without
 from tumato_symbolic.explain.requirements import Requirements
 from tumato_symbolic.spec import Ordering
-from tumato_symbolic.symbolic import build_steps
+from tumato_symbolic.symbolic import available_backend, build_steps
 
 
 @pytest.mark.parametrize("profile", ALL_PROFILES)
@@ -18,7 +18,7 @@ def test_allowed_steps_are_a_conjunction_over_elements(profile: str, ordering: O
     random = Random(profile)
     for seed in range(12):
         spec = random_spec(seed, ALL_PROFILES[profile])
-        requirements = Requirements(spec, ordering, "autoref")
+        requirements = Requirements(spec, ordering, available_backend())
         for share in (0.3, 0.7, 1.0):
             kept = frozenset(each for each in elements_of(spec) if random.random() < share)
             expected = build_steps(requirements.encoding, keep_only(spec, kept), ordering)

@@ -7,7 +7,7 @@ from random import Random
 
 from msgspec.structs import replace
 
-from tests.oracle import decide
+from tests.oracle import decide, world_of
 from tumato_symbolic.diagrams import DiagramBuilder
 from tumato_symbolic.policy import Certificate, Policy, RankedGoal, as_diagram, policy_from_rows
 from tumato_symbolic.semantics import (
@@ -35,21 +35,25 @@ Ranks = dict[Residual, dict[State, int]]
 
 def near_policies(spec: Spec, ordering: Ordering, random: Random, count: int = 3) -> Iterator[dict[State, ActionSet]]:
     """A sound and complete policy if there is one, the same made minimal, `count` changed ones, and two at random."""
-    valid = [state for state in all_states(spec) if is_valid(spec, state)]
-    found = decide(spec, ordering).policy
+    found, options = decide(spec, ordering).policy, _options(spec, ordering)
+    valid = list(options)
     if found is not None:
         plain, minimal = dict(found), made_minimal(spec, ordering, found)
         yield plain
         yield minimal
         for _ in range(count):
             yield changed(spec, ordering, random, random.choice((plain, minimal)), valid)
-    options = {state: list(allowed_sets(spec, state, ordering)) for state in valid}
     yield {state: random.choice(sets) if sets else any_set(spec, random) for state, sets in options.items()}
     yield {
         state: random.choice(sets) if sets and random.random() < 0.8 else any_set(spec, random)
         for state, sets in options.items()
         if random.random() < 0.95
     }
+
+
+def _options(spec: Spec, ordering: Ordering) -> dict[State, list[ActionSet]]:
+    """The allowed sets of every valid state."""
+    return {state: [each.chosen for each in some] for state, some in world_of(spec, ordering).options.items()}
 
 
 def leaving(spec: Spec, rows: Rows, ordering: Ordering) -> set[tuple[State, State]]:
@@ -113,12 +117,12 @@ def exact_ranks(spec: Spec, rows: Rows, ordering: Ordering) -> Ranks:
 
     Where safety may take several steps to restore, those of all valid states.
     """
-    valid = [state for state in all_states(spec) if is_valid(spec, state)]
-    goals = {residual_goal(spec, state, rows[state]): None for state in valid if state in rows}
-    for state in valid:
+    options = _options(spec, ordering)
+    goals = {residual_goal(spec, state, rows[state]): None for state in options if state in rows}
+    for state, sets in options.items():
         if not is_safe(spec, state):
-            goals.update((residual_goal(spec, state, chosen), None) for chosen in allowed_sets(spec, state, ordering))
-    ranked = [state for state in valid if spec.restores_stepwise or is_safe(spec, state)]
+            goals.update((residual_goal(spec, state, chosen), None) for chosen in sets)
+    ranked = [state for state in options if spec.restores_stepwise or is_safe(spec, state)]
     return {
         goal: {state: rank for state in ranked if (rank := _rank(spec, rows, goal, state)) is not None}
         for goal in goals

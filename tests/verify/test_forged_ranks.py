@@ -115,7 +115,7 @@ def _status(spec: Spec, policy: Policy, table: Table, prover: Name, name: str) -
 
 @needing_no_rival
 @pytest.mark.parametrize("right", [True, False])
-@pytest.mark.parametrize(("length", "bound"), [(1, None), (2, None), (3, None), (3, 3), (3, 4), (4, 4), (3, 2), (4, 3)])
+@pytest.mark.parametrize(("length", "bound"), [(1, None), (3, None), (3, 4), (4, 4), (3, 2)])
 def test_ranks_of_goals(length: int, bound: int | None, right: bool, prover: Name) -> None:
     """The policy is right or wrong whatever the ranks say; they are *wrong* where they do not decrease to the goal or
     exceed the bound, *incomplete* where one is missing that is needed, and *used* otherwise.
@@ -172,7 +172,7 @@ def restoring(length: int, bound: int) -> tuple[Spec, Policy]:
     return spec, policy
 
 
-@pytest.mark.parametrize("length", [1, 3, 4])
+@pytest.mark.parametrize("length", [1, 3])
 def test_ranks_of_a_rival(length: int, prover: Name) -> None:
     """The dear set is minimal where the cheap one comes one step too late, and is not where it comes in time; ranks
     carry the proof exactly where they are nowhere too large, and large enough."""

@@ -139,7 +139,7 @@ def _judged(spec: Spec, certificate: Unrealizability, count: int) -> tuple[int, 
 def test_forged_conflicts(name: str) -> None:
     """Options, distances, starts, cuts and shared roots, each changed by one."""
     spec, certificate = CONFLICTS[name]
-    right, judged = _judged(spec, certificate, 40)
+    right, judged = _judged(spec, certificate, 24)
     assert 0 < right < judged
 
 
@@ -173,7 +173,7 @@ def test_forged_layers(bound: int | None, walk: bool, monkeypatch: pytest.Monkey
         spec = replace(spec, actions=spec.actions[:2])
     certificate = certified(spec, "any")
     assert certificate is not None and isinstance(certificate.reason, NoPlan)
-    right, judged = _judged(spec, certificate, 40)
+    right, judged = _judged(spec, certificate, 24)
     assert 0 < right < judged
 
 

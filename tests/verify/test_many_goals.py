@@ -42,7 +42,7 @@ def test_verdicts_are_those_of_the_explicit_meaning() -> None:
             for result in answer.properties:
                 met.add((result.name, result.verdict))
                 if result.refutation is not None:
-                    assert_witness(spec, rows, ordering, result.refutation)
+                    assert_witness(spec, rows, judged, ordering, result.refutation)
                     if result.name == "goals":
                         assert (result.refutation.state, result.refutation.run) == judged.goal_missed[0]
     assert {("goals", "proved"), ("goals", "refuted")} <= met

@@ -13,7 +13,7 @@ from tests.semantics.build import Build, chosen
 from tests.verify.policies import certified, dressed, exact_ranks, near_policies, wrong_ranks
 from tests.verify.test_against_semantics import assert_witness
 from tumato_symbolic.policy import policy_from_rows
-from tumato_symbolic.semantics import ActionSet, State, all_states, judge
+from tumato_symbolic.semantics import ActionSet, Judgement, State, all_states, judge
 from tumato_symbolic.spec import Not, Or, Ordering, Spec
 from tumato_symbolic.verify import PropertyResult, Refutation, Verification, verify
 from tumato_symbolic.verify.by_diagrams.functions import FALSE, TRUE, BudgetError
@@ -141,10 +141,12 @@ def _verdicts(answer: Verification) -> dict[str, str]:
     return {result.name: result.verdict for result in answer.properties}
 
 
-def _assert_first_witness(spec: Spec, rows: Rows, ordering: Ordering, refutation: Refutation) -> None:
+def _assert_first_witness(
+    spec: Spec, rows: Rows, judged: Judgement, ordering: Ordering, refutation: Refutation
+) -> None:
     """A witness, and the first of the states that are not allowed or miss their goal."""
-    assert_witness(spec, rows, ordering, refutation)
-    judged, state = judge(spec, rows, ordering), refutation.state
+    assert_witness(spec, rows, judged, ordering, refutation)
+    state = refutation.state
     match refutation.kind:
         case "not-allowed":
             first = judged.not_allowed[0]
@@ -165,7 +167,7 @@ def test_the_walk_judges_as_the_explicit_meaning_does(
     So it is where the nominal step is taken variable by variable, and where it is taken case by case.
     """
     met, cases = set(), import_module("tumato_symbolic.verify.by_diagrams.cases")
-    for seed in range(300, 308):
+    for seed in range(300, 306):
         spec, random = random_spec(seed, ALL_PROFILES[profile]), Random(seed)
         for rows in near_policies(spec, ordering, random):
             judged = judge(spec, rows, ordering)
@@ -177,14 +179,14 @@ def test_the_walk_judges_as_the_explicit_meaning_does(
             for result in answer.properties:
                 met.add((result.name, result.verdict))
                 if result.refutation is not None:
-                    _assert_first_witness(spec, rows, ordering, result.refutation)
+                    _assert_first_witness(spec, rows, judged, ordering, result.refutation)
     assert len(met) >= 7
 
 
 def test_both_provers_agree_also_on_certificates() -> None:
     """`both` raises where Z3 and the walk differ: right and false ranks, right and wrong policies, both orderings."""
     met = set()
-    for seed in range(20):
+    for seed in range(11, 16):
         spec, random = random_spec(seed, ALL_PROFILES[("restoring", "interacting")[seed % 2]]), Random(seed)
         ordering: Ordering = ("any", "first")[seed // 2 % 2]
         for rows in near_policies(spec, ordering, random, count=1):
