@@ -276,8 +276,15 @@ def test_a_step_leads_into_a_target(ordering: Ordering) -> None:
     assert 0.1 < sum(answers) / len(answers) < 0.9
 
 
+def _number(walk: Walk) -> int:
+    """A function with the values 0, 1 and 2, for which nothing is remembered."""
+    ones, twos = (walk.by_value(4 + each, (FALSE, walk.constant(1 + each))) for each in range(2))
+    return walk.by_value(1, (ones, twos))
+
+
 REMEMBERED: dict[str, Callable[[Walk, int, int], object]] = {
     "select": lambda walk, one, other: walk.select(one, (TRUE, other)),
+    "select of three": lambda walk, one, other: walk.select(_number(walk), (FALSE, other, one)),
     "combine": lambda walk, one, other: walk.apply(operator.add, one, other),
     "compose": lambda walk, one, other: walk.compose(one, {3: other, 5: TRUE}),
     "substitute a value": lambda walk, one, _: walk.compose(one, {5: TRUE}),
@@ -311,6 +318,41 @@ def test_every_operation_counts_what_it_remembers(name: str) -> None:
     with pytest.raises(BudgetError, match="too large"):
         REMEMBERED[name](walk, one, other)
     assert walk.is_full
+
+
+def test_room_is_made() -> None:
+    """Where more than half is remembered of what may be, and functions take less: all results are forgotten."""
+    walk = Walk(range(6), [2] * 6)
+    one = walk.any_of(walk.all_of((walk.variable(n), walk.variable(5 - n))) for n in range(3))
+    other = walk.apply(operator.eq, walk.variable(0), walk.variable(4))
+
+    def remembered() -> list[int]:
+        found = [walk.remembered]
+        for operation in REMEMBERED.values():
+            operation(walk, one, other)
+            found.append(walk.remembered)
+        return found
+
+    remembered()
+    functions = len(walk._levels)
+    for used, most, forgets in (
+        (100 * functions, 2 * functions, False),
+        (100 * functions, 2 * functions + 1, True),
+        (2 * functions, 4 * functions, False),
+        (2 * functions, 4 * functions - 1, True),
+    ):
+        walk.remembered, walk.most = used, most
+        walk.make_room()
+        assert walk.remembered == (0 if forgets else used)
+    walk.most = 10**9
+    first = remembered()
+    walk.most = 2 * functions + 1
+    walk.remembered = 100 * functions
+    walk.make_room()
+    walk.most = 10**9
+    assert remembered() == first
+    assert sorted({*first}) == first
+    assert len(walk._levels) == functions
 
 
 def test_a_result_counts_as_one() -> None:
@@ -431,32 +473,29 @@ def test_workers_share_what_may_be_remembered() -> None:
 
 
 def test_substitution_keeps_the_order() -> None:
-    """Functions for some of the variables, of which each may test variables above and below."""
+    """Functions for some of the variables, of which each may test variables above and below: what is found is one."""
     random, sizes = Random(7), (2, 3, 2, 2)
     points = list(product(*map(range, sizes)))
+
+    def made(walk: Walk, table: Mapping[literal.State, int], point: literal.State = ()) -> int:
+        if len(point) == len(sizes):
+            return walk.constant(table[point])
+        below = [made(walk, table, (*point, value)) for value in range(sizes[len(point)])]
+        return walk.by_value(len(point), below)
+
     for order in ((0, 1, 2, 3), (2, 3, 1, 0)):
         walk = Walk(order, sizes)
-
-        def drawn(most: int, walk: Walk = walk) -> tuple[int, dict[literal.State, int]]:
-            table = {point: random.randint(0, most) for point in points}
-
-            def build(point: literal.State) -> int:
-                if len(point) == len(sizes):
-                    return walk.constant(table[point])
-                return walk.by_value(len(point), [build((*point, value)) for value in range(sizes[len(point)])])
-
-            return build(()), table
-
         for _ in range(12):
-            (function, table), (one, ones), (two, twos) = drawn(3), drawn(1), drawn(2)
+            table, ones, twos = ({point: random.randint(0, most) for point in points} for most in (3, 1, 1))
+            one, two = made(walk, ones), made(walk, twos)
             for given in ({3: one}, {0: one}, {1: two}, {0: one, 1: two}, {2: walk.constant(1), 1: two}):
-                found = walk.compose(function, given)
+                turned = dict[literal.State, int]()
                 for point in points:
-                    turned = list(point)
+                    end = list(point)
                     for variable, by in given.items():
-                        turned[variable] = ones[point] if by == one else twos[point] if by == two else 1
-                    values = {number: walk.constant(value) for number, value in enumerate(point)}
-                    assert walk.values_of(walk.compose(found, values)) == [table[tuple(turned)]]
+                        end[variable] = ones[point] if by == one else twos[point] if by == two else 1
+                    turned[point] = table[tuple(end)]
+                assert walk.compose(made(walk, table), given) == made(walk, turned)
 
 
 @pytest.mark.parametrize("actions", [1, 2, 3, 4, 5])

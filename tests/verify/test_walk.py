@@ -60,10 +60,15 @@ def test_operations_do_what_they_say(order: tuple[int, ...]) -> None:
             assert _table(walk, walk.select(one[0], (zero[0], other_case[0]))) == {
                 point: (zero, other_case)[one[1][point]][1][point] for point in POINTS
             }
+        assert _table(walk, walk.by_value(1, [case for case, _ in cases])) == {
+            point: cases[point[1]][1][point] for point in POINTS
+        }
         assert walk.constant(-1) == walk.constant(-1) != walk.constant(2)
         added = walk.apply(operator.add, number, cases[0][0])
         assert _table(walk, added) == {point: numbers[point] + cases[0][1][point] for point in POINTS}
         assert walk.values_of(added) == sorted({numbers[point] + cases[0][1][point] for point in POINTS})
+        less = walk.apply(operator.sub, number, cases[0][0])
+        assert _table(walk, less) == {point: numbers[point] - cases[0][1][point] for point in POINTS}
         moved = walk.compose(cases[0][0], {0: one[0], 1: number, 3: walk.constant(2)})
         assert _table(walk, moved) == {
             point: cases[0][1][one[1][point], numbers[point], point[2], 2] for point in POINTS
@@ -118,6 +123,7 @@ def test_equal_functions_are_one() -> None:
     """However it was made, a function has one number; an impossible one is `FALSE`."""
     walk = Walk((1, 0), (3, 2))
     x, y = walk.by_value(0, (TRUE, FALSE, FALSE)), walk.variable(1)
+    assert walk.by_value(0, [walk.variable(0)] * 3) == walk.variable(0)
     assert walk.negation(walk.any_of((x, y))) == walk.all_of((walk.negation(y), walk.negation(x)))
     assert walk.all_of((x, walk.without(y, x))) == FALSE
     assert walk.any_of((x, y, walk.negation(x))) == TRUE
