@@ -105,6 +105,8 @@ def test_a_comparison_after_writing_is_one_at_every_point(order: tuple[int, ...]
             assert walk.holds_where(where, written, operator.le, function, bound) == expected
             answers.append(expected)
     assert 0.1 < sum(answers) / len(answers) < 0.9
+    assert walk.holds_where(FALSE, {}, operator.lt, TRUE, FALSE)
+    assert walk.holds_where(TRUE, {}, operator.lt, TRUE, walk.constant(UNASKED))
 
 
 def test_what_a_function_is_elsewhere_may_make_it_small() -> None:
@@ -117,6 +119,10 @@ def test_what_a_function_is_elsewhere_may_make_it_small() -> None:
             assert walk.within(walk.apply(operator.eq, function, value), function) == value
         assert walk.within(TRUE, function) == function
         assert set(_table(walk, walk.within(FALSE, function)).values()) <= set(table.values())
+        care, holds = _function(walk, random, 1)
+        deep = walk.compose(function, {0: FALSE, 1: TRUE})
+        found = _table(walk, walk.within(care, deep))
+        assert all(found[point] == table[0, 1, *point[2:]] for point in POINTS if holds[point])
 
 
 def test_equal_functions_are_one() -> None:
