@@ -46,13 +46,14 @@ class StateSets:
 
     def first(self, states: Reference) -> State:
         """The first one as declared; there is one."""
+        found = list[int]()
         with room_for(len(self._sizes)):
             for variable, size in enumerate(self._sizes):
-                level = self._level[variable]
-                parts = (self._sets.both(states, self._sets.cube(((level, (value,)),))) for value in range(size))
-                states = next(part for part in parts if part != NOTHING)
-            tested = self._sets.tested(states)
-        return tuple(min(tested.get(self._level[variable], {0})) for variable in range(len(self._sizes)))
+                cubes = (self._sets.cube(((self._level[variable], (value,)),)) for value in range(size))
+                parts = enumerate(self._sets.both(states, cube) for cube in cubes)
+                value, states = next((value, part) for value, part in parts if part != NOTHING)
+                found.append(value)
+        return tuple(found)
 
     def cubes(self, states: Reference, valid: Reference) -> tuple[StateCube, ...] | None:
         """Cubes that hold these states, and no other valid ones; None where they are too many."""
