@@ -146,3 +146,9 @@ def test_the_document_tells_of_cases_without_an_answer() -> None:
     told = figures(_result() | {"cases": [lost]}, "run.json")
     assert "| amr | over the limit |" in told
     assert "MISSED (no answer)" in told
+
+
+@pytest.mark.parametrize("valid", [1, 32, 4_611_686_018_427_387_904, 10**40])
+def test_axes_reach_every_value(valid: int) -> None:
+    """However many states there are, the chart has a mark on either side of them."""
+    assert "<circle" in drawn(CHARTS[0], _result(valid=valid))
