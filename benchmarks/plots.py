@@ -74,7 +74,7 @@ class _Scale:
     """A logarithmic axis around all values, marked at 1, 2, 5, 10, …, or at powers of ten where these are many."""
 
     def __init__(self, values: Sequence[float], start: float, end: float) -> None:
-        low, high = min(values, default=1.0), max(values, default=1.0)
+        low, high = float(min(values, default=1)), float(max(values, default=1))
         powers = range(math.floor(math.log10(low)), math.floor(math.log10(high)) + 2)
         marks = [step * 10.0**power for power in powers for step in (1, 2, 5)]
         first = max(number for number, mark in enumerate(marks) if mark <= low)
