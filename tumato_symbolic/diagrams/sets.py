@@ -7,6 +7,7 @@ from math import prod
 from typing import TypeAlias
 
 from tumato_symbolic.diagrams.diagram import Diagram, Leaf, Reference, UniqueTable, rebuild
+from tumato_symbolic.diagrams.recursion import room_for
 
 NOTHING: Reference = 0
 """The empty set."""
@@ -173,7 +174,8 @@ class Sets(UniqueTable):
 
     def count(self, states: Reference) -> int:
         """How many states a set has, exactly."""
-        return self._count(states) * prod(self.sizes[: self._levels[states]]) * self._untested
+        with room_for(self._depth):
+            return self._count(states) * prod(self.sizes[: self._levels[states]]) * self._untested
 
     def _count(self, states: Reference) -> int:
         """How often the variables from a set's first level on can be given values so that the state is in it."""

@@ -91,14 +91,17 @@ class _Builder:
 def questions(tree: Tree) -> list[Question]:
     """Every different question once, those below before those above."""
     done: dict[int, Question] = {}
-
-    def visit(here: Tree) -> None:
-        if isinstance(here, Question) and id(here) not in done:
-            for each in here.below:
-                visit(each)
-            done[id(here)] = here
-
-    visit(tree)
+    pending = [tree]
+    while pending:
+        here = pending[-1]
+        below = here.below if isinstance(here, Question) and id(here) not in done else ()
+        waiting = [each for each in below if isinstance(each, Question) and id(each) not in done]
+        if waiting:
+            pending += reversed(waiting)
+        else:
+            pending.pop()
+            if isinstance(here, Question):
+                done.setdefault(id(here), here)
     return list(done.values())
 
 

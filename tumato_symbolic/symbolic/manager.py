@@ -13,7 +13,7 @@ from importlib import import_module
 from types import ModuleType
 from typing import Any, Literal, Protocol, TypeAlias
 
-from tumato_symbolic.diagrams import conjoin
+from tumato_symbolic.diagrams import conjoin, room_for
 from tumato_symbolic.limits import Context, LimitReachedError, MissingPackageError
 
 Backend: TypeAlias = Literal["cudd", "autoref"]
@@ -118,9 +118,13 @@ class Manager:
 
     @contextmanager
     def within_memory(self) -> Iterator[None]:
-        """Raise `LimitReachedError` where CUDD refuses an operation because it would need too much memory."""
+        """Raise `LimitReachedError` where CUDD refuses an operation because it would need too much memory.
+
+        Inside is room to recurse from bit to bit, as dd does in Python, and what takes sets apart.
+        """
         try:
-            yield
+            with room_for(len(self.bits)):
+                yield
         except (ValueError, RuntimeError) as error:
             if self.context.limits.megabytes is not None and _raised_by_cudd(error):
                 raise LimitReachedError(self.context.described("memory")) from error
