@@ -20,6 +20,11 @@ def quoted(text: str) -> str:
     return "`" + "".join(each if each.isprintable() else f"\\x{ord(each):02x}" for each in clipped) + "`"
 
 
+def one_line(text: str) -> str:
+    """A text without its line breaks, with single spaces."""
+    return " ".join(text.split())
+
+
 def count(number: int, noun: str, plural: str | None = None) -> str:
     """`1 state`, `1,024 states`."""
     return f"{number:,} {noun if number == 1 else plural or noun + 's'}"

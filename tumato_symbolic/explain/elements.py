@@ -9,6 +9,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from tumato_symbolic.diagnostics import Span
+from tumato_symbolic.diagnostics.wording import one_line
 from tumato_symbolic.spec import Action, Rule, Spec
 
 ElementKind: TypeAlias = Literal[
@@ -132,10 +133,10 @@ def text_of(spec: Spec, element: Element) -> str:
     """An element as the user wrote it, on one line."""
     rule = rule_of(spec, element)
     if rule is not None:
-        return " ".join(rule.text.split())
+        return one_line(rule.text)
     match element.kind:
         case "alternative":
-            return " ".join(spec.actions[element.number].alternatives[element.part].text.split())
+            return one_line(spec.actions[element.number].alternatives[element.part].text)
         case "resource":
             return spec.resources[element.part]
         case _:

@@ -10,6 +10,7 @@ from typing import TypeAlias
 from msgspec import Struct
 from msgspec.structs import replace
 
+from tumato_symbolic.diagnostics.wording import one_line
 from tumato_symbolic.explain.additions import every_state
 from tumato_symbolic.explain.as_predicates import cube_formula, predicate_text
 from tumato_symbolic.explain.cubes import StateCube
@@ -185,6 +186,6 @@ def _with_exception(spec: Spec, rule: Rule, cube: StateCube) -> Rule:
     exception = cube_formula(spec, cube)
     text = predicate_text(spec, exception)
     text = f"({text})" if isinstance(exception, And) else text
-    own = " ".join(rule.text.split())
+    own = one_line(rule.text)
     own = own if _LITERAL.fullmatch(own) else f"({own})"
     return Rule(Or((rule.formula, exception)), f"{own} OR {text}", rule.span)

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from msgspec import Struct
 
+from tumato_symbolic.diagnostics.wording import one_line
 from tumato_symbolic.explain.decision import Decision, GoalNote, Other
 from tumato_symbolic.report.guaranteed import guarantee_json, guarantee_text, shortcoming_json, shortcoming_lines
 from tumato_symbolic.report.layout import count, enumeration
@@ -241,5 +242,5 @@ def _other_json(done: Decided, other: Other) -> dict[str, object]:
         "actions": list(action_names(place.spec, other.chosen)),
         "verdict": other.verdict,
         "duration": other.duration,
-        "reason": " ".join(_sentence(place, done.decision, other).split()),
+        "reason": one_line(_sentence(place, done.decision, other)),
     }

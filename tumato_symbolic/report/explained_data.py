@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from tumato_symbolic.diagnostics import Span
+from tumato_symbolic.diagnostics.wording import one_line
 from tumato_symbolic.explain.additions import NewAction, NoGoalWhile, Setting
 from tumato_symbolic.explain.as_predicates import predicate_text
 from tumato_symbolic.explain.elements import Element, span_of, text_of
@@ -142,7 +143,7 @@ def _in_core(done: Explained, element: Element, core: tuple[Element, ...], reaso
 
 def _goal_json(spec: Spec, goal: OwnGoal, body: Rule) -> dict[str, object]:
     return {
-        "text": " ".join(body.text.split()),
+        "text": one_line(body.text),
         "line": body.span.line,
         "never_true": [predicate_text(spec, part) for part in goal.never],
         "clashes": goal.clashes,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Final
 
+from tumato_symbolic.diagnostics.wording import one_line
 from tumato_symbolic.report.layout import Paint, count, enumeration, every, seconds
 from tumato_symbolic.report.objections import Place, broken_here, effects_text, objection_text, outcome_json
 from tumato_symbolic.semantics import ActionSet, Quality, Run, action_names, duration, in_json
@@ -267,7 +268,7 @@ def _refutation_json(spec: Spec, refutation: Refutation) -> dict[str, object]:
         found["objection"] = {
             "kind": objection.kind,
             "actions": [spec.actions[number].name for number in objection.actions],
-            "rule": " ".join(objection.rule.text.split()) if objection.rule else None,
+            "rule": one_line(objection.rule.text) if objection.rule else None,
             "line": objection.rule.span.line if objection.rule else None,
             "outcome": outcome_json(spec, objection.outcome),
         }

@@ -9,6 +9,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from tumato_symbolic.diagnostics import Code, Diagnostic, Source
+from tumato_symbolic.diagnostics.wording import one_line
 from tumato_symbolic.report.findings import Finding, finding_json, findings_of
 from tumato_symbolic.report.layout import Paint, enumeration, seconds
 from tumato_symbolic.report.objections import Place
@@ -199,7 +200,7 @@ def _guarantees(guarantees: Guarantees, policy: str) -> Finding:
 
 def _open(done: Verified, result: PropertyResult) -> Finding:
     """A property that is not proved; where a rule is broken, at the rule."""
-    message = " ".join(property_line(result, Paint(False), done.verification).split())
+    message = one_line(property_line(result, Paint(False), done.verification))
     title, refutation = f"{result.name} {result.verdict}", result.refutation
     if refutation is None:
         return Finding("error", message, done.policy, title=title)

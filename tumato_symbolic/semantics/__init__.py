@@ -56,11 +56,11 @@ from tumato_symbolic.semantics.step import (
     first_broken,
     next_states,
     nominal_agrees,
-    nominal_way,
     objections,
     outcomes,
     outcomes_in_turn,
     pending,
+    replay,
     successor,
     takes_effect,
 )

@@ -91,13 +91,12 @@ def successor(spec: Spec, state: State, chosen: ActionSet) -> State:
     return state
 
 
-def nominal_way(spec: Spec, state: State, chosen: ActionSet) -> EffectSequence:
-    """The way to `δ(s, A)`, nominal effects one after the other; they must agree."""
+def replay(state: State, steps: Iterable[tuple[int, Assignment]]) -> EffectSequence:
+    """The states met when effects, each of an action, happen in this order."""
     way = list[EffectStep]()
-    for action in sorted(chosen):
-        if effect := spec.actions[action].nominal:
-            state = apply(effect, state)
-            way.append(EffectStep(action, effect, state))
+    for action, effect in steps:
+        state = apply(effect, state)
+        way.append(EffectStep(action, effect, state))
     return tuple(way)
 
 

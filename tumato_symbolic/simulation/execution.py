@@ -11,7 +11,6 @@ from tumato_symbolic.semantics import (
     ActionSet,
     Disturbance,
     EffectSequence,
-    EffectStep,
     Event,
     Move,
     State,
@@ -20,6 +19,7 @@ from tumato_symbolic.semantics import (
     is_valid,
     nominal_agrees,
     reached,
+    replay,
     residual_goal,
     successor,
 )
@@ -90,12 +90,8 @@ def random_move(spec: Spec, state: State, chosen: ActionSet, ordering: Ordering,
 
 def _effects_of(spec: Spec, state: State, acting: list[int], dice: Dice) -> tuple[State, EffectSequence]:
     """The effects of some actions, one after the other, and the state after them."""
-    way: list[EffectStep] = []
-    for action in acting:
-        effect = dice.one_of(spec.actions[action].effects)
-        state = apply(effect, state)
-        way.append(EffectStep(action, effect, state))
-    return state, tuple(way)
+    way = replay(state, ((action, dice.one_of(spec.actions[action].effects)) for action in acting))
+    return way[-1].after if way else state, way
 
 
 def _disturbed(spec: Spec, state: State, dice: Dice) -> State | None:

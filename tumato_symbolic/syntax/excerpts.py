@@ -6,6 +6,7 @@ import re
 from collections.abc import Mapping
 
 from tumato_symbolic.diagnostics import CopySpan, Source, Span
+from tumato_symbolic.diagnostics.wording import one_line
 
 _COMMENT = re.compile(r"//[^\n]*|/\*[\s\S]*?\*/")
 _BRACES = re.compile(r"\{([A-Za-z_][A-Za-z0-9_]*)([+-][0-9]+)?\}")
@@ -44,4 +45,4 @@ class Excerpts:
             lines = [lines[0][span.column - 1 : span.end_column - 1]]
         else:
             lines = [lines[0][span.column - 1 :], *lines[1:-1], lines[-1][: span.end_column - 1]]
-        return " ".join(_COMMENT.sub(" ", "\n".join(lines)).split())
+        return one_line(_COMMENT.sub(" ", "\n".join(lines)))

@@ -13,8 +13,8 @@ from tumato_symbolic.semantics import (
     State,
     is_valid,
     nominal_agrees,
-    nominal_way,
     outcomes_in_turn,
+    replay,
     successor,
 )
 from tumato_symbolic.spec import Ordering, Spec
@@ -54,4 +54,5 @@ def _next_in_turn(
     """`Next(s, A)` one by one, each with a way: under `first`, the nominal successor need not be an outcome."""
     yield from outcomes_in_turn(spec, state, chosen, ordering)
     if ordering == "first" and nominal_agrees(spec, chosen):
-        yield successor(spec, state, chosen), nominal_way(spec, state, chosen)
+        nominal = ((action, spec.actions[action].nominal) for action in sorted(chosen))
+        yield successor(spec, state, chosen), replay(state, ((action, effect) for action, effect in nominal if effect))

@@ -8,6 +8,7 @@ from typing import Literal, Protocol, TypeAlias
 from msgspec import Struct
 
 from tumato_symbolic.diagnostics import Span
+from tumato_symbolic.diagnostics.wording import one_line
 from tumato_symbolic.spec import Action, Assignment, EffectSet, Goal, Rule, Spec, fold_goal
 from tumato_symbolic.spec.canonical import canonical_text
 
@@ -121,7 +122,7 @@ def _fields(spec: Spec, action: Action) -> _Fields:
     return {
         "duration": _same(str(action.duration)),
         "resource": {name: name for name in sorted(resources)},
-        "precondition": {canonical_text(spec, rule.formula): _one_line(rule.text) for rule in action.preconditions},
+        "precondition": {canonical_text(spec, rule.formula): one_line(rule.text) for rule in action.preconditions},
         "nominal effects": _same(nominal),
         "alternative effects": {each: each for each in alternatives},
     }
@@ -174,7 +175,7 @@ def _rules(kind: ElementKind, old: Spec, before: Sequence[Rule], new: Spec, afte
     theirs = {canonical_text(new, rule.formula): rule for rule in after}
     for key in _all_names(ours, theirs):
         one, other = ours.get(key), theirs.get(key)
-        text = _one_line((one or theirs[key]).text)
+        text = one_line((one or theirs[key]).text)
         if one is None or other is None:
             yield _one_sided(kind, text, one, other)
         elif _tier(old, one) != _tier(new, other):
@@ -225,7 +226,7 @@ def _listed_goals(spec: Spec) -> dict[str, _ListedGoal]:
 
 def _both_texts(spec: Spec, before: str, rule: Rule, after: str) -> tuple[str, str]:
     """What a rule means, and what it says."""
-    return f"{before}{canonical_text(spec, rule.formula)}{after}", f"{before}{_one_line(rule.text)}{after}"
+    return f"{before}{canonical_text(spec, rule.formula)}{after}", f"{before}{one_line(rule.text)}{after}"
 
 
 def _outline(spec: Spec) -> object:
@@ -253,7 +254,3 @@ def _settings(old: Spec, new: Spec) -> Iterator[Altered]:
         if one != other:
             shown = (None if each is None else str(each) for each in (one, other))
             yield Altered(kind, "", old.bound_span, new.bound_span, "changed", (Detail("", *shown),))
-
-
-def _one_line(text: str) -> str:
-    return " ".join(text.split())

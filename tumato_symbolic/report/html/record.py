@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any, TypeAlias
 
 from tumato_symbolic.diagnostics import CopySpan, Source, Span
+from tumato_symbolic.diagnostics.wording import one_line
 from tumato_symbolic.diagrams import rebuild
 from tumato_symbolic.explain.elements import Element
 from tumato_symbolic.policy import Policy, as_diagram, count_defined
@@ -110,7 +111,7 @@ class _Predicates:
 
     def rule(self, rule: Rule) -> dict[str, Json]:
         """A rule; `with` are the parameters of a copy."""
-        return {"is": self.formula(rule.formula), "text": _line(rule.text), **place(rule.span)}
+        return {"is": self.formula(rule.formula), "text": one_line(rule.text), **place(rule.span)}
 
     def formula(self, formula: Formula) -> Json:
         """`true`, `[variable, value, …]`, `["x", action]`, `["!", p]`, `["&", …]`, `["|", …]` or `["=", p, q]`."""
@@ -140,11 +141,6 @@ def _one_of(operands: Sequence[Formula]) -> list[int] | None:
     if len(found) < len(operands) or len({each.variable for each in found}) > 1:
         return None
     return [found[0].variable, *(each.value for each in found)]
-
-
-def _line(text: str) -> str:
-    """A text on one line."""
-    return " ".join(text.split())
 
 
 def place(span: Span) -> dict[str, Json]:
@@ -180,7 +176,7 @@ def _goal(record: _Predicates, goal: Goal) -> Json:
     match goal:
         case SimpleGoal(body):
             own = record.spec.as_written(goal)
-            return {"body": body, "text": _line(own.text), **place(own.span)}
+            return {"body": body, "text": one_line(own.text), **place(own.span)}
         case ConditionalGoal(condition, inner):
             return {"when": record.rule(condition), "then": _goal(record, inner)}
         case GoalList(kind, members):

@@ -5,8 +5,6 @@ from __future__ import annotations
 from tumato_symbolic.semantics import (
     NOTHING,
     ActionSet,
-    EffectSequence,
-    EffectStep,
     Objection,
     Run,
     State,
@@ -17,6 +15,7 @@ from tumato_symbolic.semantics import (
     is_start,
     is_valid,
     objections,
+    replay,
 )
 from tumato_symbolic.spec import Assignment, Ordering
 from tumato_symbolic.verify.by_diagrams.closed_loop import ClosedLoop
@@ -87,10 +86,10 @@ class Witnesses:
             )
             steps.append((number, effect))
             here, waiting = apply(effect, here), waiting - {number}
-            fault = fault_after(self._spec, state, chosen, _replayed(state, steps))
+            fault = fault_after(self._spec, state, chosen, replay(state, steps))
         for step in list(steps):
             shorter = [kept for kept in steps if kept is not step]
-            found = fault_after(self._spec, state, chosen, _replayed(state, shorter)) if shorter else None
+            found = fault_after(self._spec, state, chosen, replay(state, shorter)) if shorter else None
             if found is not None:
                 steps, fault = shorter, found
         return fault
@@ -131,12 +130,3 @@ class Witnesses:
         """Whether a set is allowed by the explicit meaning; of many actions, only their first effects are listed."""
         ordering = self._ordering if len(chosen) <= LISTED_ACTIONS else "first"
         return next(objections(self._spec, state, chosen, ordering), None) is None
-
-
-def _replayed(state: State, steps: list[tuple[int, Assignment]]) -> EffectSequence:
-    """The states met when effects happen in this order."""
-    way = []
-    for number, effect in steps:
-        state = apply(effect, state)
-        way.append(EffectStep(number, effect, state))
-    return tuple(way)

@@ -11,14 +11,12 @@ import z3
 
 from tumato_symbolic.semantics import (
     ActionSet,
-    EffectSequence,
-    EffectStep,
     Objection,
     State,
-    apply,
     excluded,
     fault_after,
     objections,
+    replay,
 )
 from tumato_symbolic.spec import Action, Assignment, Ordering, Spec
 from tumato_symbolic.verify.by_z3.encoding import Place, agreement_terms, formula_term, is_true
@@ -238,15 +236,6 @@ def objections_to(
     if answer == "unknown":
         raise UndecidedError("every outcome of a set is safe")
     return [unsafe.objection(solver.model, state, chosen)] if answer == "sat" else []
-
-
-def replay(state: State, steps: Sequence[tuple[int, tuple[tuple[int, int], ...]]]) -> EffectSequence:
-    """The states met when effects happen in this order."""
-    way = []
-    for number, effect in steps:
-        state = apply(effect, state)
-        way.append(EffectStep(number, effect, state))
-    return tuple(way)
 
 
 def written(action: Action) -> frozenset[int]:

@@ -16,6 +16,7 @@ from tumato_symbolic.semantics import (
     is_safe,
     is_valid,
     nominal_agrees,
+    replay,
     settled_truth,
     state_text,
     successor,
@@ -23,7 +24,6 @@ from tumato_symbolic.semantics import (
 )
 from tumato_symbolic.spec import Ordering, Spec, canonical_text
 from tumato_symbolic.verify.by_z3.encoding import Place, formula_term
-from tumato_symbolic.verify.by_z3.outcomes import replay
 from tumato_symbolic.verify.by_z3.solver import Solver, UndecidedError
 from tumato_symbolic.verify.by_z3.terms import Term
 from tumato_symbolic.verify.unrealizability.allowed_step import AllowedStep, is_state
